@@ -10,9 +10,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cpu_time::ThreadTime;
-use spunlaid::flight::{Flight, Job};
+use spunlaid::fibre::flight::{Flight, Job};
+use spunlaid::ground::lanes::{Isa, WIDTH};
 use spunlaid::input::read_case;
-use spunlaid::lanes::{Isa, WIDTH};
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::process::Command;

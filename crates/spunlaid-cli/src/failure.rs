@@ -1,6 +1,6 @@
 //! The failures of the program, their messages and exit codes.
 
-use spunlaid::error::{Error, Fault, FileError};
+use spunlaid::ground::error::{Error, Fault, FileError};
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -90,8 +90,8 @@ impl fmt::Display for Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::error::Problem;
-    use spunlaid::study::{foreign, in_use, unsynced};
+    use spunlaid::experiment::study::{foreign, in_use, unsynced};
+    use spunlaid::ground::error::Problem;
     use std::io;
     use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use spunlaid::threads::{OnDrop, look_while};
+use spunlaid::ground::threads::{OnDrop, look_while};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use terminal_size::terminal_size_of;

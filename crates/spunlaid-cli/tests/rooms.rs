@@ -9,7 +9,7 @@ mod desk;
 
 use desk::{Desk, success};
 use rooms_of::{circles, code_and_texts, faults, sources};
-use spunlaid::case::keys;
+use spunlaid::fibre::case::keys;
 use spunlaid::input::{WEB_KEYS, WEB_TABLES};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -37,9 +37,9 @@ const CHARTS: &[&[&str]] = &[
 #[test]
 fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut wrong = faults(&crates.join("spunlaid-cli/src"), PROGRAM, &["lib", "main"]);
-    wrong.extend(faults(&crates.join("spunlaid-results/src"), RESULTS, &["lib"]));
-    wrong.extend(faults(&crates.join("spunlaid-charts/src"), CHARTS, &["lib"]));
+    let mut wrong = faults(&crates.join("spunlaid-cli/src"), None, PROGRAM, &["lib", "main"]);
+    wrong.extend(faults(&crates.join("spunlaid-results/src"), None, RESULTS, &["lib"]));
+    wrong.extend(faults(&crates.join("spunlaid-charts/src"), None, CHARTS, &["lib"]));
     for name in ["cli", "live", "results", "charts", "python"] {
         wrong.extend(circles(&crates.join(format!("spunlaid-{name}/src"))));
     }

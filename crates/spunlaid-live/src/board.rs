@@ -2,7 +2,7 @@
 //! answers to one of them. The flight never waits for a page.
 
 use super::frame::Frame;
-use spunlaid::threads::lock;
+use spunlaid::ground::threads::lock;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 

@@ -1,11 +1,11 @@
 //! Eight replicates of a case in flight, changed while they fly.
 
-use spunlaid::case::Case;
-use spunlaid::case::keys;
-use spunlaid::error::Error;
-use spunlaid::flight::{Flight, Job, LaidPoint, Snapshot};
-use spunlaid::lanes::{Isa, Lanes, WIDTH};
-use spunlaid::vec3::Vec3;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::case::keys;
+use spunlaid::fibre::flight::{Flight, Job, LaidPoint, Snapshot};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::{Isa, Lanes, WIDTH};
+use spunlaid::ground::vec3::Vec3;
 use std::array::from_fn;
 
 /// Eight fibres in flight.

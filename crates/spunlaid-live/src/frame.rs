@@ -21,8 +21,8 @@
 //!
 //! Samples and laid points are those that the page has not had yet.
 
-use spunlaid::flight::{LaidPoint, Snapshot};
-use spunlaid::lanes::WIDTH;
+use spunlaid::fibre::flight::{LaidPoint, Snapshot};
+use spunlaid::ground::lanes::WIDTH;
 use std::collections::VecDeque;
 
 /// Most samples that a page can lag behind.

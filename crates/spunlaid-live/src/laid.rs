@@ -2,12 +2,12 @@
 
 use super::fibres::Instant;
 use serde::Serialize;
-use spunlaid::case::Case;
-use spunlaid::lanes::WIDTH;
-use spunlaid::laydown::{self, Footprint, Trace, TraceSettings};
-use spunlaid::observe::{DECLARED, Measure};
-use spunlaid::statistics::Estimate;
-use spunlaid::surrogate::identify;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::lanes::WIDTH;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::simulation::observe::{DECLARED, Measure};
+use spunlaid::web::laydown::{self, Footprint, Trace, TraceSettings};
+use spunlaid::web::surrogate::identify;
 use std::array::from_fn;
 
 /// Points of each fibre from one fit of the surrogate to the next, as a share of those that it had.

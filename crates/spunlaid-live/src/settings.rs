@@ -1,9 +1,9 @@
 //! The settings that a page can change, from the table of keys.
 
 use serde::Serialize;
-use spunlaid::case::Case;
-use spunlaid::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::units::Dimension;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
+use spunlaid::ground::units::Dimension;
 
 /// A slider or a choice.
 #[derive(Debug, Serialize, PartialEq)]

@@ -7,14 +7,14 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
-use spunlaid::air::PlaceAxes;
-use spunlaid::case::keys::{self, Key, Value};
-use spunlaid::case::{self, Note};
-use spunlaid::error::FileKind;
+use spunlaid::air::motion::PlaceAxes;
+use spunlaid::fibre::case::keys::{self, Key, Value};
+use spunlaid::fibre::case::{self, Note};
+use spunlaid::ground::error::FileKind;
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::{
     Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
-use spunlaid::vec3::Vec3;
 use spunlaid_results::output::air::{POINT_COLUMNS, point_row};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::error::{Error, Place, Position, Problem};
+use spunlaid::ground::error::{Error, Place, Position, Problem};
 use spunlaid::input::StudyFile;
 use std::any::Any;
 

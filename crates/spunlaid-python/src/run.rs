@@ -11,17 +11,17 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::case::Note;
-use spunlaid::ensemble::{
+use spunlaid::fibre::case::Note;
+use spunlaid::fibre::flight::LaidPoint;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::WIDTH;
+use spunlaid::ground::threads::{lock, unlock};
+use spunlaid::ground::units::udunits;
+use spunlaid::simulation::ensemble::{
     FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results,
     RunControl, Trajectory, Unchecked, fly_for_checks, nothing_kept,
 };
-use spunlaid::error::Error;
-use spunlaid::flight::LaidPoint;
-use spunlaid::lanes::WIDTH;
-use spunlaid::observe::{MEASURES, Measure};
-use spunlaid::threads::{lock, unlock};
-use spunlaid::units::udunits;
+use spunlaid::simulation::observe::{MEASURES, Measure};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
@@ -42,7 +42,7 @@ const KEPT: usize = WIDTH;
 #[derive(Debug)]
 pub(crate) struct RunResults {
     name: String,
-    case: Arc<spunlaid::case::Case>,
+    case: Arc<spunlaid::fibre::case::Case>,
     results: Results,
     checks: FinerChecks,
     #[pyo3(get)]
@@ -209,7 +209,7 @@ impl RunResults {
         let all = PyList::empty(py);
         for curve in &self.results.curves {
             let dict = described(py, curve.measure)?;
-            let column = |quantity: &dyn Fn(&spunlaid::ensemble::Place) -> f64| {
+            let column = |quantity: &dyn Fn(&spunlaid::simulation::ensemble::Place) -> f64| {
                 locked(PyArray1::from_vec(py, curve.places.iter().map(quantity).collect()).as_any())
             };
             dict.set_item("at", column(&|place| place.at)?)?;

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use spunlaid::ensemble::Sample;
+use spunlaid::simulation::ensemble::Sample;
 use spunlaid_results::output::tables::{Column, FIELDS, tables};
 
 /// Collects samples, replicate after replicate.

@@ -5,11 +5,11 @@ use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
-use spunlaid::case::keys::{self, Kind, Value};
-use spunlaid::error::{Error, Fault};
-use spunlaid::layers::web_key;
-use spunlaid::units::Dimension;
-use spunlaid::vec3::Vec3;
+use spunlaid::fibre::case::keys::{self, Kind, Value};
+use spunlaid::ground::error::{Error, Fault};
+use spunlaid::ground::units::Dimension;
+use spunlaid::ground::vec3::Vec3;
+use spunlaid::simulation::layers::web_key;
 use spunlaid_results::figures::Scale;
 use std::path::PathBuf;
 
@@ -195,7 +195,7 @@ pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "that".to_owned(), |name| name.to_string())
 }
 
-/// A value for [`spunlaid::case::keys::Key::set`] and for changes in flight.
+/// A value for [`spunlaid::fibre::case::keys::Key::set`] and for changes in flight.
 pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if value.is_instance_of::<PyBool>() {
         return Err(PyTypeError::new_err(

@@ -3,9 +3,9 @@
 //! `cargo run --release -p spunlaid --example endless -- 1000`
 #![allow(clippy::expect_used, clippy::print_stdout)]
 
-use spunlaid::flight::{Flight, Job};
+use spunlaid::fibre::flight::{Flight, Job};
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::read_case;
-use spunlaid::lanes::Isa;
 use std::path::Path;
 
 fn main() {

@@ -10,10 +10,10 @@
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
-use spunlaid::error::Error;
-use spunlaid::flight::{Flight, Job};
+use spunlaid::fibre::flight::{Flight, Job};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::read_case;
-use spunlaid::lanes::Isa;
 
 /// Fibre-seconds to fly.
 const WANTED: f64 = 1000.0;

@@ -1,18 +1,25 @@
 //! Simulator of fibres in turbulent air, for the spunbonding of nonwovens.
 //!
-//! The data goes through these stages:
+//! The library has seven wings. Each imports only from those above it:
 //!
-//! case file → [`case::Case`] (validated, SI) → fibres packed in [`lanes`] → step by step → observers →
-//! statistics → files
+//! | wing | what it is for |
+//! |---|---|
+//! | [`ground`] | numbers in lanes, units, errors, tables, statistics: nothing of fibres |
+//! | [`air`] | fields of CFD, records of a hot wire, turbulence: the velocity at a place and time |
+//! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
+//! | [`web`] | curves on the belt, the map of a web, the fabric, scans |
+//! | [`simulation`] | ensembles, filaments in one air, and what is measured |
+//! | [`experiment`] | studies, advice, the fit of settings to a scan |
+//! | [`input`] | files of cases, webs and studies |
 //!
 //! This crate does everything from the case file to the statistics; the program `spunlaid` writes the files. In
 //! short, the program does this:
 //!
 //! ```
-//! use spunlaid::ensemble::{RunControl, Keep, Results, fly};
-//! use spunlaid::error::Error;
+//! use spunlaid::simulation::ensemble::{RunControl, Keep, Results, fly};
+//! use spunlaid::ground::error::Error;
 //! use spunlaid::input::{parse_case, starter_case};
-//! use spunlaid::lanes::Isa;
+//! use spunlaid::ground::lanes::Isa;
 //! use std::sync::atomic::{AtomicBool, AtomicU64};
 //!
 //! # fn main() -> Result<(), Error> {
@@ -37,7 +44,7 @@
 //! # }
 //! ```
 //!
-//! [`input::read_case`] reads a file. A [`case::Case`] can also be built in code; [`case::Case::check`] then says
+//! [`input::read_case`] reads a file. A [`Case`](fibre::case::Case) can also be built in code; [`Case::check`](fibre::case::Case::check) then says
 //! whether it can be run. Every quantity is in SI units, and its documentation gives the unit.
 //!
 //! Equations are cited as `theory.md (n)`. They are in `docs/theory.md` of the repository; `docs/validation.md`
@@ -49,81 +56,17 @@
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// Each module imports only from the modules above it. tests/rooms.rs checks this.
-// Vector instructions are unsafe to call; nothing else in the workspace is.
-#[allow(unsafe_code)]
-pub mod lanes;
-pub mod line;
-pub mod nodes;
-pub mod vec3;
+// Each wing imports only from the wings above it, and so do the rooms of a wing. tests/rooms.rs checks this.
+pub mod ground;
 
-mod fft;
-mod random;
-mod sort;
-pub mod units;
-
-pub mod error;
-pub mod removed;
-
-pub mod threads;
-
-mod company;
-pub mod log;
-
-mod file;
-pub mod table;
+pub mod air;
 
 pub mod fibre;
 
-pub mod field;
-
-pub mod air;
-pub mod drag;
-
-pub mod spinline;
-
-pub mod charge;
-
-pub mod chain;
-
-pub mod energy;
-
-pub mod statistics;
-
-pub mod claim;
-pub mod effects;
-
-pub mod laydown;
-pub mod surrogate;
 pub mod web;
 
-pub mod curtain;
+pub mod simulation;
 
-pub mod fabric;
-
-pub mod record;
-pub mod scan;
-
-pub mod case;
-
-pub mod load;
-
-pub mod flight;
-
-pub mod observe;
-
-pub mod ensemble;
-
-pub mod beam;
-
-pub mod layers;
-
-pub mod plausible;
-
-pub mod study;
-
-pub mod advice;
-pub mod fit;
+pub mod experiment;
 
 pub mod input;
-pub mod paper;

@@ -4,7 +4,7 @@ use super::output::Figures;
 use super::output::{Output, Threads};
 use super::source::key_and_value;
 use clap::{Args, ValueHint};
-use spunlaid::fit::{FEWEST_WEBS, USUAL_WEBS};
+use spunlaid::experiment::fit::{FEWEST_WEBS, USUAL_WEBS};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

@@ -28,12 +28,12 @@ use help::{
 };
 use output::FigureWidth;
 use source::key_and_value;
-use spunlaid::air::PlaceAxes;
-use spunlaid::case::Checks;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::error::Fault;
-use spunlaid::removed::Removed;
-use spunlaid::units::Dimension;
+use spunlaid::air::motion::PlaceAxes;
+use spunlaid::fibre::case::Checks;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::removed::Removed;
+use spunlaid::ground::units::Dimension;
 use std::ffi::OsString;
 use std::path::PathBuf;
 

@@ -2,8 +2,8 @@
 
 use super::quantity;
 use clap::{Args, ValueHint};
-use spunlaid::spinline::Polymer;
-use spunlaid::units::{Dimension, with_decimal_point};
+use spunlaid::fibre::spinline::Polymer;
+use spunlaid::ground::units::{Dimension, with_decimal_point};
 use std::path::PathBuf;
 
 /// Most beams of a line, and most holes of a beam.

@@ -6,8 +6,8 @@ use crate::say;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, CommandFactory};
 use clap_complete::Shell;
-use spunlaid::case::keys;
-use spunlaid::error::Error;
+use spunlaid::fibre::case::keys;
+use spunlaid::ground::error::Error;
 use spunlaid::input::WEB_KEYS;
 use std::fs;
 

@@ -3,13 +3,13 @@
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::case::keys::{self, CASE, Key, KeyTable, Kind};
-use spunlaid::error::Fault;
-use spunlaid::fabric::about;
-use spunlaid::layers::{WEB, WEB_KEYS, WebKey};
-use spunlaid::removed::Removed;
-use spunlaid::study::STUDY;
-use spunlaid::units::{Dimension, UnitAdvice};
+use spunlaid::experiment::study::STUDY;
+use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind};
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::removed::Removed;
+use spunlaid::ground::units::{Dimension, UnitAdvice};
+use spunlaid::simulation::layers::{WEB, WEB_KEYS, WebKey};
+use spunlaid::web::fabric::about;
 use std::fmt::Write;
 
 /// Largest number of suggestions if no key is found.

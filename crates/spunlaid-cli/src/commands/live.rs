@@ -7,9 +7,9 @@ use crate::failure::Failure;
 #[cfg(feature = "live")]
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
     use crate::say;
-    use spunlaid::error::FileKind;
+    use spunlaid::ground::error::FileKind;
+    use spunlaid::input::paper;
     use spunlaid::input::{read_case, read_text};
-    use spunlaid::paper;
 
     let text = match &live.case {
         Some(path) => {
@@ -37,6 +37,9 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
 #[cfg(not(feature = "live"))]
 pub(crate) fn live(_: &Live) -> Result<(), Failure> {
     let message = "this program was built without the page on which fibres fly";
-    Err(spunlaid::error::Fault::new(message, "build it with the feature `live`, which is there by default")
-        .into())
+    Err(spunlaid::ground::error::Fault::new(
+        message,
+        "build it with the feature `live`, which is there by default",
+    )
+    .into())
 }

@@ -19,11 +19,11 @@ pub(crate) mod web;
 
 use crate::args::{Threads, is_standard};
 use crate::say;
-use spunlaid::ensemble::RunControl;
-use spunlaid::error::FileKind;
+use spunlaid::ground::error::FileKind;
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::kind_of;
-use spunlaid::lanes::Isa;
-use spunlaid::web::LayControl;
+use spunlaid::simulation::ensemble::RunControl;
+use spunlaid::web::map::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

@@ -5,19 +5,21 @@ use super::{plural, run_control};
 use crate::args::{Invocation, Reproduce};
 use crate::failure::Failure;
 use crate::progress;
-use spunlaid::case::Case;
-use spunlaid::claim::Claim;
-use spunlaid::ensemble::{
-    Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
-    velocity_record,
+use spunlaid::experiment::claim::Claim;
+use spunlaid::experiment::study::{
+    Journal, PointResults, Progress, Replicates, Study, results_of_point, run,
 };
-use spunlaid::error::Fault;
-use spunlaid::paper::{
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::threads::unlock;
+use spunlaid::input::paper::{
     Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, table1, time_steps,
 };
-use spunlaid::study::{Journal, PointResults, Progress, Replicates, Study, results_of_point, run};
-use spunlaid::threads::unlock;
+use spunlaid::simulation::ensemble::{
+    Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
+    velocity_record,
+};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::folders::products::PaperFolder;

@@ -6,9 +6,9 @@ use super::{name_of, plural, run_control};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::case::{Case, Note};
-use spunlaid::ensemble::{FinerChecks, FinerPlans, RunControl, RunPaths};
-use spunlaid::error::FileKind;
+use spunlaid::fibre::case::{Case, Note};
+use spunlaid::ground::error::FileKind;
+use spunlaid::simulation::ensemble::{FinerChecks, FinerPlans, RunControl, RunPaths};
 use spunlaid_results::folders::read_summary_of_run;
 use spunlaid_results::folders::run as files;
 

@@ -1,9 +1,9 @@
 //! `spunlaid air`: the turbulent air of a case, looked at.
 
 use crate::desk::{Desk, entries, names, refusal, success};
-use spunlaid::air::AirAtPlaces;
+use spunlaid::air::motion::AirAtPlaces;
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::read_case;
-use spunlaid::vec3::Vec3;
 
 /// Small and quick to make.
 const SMALL: [&str; 3] = ["air.lateral=von-karman", "air.lateral_cutoff=5", "run.duration=20 ms"];

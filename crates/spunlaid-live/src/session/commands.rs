@@ -6,8 +6,8 @@ use crate::document::{Document, complaints};
 use crate::measured::Statistics;
 use crate::message::{Answer, Command, KeyValue};
 use crate::save;
-use spunlaid::case::keys::{self, Key, Kind};
-use spunlaid::units::Dimension;
+use spunlaid::fibre::case::keys::{self, Key, Kind};
+use spunlaid::ground::units::Dimension;
 use std::time::Instant;
 
 /// Digits of a number of a slider, in the unit in which it is shown.

@@ -5,11 +5,11 @@ use crate::board::Topic;
 use crate::frame::Frame;
 use crate::settings::{present, settings};
 use serde_json::{Value as Json, json};
-use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::fibre::Root;
-use spunlaid::lanes::WIDTH;
-use spunlaid::units::Dimension;
+use spunlaid::fibre::body::Root;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::ground::lanes::WIDTH;
+use spunlaid::ground::units::Dimension;
 use spunlaid_results::output::spinline::filament;
 use std::time::Instant;
 

@@ -3,10 +3,10 @@
 
 use super::Session;
 use crate::document::{Document, complaints};
-use spunlaid::ensemble::RunControl;
-use spunlaid::error::Error;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::{CaseWithNotes, Resources};
-use spunlaid::lanes::Isa;
+use spunlaid::simulation::ensemble::RunControl;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc;

@@ -1,7 +1,7 @@
 //! The measured curves of several runs in one picture each.
 
 use super::run::measured::axes;
-use spunlaid::observe::{DECLARED, Kind, Measure};
+use spunlaid::simulation::observe::{DECLARED, Kind, Measure};
 use spunlaid_charts::{
     Chart, Figure, Series,
     palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},

@@ -1,6 +1,6 @@
 //! The pictures of the drag laws in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
 
-use spunlaid::drag::{FrictionLaw, NormalLaw};
+use spunlaid::fibre::drag::{FrictionLaw, NormalLaw};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION},

@@ -2,7 +2,7 @@
 //! with its 95 % confidence interval. Keys of a study, settings and guesses of a web, and the numbers of a
 //! spinline are drawn by it.
 
-use spunlaid::statistics::Difference;
+use spunlaid::ground::statistics::Difference;
 use spunlaid_charts::{
     Axis, Drawing, Figure, Marker, Scale, Table,
     label::{lines, width as width_of},

@@ -1,10 +1,10 @@
 //! A CFD field around the way of a fibre: how line and field lie to each other.
 
-use spunlaid::air::PlacedField;
-use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
-use spunlaid::field::Hint;
-use spunlaid::vec3::Vec3;
+use spunlaid::air::field::Hint;
+use spunlaid::air::motion::PlacedField;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::vec3::Vec3;
+use spunlaid::simulation::ensemble::Results;
 use spunlaid_charts::{
     Axis, Chart, Figure, Map, Series, Shades,
     palette::{INK, ORANGE, VERMILION},

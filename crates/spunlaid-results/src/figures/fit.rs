@@ -2,9 +2,9 @@
 //! the values are.
 
 use crate::numbers::significant;
-use spunlaid::fit::{Fit, FittedKey, FittedNumber, Texture};
-use spunlaid::statistics::NORMAL_95;
-use spunlaid::units::Dimension;
+use spunlaid::experiment::fit::{Fit, FittedKey, FittedNumber, Texture};
+use spunlaid::ground::statistics::NORMAL_95;
+use spunlaid::ground::units::Dimension;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREY, INK, VERMILION},

@@ -29,7 +29,7 @@ pub use record::record_figures;
 pub use run::{run_figures, swing_frequency};
 pub use scales::Scale;
 pub use spinline::{SPINLINE, spinline_figures};
-pub use spunlaid::web::uniformity::Unevenness;
+pub use spunlaid::web::map::uniformity::Unevenness;
 pub use study::{name_of_key, study_figures};
 pub use web::{
     ComparedPatch, ComparedSpectrum, SEEN, effects_figure, overlaid_spectra, overlaid_webs, scan_figures,

@@ -1,8 +1,8 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
-use spunlaid::ensemble::{Place, SpectrumPoint};
-use spunlaid::paper::{LateralEstimates, Parameter, TrendPoint};
-use spunlaid::vec3::Vec3;
+use spunlaid::ground::vec3::Vec3;
+use spunlaid::input::paper::{LateralEstimates, Parameter, TrendPoint};
+use spunlaid::simulation::ensemble::{Place, SpectrumPoint};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREEN, VERMILION},

@@ -1,6 +1,6 @@
 //! A synthetic record for tests.
 
-use spunlaid::record::{Analysis, Record, Samples, Settings, analyse};
+use spunlaid::air::record::{Analysis, Record, Samples, Settings, analyse};
 
 /// 10 m/s along the flow, rms 1 m/s, ten samples to an integral time of 10 ms.
 pub fn autoregression(components: usize, samples: usize) -> (Record, Analysis) {

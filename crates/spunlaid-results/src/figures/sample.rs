@@ -1,15 +1,15 @@
 //! Made-up results for the tests.
 
-use spunlaid::air::Air;
-use spunlaid::case::{Case, Run};
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
-use spunlaid::fibre::{Fibre, Root};
-use spunlaid::flight::LaidPoint;
-use spunlaid::line::{Contact, Line};
-use spunlaid::observe::{DECLARED, Kind, Measure, Value};
-use spunlaid::vec3::Vec3;
+use spunlaid::air::motion::Air;
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::case::{Case, Run};
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
+use spunlaid::fibre::flight::LaidPoint;
+use spunlaid::fibre::line::{Contact, Line};
+use spunlaid::ground::vec3::Vec3;
+use spunlaid::simulation::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
+use spunlaid::simulation::observe::{DECLARED, Kind, Measure, Value};
 
 /// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
 pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
@@ -40,7 +40,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: spunlaid::case::Checks::default(),
+            checks: spunlaid::fibre::case::Checks::default(),
         },
     }
 }

@@ -1,11 +1,11 @@
 //! Spinlines for tests, as a user would write them.
 
-use spunlaid::drag::FrictionLaw;
-use spunlaid::effects::{Change, ChangedKey, Effect, Setting, Tried};
+use spunlaid::fibre::drag::FrictionLaw;
+use spunlaid::fibre::spinline::{AirTable, Curtain, Melt, Polymer, Solution, Spinline, Surroundings};
+use spunlaid::ground::effects::{Change, ChangedKey, Effect, Setting, Tried};
+use spunlaid::ground::statistics::Difference;
+use spunlaid::ground::units::Dimension;
 use spunlaid::input::{Influence, OfFilament};
-use spunlaid::spinline::{AirTable, Curtain, Melt, Polymer, Solution, Spinline, Surroundings};
-use spunlaid::statistics::Difference;
-use spunlaid::units::Dimension;
 
 /// Friction between thread and air.
 pub const FRICTION: FrictionLaw = FrictionLaw::Matsui { factor: 0.37 };

@@ -1,8 +1,8 @@
 //! Every figure of every run can be drawn.
 
 use super::{run_figures, sample};
-use spunlaid::ensemble::SpectrumPoint;
-use spunlaid::observe::Kind;
+use spunlaid::simulation::ensemble::SpectrumPoint;
+use spunlaid::simulation::observe::Kind;
 use spunlaid_charts::{Figure, pdf, png, svg};
 
 fn check(figures: &[Figure]) {

@@ -3,9 +3,9 @@
 use crate::Failure;
 use crate::output::web::MapFile;
 use serde_json::Value as Json;
-use spunlaid::error::{Error, Fault};
-use spunlaid::fit::{MeasuredPatch, MeasuredWeb};
-use spunlaid::scan::Doubt;
+use spunlaid::experiment::fit::{MeasuredPatch, MeasuredWeb};
+use spunlaid::ground::error::{Error, Fault};
+use spunlaid::web::scan::Doubt;
 use std::fs;
 use std::path::Path;
 

@@ -10,10 +10,10 @@ use crate::output::kept_input::Input;
 use crate::output::origin::Origin;
 use crate::output::table::TABLES;
 use crate::report::fit_report;
-use spunlaid::error::Fault;
-use spunlaid::fit::{Fit, MOST_TRIALS, Target, identity};
+use spunlaid::experiment::fit::{Fit, MOST_TRIALS, Target, identity};
+use spunlaid::experiment::study::{Header, Journal, JournalState};
+use spunlaid::ground::error::Fault;
 use spunlaid::input::{FitFile, WebSpec};
-use spunlaid::study::{Header, Journal, JournalState};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

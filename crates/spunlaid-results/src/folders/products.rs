@@ -20,13 +20,13 @@ use crate::report::{
     air_report, analysis_report, paper_report, scan_report, sources_report, spinline_report,
 };
 use serde_json::json;
-use spunlaid::case::Case;
-use spunlaid::claim::Claim;
-use spunlaid::ensemble::Sources;
-use spunlaid::fabric::Fabric;
+use spunlaid::air::record::{Analysis, Record};
+use spunlaid::experiment::claim::Claim;
+use spunlaid::fibre::case::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::record::{Analysis, Record};
-use spunlaid::scan::Findings;
+use spunlaid::simulation::ensemble::Sources;
+use spunlaid::web::fabric::Fabric;
+use spunlaid::web::scan::Findings;
 use spunlaid_charts::Figure;
 
 /// Everything of a look at the air that goes into the files.

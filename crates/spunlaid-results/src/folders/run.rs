@@ -11,12 +11,12 @@ use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, summary};
 use crate::output::{doubt, paraview};
 use crate::report::run_report;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::{
     FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunControl, RunPaths,
     fly_for_checks, turbulence_spectrum,
 };
-use spunlaid::lanes::{Isa, WIDTH};
 use spunlaid_charts::Figure;
 
 use std::sync::OnceLock;

@@ -12,11 +12,13 @@ use crate::output::study::write_json;
 use crate::output::table::TABLES;
 use crate::output::{self};
 use crate::report::study_report;
-use spunlaid::case::MOST_REPLICATES;
-use spunlaid::claim::Claim;
-use spunlaid::error::Fault;
+use spunlaid::experiment::claim::Claim;
+use spunlaid::experiment::study::{
+    Experiment, Header, Journal, JournalState, PointResults, Rankings, judge, rankings,
+};
+use spunlaid::fibre::case::MOST_REPLICATES;
+use spunlaid::ground::error::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use spunlaid::study::{Experiment, Header, Journal, JournalState, PointResults, Rankings, judge, rankings};
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;

@@ -6,9 +6,9 @@
 //!
 //! Nothing here ends a command: what cannot be kept or read is flown again.
 
-use spunlaid::advice::Shelf;
-use spunlaid::effects::{Effect, Outcome};
-use spunlaid::statistics::Difference;
+use spunlaid::experiment::advice::Shelf;
+use spunlaid::ground::effects::{Effect, Outcome};
+use spunlaid::ground::statistics::Difference;
 use std::collections::HashMap;
 use std::fs::{self, OpenOptions};
 use std::io::Write;

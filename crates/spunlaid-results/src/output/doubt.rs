@@ -2,10 +2,10 @@
 //! the headline states.
 
 use crate::numbers::plus_minus;
-use spunlaid::case::{Case, Checks};
-use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
-use spunlaid::statistics::Estimate;
-use spunlaid::units::Dimension;
+use spunlaid::fibre::case::{Case, Checks};
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
 
 /// Error of step or mesh that is small enough [-].
 pub(super) const FINE_ENOUGH: f64 = 0.03;
@@ -216,8 +216,8 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
 mod tests {
     use super::*;
     use crate::figures::sample;
-    use spunlaid::chain::schemes::Scheme;
-    use spunlaid::ensemble::Statistic;
+    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::simulation::ensemble::Statistic;
 
     fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {
         let statistic = Statistic::all().find(|statistic| statistic.name == "spread").unwrap();

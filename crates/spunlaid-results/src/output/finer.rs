@@ -2,11 +2,11 @@
 
 use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, unchecked};
 use crate::numbers::significant;
-use spunlaid::air::EddyModel;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
-use spunlaid::statistics::Estimate;
-use spunlaid::units::Dimension;
+use spunlaid::air::motion::EddyModel;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
 
 /// A check: what is compared, and what it says, in sentences.
 pub type CheckWords = (String, Vec<String>);
@@ -172,8 +172,8 @@ fn mesh_advice(check: &FinerCheck) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::chain::schemes::Scheme;
-    use spunlaid::ensemble::Statistic;
+    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::simulation::ensemble::Statistic;
 
     fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
         let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };

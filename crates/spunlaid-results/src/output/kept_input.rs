@@ -3,9 +3,9 @@
 
 use super::folder::{CASE_FILES, Staging};
 use crate::Failure;
-use spunlaid::case::Case;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::spinline::SpinSpec;
 use spunlaid::input::{WebSpec, write_case, write_spinline, write_web};
-use spunlaid::spinline::SpinSpec;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -3,9 +3,9 @@
 use super::measured::values;
 use super::spinline::SpinResults;
 use serde_json::Value as Json;
-use spunlaid::case::Case;
-use spunlaid::load::{Load, WayPlace};
-use spunlaid::observe::{OF_LOAD_PLACES, OF_LOADS};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::load::{Load, WayPlace};
+use spunlaid::simulation::observe::{OF_LOAD_PLACES, OF_LOADS};
 
 /// The load of the filaments of a case; None for a fibre of fixed length.
 ///

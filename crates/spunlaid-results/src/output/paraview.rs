@@ -3,10 +3,10 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{Shape, Trajectory};
-use spunlaid::vec3::Vec3;
-use spunlaid::web::Strand;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::vec3::Vec3;
+use spunlaid::simulation::ensemble::{Shape, Trajectory};
+use spunlaid::web::map::Strand;
 use std::fmt::Write;
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.

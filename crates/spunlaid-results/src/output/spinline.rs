@@ -7,12 +7,12 @@ use crate::output::measured::values;
 use crate::output::table::{Column, Value, number, whole};
 use crate::output::versioned_json;
 use serde_json::{Value as Json, json};
-use spunlaid::case::Case;
-use spunlaid::error::Error;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::spinline::{FreezingCause, Solution, Station, ZERO_CELSIUS};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::units::Dimension;
 use spunlaid::input::{Influence, OfFilament, SpinFile};
-use spunlaid::observe::OF_SPINLINES;
-use spunlaid::spinline::{FreezingCause, Solution, Station, ZERO_CELSIUS};
-use spunlaid::units::Dimension;
+use spunlaid::simulation::observe::OF_SPINLINES;
 use spunlaid_charts::label::plain;
 
 /// A solved spinline, and what decides its diameter.

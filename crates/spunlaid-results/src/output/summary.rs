@@ -4,12 +4,12 @@ use super::measured::{joined, known};
 use super::{doubt, load, spinline, versioned_json};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
-use spunlaid::case::Case;
-use spunlaid::case::keys::{self, Content, Value};
-use spunlaid::ensemble::{FinerCheck, FinerChecks, LostFibre, Number, Results};
-use spunlaid::observe::Aggregate;
-use spunlaid::statistics::Estimate;
-use spunlaid::units::Dimension;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::case::keys::{self, Content, Value};
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::ensemble::{FinerCheck, FinerChecks, LostFibre, Number, Results};
+use spunlaid::simulation::observe::Aggregate;
 use std::path::Path;
 
 /// The speed of the run. This is the only part that differs when a run is repeated.

@@ -8,10 +8,10 @@ use super::view::View;
 use crate::Failure;
 use crate::numbers::{THIN, significant};
 use crate::output::web::{HOUR, Layer, fabric_rows};
-use spunlaid::fabric::Fabric;
-use spunlaid::layers::{LayerSpec, WebSpec};
-use spunlaid::plausible::implausible;
-use spunlaid::web::{Findings, Map};
+use spunlaid::experiment::plausible::implausible;
+use spunlaid::simulation::layers::{LayerSpec, WebSpec};
+use spunlaid::web::fabric::Fabric;
+use spunlaid::web::map::{Findings, Map};
 use std::f64::consts::PI;
 
 /// What is asked, the answers, and what is to be said of them.

@@ -9,11 +9,11 @@ use crate::command::web_command;
 use crate::effects::{PER_CENT, describe, difference_text, label};
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::output::web::HOUR;
-use spunlaid::advice::{Advice, ChangedWeb, Tried};
-use spunlaid::effects::{Effect, NAMED, Setting};
-use spunlaid::layers::WebSpec;
-use spunlaid::statistics::Difference;
-use spunlaid::web::Findings;
+use spunlaid::experiment::advice::{Advice, ChangedWeb, Tried};
+use spunlaid::ground::effects::{Effect, NAMED, Setting};
+use spunlaid::ground::statistics::Difference;
+use spunlaid::simulation::layers::WebSpec;
+use spunlaid::web::map::Findings;
 
 /// What was tried with a web.
 #[derive(Clone, Copy, Debug)]

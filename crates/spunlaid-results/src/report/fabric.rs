@@ -4,10 +4,10 @@ use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use super::words::millimetres;
 use crate::output::web::known_text;
-use spunlaid::fabric::Fabric;
-use spunlaid::observe::{
+use spunlaid::simulation::observe::{
     Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
 };
+use spunlaid::web::fabric::Fabric;
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {

@@ -8,8 +8,8 @@ use crate::output::web::light_table;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::fabric::{Fabric, Marked, Marks, Streak, StripPlace};
-use spunlaid::web::{Map, Strand, Window};
+use spunlaid::web::fabric::{Fabric, Marked, Marks, Streak, StripPlace};
+use spunlaid::web::map::{Map, Strand, Window};
 
 const MM: f64 = 1e3;
 /// Most pixels of the picture of the web: a page of some megabytes.

@@ -4,8 +4,8 @@ use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::load::{Load, LoadPlace};
-use spunlaid::observe::{Measured, OF_LOAD_PLACES, OF_LOADS, measured};
+use spunlaid::fibre::load::{Load, LoadPlace};
+use spunlaid::simulation::observe::{Measured, OF_LOAD_PLACES, OF_LOADS, measured};
 
 const TITLE: &str = "What the filaments do to their air";
 

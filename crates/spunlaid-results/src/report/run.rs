@@ -15,9 +15,9 @@ use crate::output::finer::{self, CheckWords};
 use crate::output::load::load_of_spinline;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{FinerChecks, Number, Results};
-use spunlaid::observe::{DECLARED, Kind};
+use spunlaid::fibre::case::Case;
+use spunlaid::simulation::ensemble::{FinerChecks, Number, Results};
+use spunlaid::simulation::observe::{DECLARED, Kind};
 use spunlaid_charts::Figure;
 
 /// A run. The page has less than 6 MB.

@@ -3,9 +3,9 @@
 use super::table::{Content, Layout, Row, Table};
 use super::words::{estimate_text, unbroken};
 use crate::numbers::{number, signed};
-use spunlaid::ensemble::{Number, Results};
-use spunlaid::observe::Aggregate;
-use spunlaid::statistics::Estimate;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::simulation::ensemble::{Number, Results};
+use spunlaid::simulation::observe::Aggregate;
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;

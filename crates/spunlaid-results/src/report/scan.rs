@@ -15,11 +15,11 @@ use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
-use spunlaid::fabric::Fabric;
-use spunlaid::observe::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
-use spunlaid::scan::{Doubt, Findings, PatchFindings};
-use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Map, nearest_to_seen};
+use spunlaid::simulation::observe::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
+use spunlaid::web::fabric::Fabric;
+use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::{Map, nearest_to_seen};
+use spunlaid::web::scan::{Doubt, Findings, PatchFindings};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 

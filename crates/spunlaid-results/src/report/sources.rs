@@ -6,10 +6,10 @@ use super::table::Table;
 use super::words::{estimate_text, quantity};
 use crate::numbers::{THIN, number, plus_minus};
 use crate::output::sources::has_order_of_openfoam;
-use spunlaid::case::Case;
-use spunlaid::ensemble::Sources;
-use spunlaid::spinline::ZERO_CELSIUS;
-use spunlaid::statistics::Estimate;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::spinline::ZERO_CELSIUS;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::simulation::ensemble::Sources;
 
 /// What filaments do to the cells of their field.
 ///

@@ -9,10 +9,10 @@ use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
-use spunlaid::claim::Claim;
-use spunlaid::effects::Effect;
-use spunlaid::statistics::Difference;
-use spunlaid::study::{Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
+use spunlaid::experiment::claim::Claim;
+use spunlaid::experiment::study::{Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
+use spunlaid::ground::effects::Effect;
+use spunlaid::ground::statistics::Difference;
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.

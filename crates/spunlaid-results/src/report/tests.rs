@@ -6,10 +6,10 @@ use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use spunlaid::case::Case;
-use spunlaid::drag::FrictionLaw;
-use spunlaid::ensemble::{FinerChecks, Results, Unchecked};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::drag::FrictionLaw;
 use spunlaid::input::parse_spinline;
+use spunlaid::simulation::ensemble::{FinerChecks, Results, Unchecked};
 
 /// What a run cost.
 const PERFORMANCE: Performance = Performance {

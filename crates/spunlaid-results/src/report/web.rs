@@ -19,13 +19,13 @@ use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
 use crate::output::web::{Layer, PatchTable, Performance};
-use spunlaid::charge::BREAKDOWN;
-use spunlaid::fabric::Fabric;
-use spunlaid::layers::WebSpec;
-use spunlaid::load::Load;
-use spunlaid::units::Dimension;
-use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{ChargedCurtain, Findings, PatchFindings, Strand, Web};
+use spunlaid::fibre::charge::BREAKDOWN;
+use spunlaid::fibre::load::Load;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::layers::WebSpec;
+use spunlaid::web::fabric::Fabric;
+use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::{ChargedCurtain, Findings, PatchFindings, Strand, Web};
 use spunlaid_charts::Figure;
 
 /// A web.

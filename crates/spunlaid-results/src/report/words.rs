@@ -2,12 +2,12 @@
 
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
 use crate::output::doubt;
-use spunlaid::air::EddyModel;
-use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{FinerChecks, Results};
-use spunlaid::fibre::Root;
-use spunlaid::statistics::Estimate;
+use spunlaid::air::motion::EddyModel;
+use spunlaid::fibre::body::Root;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::simulation::ensemble::{FinerChecks, Results};
 
 /// A result with its standard error, `factor` converts the unit.
 pub(super) fn estimate_text(estimate: &Estimate, factor: f64) -> String {

@@ -2,10 +2,10 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::case::Case;
-use spunlaid::flight::{Flight, Job};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::flight::{Flight, Job};
+use spunlaid::ground::lanes::{Isa, WIDTH};
 use spunlaid::input::read_case;
-use spunlaid::lanes::{Isa, WIDTH};
 use std::path::Path;
 
 /// Time after which the fibre has come down [s], and time that is flown for a figure [s].

@@ -2,16 +2,16 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::Case;
-use spunlaid::chain::Strand;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::FrictionLaw;
-use spunlaid::ensemble::{Keep, Number, Results, RunControl, fly};
-use spunlaid::error::Error;
-use spunlaid::flight::{Flight, Snapshot};
-use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::Estimate;
+use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::drag::FrictionLaw;
+use spunlaid::fibre::flight::{Flight, Snapshot};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::simulation::ensemble::{Keep, Number, Results, RunControl, fly};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 

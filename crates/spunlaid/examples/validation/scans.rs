@@ -2,9 +2,9 @@
 
 use super::pictures::{PIXEL, beside, exposed, file, light, piece, spoiled, spotted, web};
 use super::title;
-use spunlaid::scan::{Findings, Light, Picture, Settings, analyse, parse};
-use spunlaid::web::Map;
-use spunlaid::web::uniformity::unevenness;
+use spunlaid::web::map::Map;
+use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::scan::{Findings, Light, Picture, Settings, analyse, parse};
 
 /// Columns and rows of a piece.
 const SIZE: [usize; 2] = [400, 500];
@@ -50,7 +50,7 @@ pub(crate) fn intervals() {
             let mean = all.iter().map(|found| found.patches[i].unevenness.cv.powi(2)).sum::<f64>()
                 / all.len() as f64;
             let ends = [0, 1].map(|end| {
-                spunlaid::statistics::median(&of().map(|ends| 100.0 * ends[end]).collect::<Vec<_>>())
+                spunlaid::ground::statistics::median(&of().map(|ends| 100.0 * ends[end]).collect::<Vec<_>>())
             });
             println!(
                 "  {} {:>2} mm: true {:.2} %, found {:.2} %, usual interval {:.2} to {:.2} %, {} of {} hold \

@@ -2,9 +2,9 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::{Air, Stream, StreamKey, Wind};
-use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::{Welch, Window};
+use spunlaid::air::motion::{Air, Stream, StreamKey, Wind};
+use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::ground::statistics::{Welch, Window};
 use std::f64::consts::PI;
 
 const EDDIES: usize = 6;

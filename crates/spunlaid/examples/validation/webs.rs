@@ -1,11 +1,13 @@
 //! Errors of small webs of each kind, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::lanes::Isa;
-use spunlaid::statistics::{difference_of_deviations, interval_of_deviation};
-use spunlaid::surrogate::Surrogate;
-use spunlaid::web::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::{Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, find, lay};
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::statistics::{difference_of_deviations, interval_of_deviation};
+use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
+use spunlaid::web::map::{
+    Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, find, lay,
+};
+use spunlaid::web::surrogate::Surrogate;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -2,11 +2,11 @@
 
 use super::FORMAT_VERSION;
 use super::source::{Source, fit};
-use crate::case::keys::{FileKind, Kind, Value};
-use crate::error::{Fault, Finding, Place, Problem};
-use crate::sort::sort_by_key;
-use crate::units::{Dimension, UnitAdvice};
-use crate::vec3::Vec3;
+use crate::fibre::case::keys::{FileKind, Kind, Value};
+use crate::ground::error::{Fault, Finding, Place, Problem};
+use crate::ground::sort::sort_by_key;
+use crate::ground::units::{Dimension, UnitAdvice};
+use crate::ground::vec3::Vec3;
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};

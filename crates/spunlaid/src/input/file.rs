@@ -1,8 +1,8 @@
 //! Reads the text of a file, which may turn out to be no text at all.
 
 use super::LARGEST_FILE;
-use crate::error::{Error, Fault, FileError, FileKind, Position};
-use crate::file;
+use crate::ground::error::{Error, Fault, FileError, FileKind, Position};
+use crate::ground::file;
 use std::path::Path;
 
 /// Reads a UTF-8 file no larger than [`LARGEST_FILE`].

@@ -1,13 +1,13 @@
 //! What decides the diameter of a filament: every number of a spinline is changed a little.
 
 use super::spinline::SpinFile;
-use crate::case::Case;
-use crate::case::keys::{self, Key, Kind, Sign, Value};
-use crate::effects::{Change, ChangedKey, Effect, Setting, Tried};
-use crate::sort::sort_by_key;
-use crate::spinline::Solution;
-use crate::statistics::Difference;
-use crate::units::Dimension;
+use crate::fibre::case::Case;
+use crate::fibre::case::keys::{self, Key, Kind, Sign, Value};
+use crate::fibre::spinline::Solution;
+use crate::ground::effects::{Change, ChangedKey, Effect, Setting, Tried};
+use crate::ground::sort::sort_by_key;
+use crate::ground::statistics::Difference;
+use crate::ground::units::Dimension;
 use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].

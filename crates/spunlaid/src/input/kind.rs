@@ -1,8 +1,8 @@
 //! What a file describes.
 
 use super::{document, file, spinline};
-use crate::case::keys;
-use crate::error::FileKind;
+use crate::fibre::case::keys;
+use crate::ground::error::FileKind;
 use std::path::Path;
 use toml::de::DeTable;
 

@@ -2,14 +2,14 @@
 
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::air::{Flow, RecordLayout};
-use crate::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
-use crate::case::{Case, Note, Remark};
-use crate::error::{Error, Fault, FileError};
-use crate::field::FieldLayout;
-use crate::line::Line;
-use crate::sort::sort_by_key;
-use crate::spinline::Spinline;
+use crate::air::field::FieldLayout;
+use crate::air::motion::{Flow, RecordLayout};
+use crate::fibre::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
+use crate::fibre::case::{Case, Note, Remark};
+use crate::fibre::line::Line;
+use crate::fibre::spinline::Spinline;
+use crate::ground::error::{Error, Fault, FileError};
+use crate::ground::sort::sort_by_key;
 use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are

@@ -4,8 +4,8 @@ use super::Overrides;
 use super::document::Document;
 use super::entry::Entry;
 use super::source::fit;
-use crate::case::keys::TableList;
-use crate::error::Fault;
+use crate::fibre::case::keys::TableList;
+use crate::ground::error::Fault;
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";

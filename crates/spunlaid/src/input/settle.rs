@@ -5,13 +5,13 @@
 use super::data::DataFiles;
 use super::open::OpenCase;
 use super::written_values::WrittenValues;
-use crate::case::keys;
-use crate::case::{Case, Note, Remark};
-use crate::ensemble::{Keep, RunControl, fly};
-use crate::error::{Error, Fault, Finding};
-use crate::spinline::End;
-use crate::threads::{lock, try_each};
-use crate::units::Dimension;
+use crate::fibre::case::keys;
+use crate::fibre::case::{Case, Note, Remark};
+use crate::fibre::spinline::End;
+use crate::ground::error::{Error, Fault, Finding};
+use crate::ground::threads::{lock, try_each};
+use crate::ground::units::Dimension;
+use crate::simulation::ensemble::{Keep, RunControl, fly};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,7 +1,7 @@
 //! What is wrong with a line that is not TOML, and the line as it should be.
 
-use crate::error::{Fault, shortest};
-use crate::units::readings;
+use crate::ground::error::{Fault, shortest};
+use crate::ground::units::readings;
 use toml::de::DeTable;
 
 /// Signs that stand before comments in other languages.

@@ -2,8 +2,8 @@
 
 use super::slip::Unclosed;
 use super::slip::slip;
-use crate::error::{Fault, Finding, Place, Position, Problem};
-use crate::units::excerpt;
+use crate::ground::error::{Fault, Finding, Place, Position, Problem};
+use crate::ground::units::excerpt;
 use std::ops::Range;
 
 /// The name and text of a file.

@@ -3,9 +3,9 @@
 use super::document::Document;
 use super::entry::{Entry, VERSION};
 use super::source::fit;
-use crate::case::keys::{Key, Kind, Omission, TableList};
-use crate::error::{Fault, Finding, one_of};
-use crate::removed::Removed;
+use crate::fibre::case::keys::{Key, Kind, Omission, TableList};
+use crate::ground::error::{Fault, Finding, one_of};
+use crate::ground::removed::Removed;
 use toml::de::DeValue;
 
 impl<T> Document<'_, T> {

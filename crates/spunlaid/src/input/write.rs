@@ -1,9 +1,9 @@
 //! Writes a case as a file that reads back to the same bits.
 
 use super::FORMAT_VERSION;
-use crate::case::keys::{self, Key, KeyTable, Kind, Value};
-use crate::case::{Case, whole_parts};
-use crate::units::{Dimension, shortest};
+use crate::fibre::case::keys::{self, Key, KeyTable, Kind, Value};
+use crate::fibre::case::{Case, whole_parts};
+use crate::ground::units::{Dimension, shortest};
 use std::path::Path;
 
 /// Writes a case as TOML: every key, in SI units.

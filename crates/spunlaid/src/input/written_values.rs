@@ -1,7 +1,7 @@
 //! The values of a file by key, each with the place where it was written.
 
-use crate::case::keys::{self, Key, Omission, Value};
-use crate::error::{Fault, Finding, Place, Problem};
+use crate::fibre::case::keys::{self, Key, Omission, Value};
+use crate::ground::error::{Fault, Finding, Place, Problem};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

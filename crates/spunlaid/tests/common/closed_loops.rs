@@ -1,14 +1,14 @@
 //! Closed loops: webs of known values are laid, scanned, and fitted.
 #![allow(dead_code)]
 
-use spunlaid::error::Error;
-use spunlaid::fit::{Fit, MeasuredWeb, Question, Target, errors_of_model, fit};
+use spunlaid::experiment::fit::{Fit, MeasuredWeb, Question, Target, errors_of_model, fit};
+use spunlaid::experiment::study::Journal;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::{FitFile, Overrides, Resources, parse_fit};
-use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flights, Flyer};
-use spunlaid::scan::{Format, Light, Picture, Settings, analyse};
-use spunlaid::study::Journal;
-use spunlaid::web::{LayControl, Map};
+use spunlaid::simulation::layers::{Flights, Flyer};
+use spunlaid::web::map::{LayControl, Map};
+use spunlaid::web::scan::{Format, Light, Picture, Settings, analyse};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A small web that is laid in a tenth of a second.

@@ -1,14 +1,14 @@
 //! Fed fibres for the tests: a spunbond line from its case file, and a heavy thread that coils on a plane.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use spunlaid::air::Air;
-use spunlaid::case::{Case, Run};
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::fibre::{Fibre, Root};
-use spunlaid::flight::{Flight, Job, LaidPoint};
+use spunlaid::air::motion::Air;
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::case::{Case, Run};
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::flight::{Flight, Job, LaidPoint};
+use spunlaid::fibre::line::{Contact, Line};
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::read_case;
-use spunlaid::lanes::Isa;
-use spunlaid::line::{Contact, Line};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::path::Path;
@@ -109,7 +109,7 @@ impl Thread {
             gravity: GRAVITY,
             damping: Self::DAMPING * (GRAVITY / self.height).sqrt(),
             shapes: None,
-            checks: spunlaid::case::Checks::default(),
+            checks: spunlaid::fibre::case::Checks::default(),
         };
         let line = Line {
             feed_speed,

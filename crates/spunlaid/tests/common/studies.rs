@@ -1,9 +1,9 @@
 //! A short case, and studies of it.
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::case::Case;
+use spunlaid::experiment::study::Point;
+use spunlaid::fibre::case::Case;
 use spunlaid::input::{StudyFile, parse_study};
-use spunlaid::study::Point;
 
 /// Table 1 of the paper, 10 ms of it in steps of 20 µs.
 pub const SHORT: &str = "version = 1

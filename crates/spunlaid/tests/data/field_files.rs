@@ -4,9 +4,9 @@ use crate::air::{mesh, samples, values};
 use crate::meshes;
 use crate::meshes::Made;
 use crate::vtk::{ASCII, Data, Legacy, Mesh, Place, Squeeze, Style, legacy, vti, vtr, vts, vtu};
-use spunlaid::error::Fault;
-use spunlaid::field::{Description, Field, Hint, Local};
-use spunlaid::vec3::Vec3;
+use spunlaid::air::field::{Description, Field, Hint, Local};
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::vec3::Vec3;
 use std::path::Path;
 
 fn read(bytes: &[u8], name: &str) -> (Field, Vec<Fault>) {

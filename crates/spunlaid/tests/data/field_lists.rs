@@ -4,9 +4,9 @@
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Made, noise};
 use crate::vtk::{ASCII, Mesh, Place, Squeeze, Style, vti, vtu};
-use spunlaid::error::Fault;
-use spunlaid::field::{Description, Field, Hint};
-use spunlaid::vec3::Vec3;
+use spunlaid::air::field::{Description, Field, Hint};
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::vec3::Vec3;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

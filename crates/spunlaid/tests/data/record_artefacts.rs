@@ -1,8 +1,8 @@
 //! What is no velocity in a record is named, and what is velocity is not blamed.
 
 use crate::normal::normal;
-use spunlaid::record::{Analysis, Layout, Record, Samples, Settings, analyse, parse_csv};
-use spunlaid::units::Dimension;
+use spunlaid::air::record::{Analysis, Layout, Record, Samples, Settings, analyse, parse_csv};
+use spunlaid::ground::units::Dimension;
 
 /// Words of the warnings about samples that are no velocities.
 const WORDS: [&str; 6] =

@@ -6,8 +6,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use proptest::prelude::*;
-use spunlaid::error::Error;
-use spunlaid::record::{Layout, Record, parse_csv, parse_parquet, read_record};
+use spunlaid::air::record::{Layout, Record, parse_csv, parse_parquet, read_record};
+use spunlaid::ground::error::Error;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -6,9 +6,9 @@ use crate::scans::{
 };
 use png::Unit;
 use proptest::prelude::*;
-use spunlaid::error::FileError;
-use spunlaid::scan::{Light, Picture, Settings, analyse, parse, read};
-use spunlaid::units::Dimension;
+use spunlaid::ground::error::FileError;
+use spunlaid::ground::units::Dimension;
+use spunlaid::web::scan::{Light, Picture, Settings, analyse, parse, read};
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
 use tiff::tags::{ResolutionUnit, Tag};

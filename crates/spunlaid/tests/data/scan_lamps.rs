@@ -2,7 +2,7 @@
 
 use crate::scans::{lens, npy, npy_f64, png, png8, png16, spotted, tiff_f32, waves};
 use png::{BitDepth, ColorType};
-use spunlaid::scan::{Doubt, Findings, Light, Picture, Settings, analyse, parse};
+use spunlaid::web::scan::{Doubt, Findings, Light, Picture, Settings, analyse, parse};
 
 const COLUMNS: usize = 150;
 const ROWS: usize = 180;

@@ -2,14 +2,14 @@
 
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
-use spunlaid::air::{Air, Flow};
-use spunlaid::case::{Case, Run};
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::{Fibre, Root};
+use spunlaid::air::motion::{Air, Flow};
+use spunlaid::air::record::{Layout, Settings, analyse, read_record};
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::case::{Case, Run};
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::{parse_case, read_case, starter_case, write_case};
-use spunlaid::record::{Layout, Settings, analyse, read_record};
-use spunlaid::vec3::Vec3;
 use std::fs;
 use std::path::Path;
 
@@ -98,7 +98,7 @@ fn table_1_is_read_in_si_units() {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: spunlaid::case::Checks::default(),
+            checks: spunlaid::fibre::case::Checks::default(),
         },
     };
     assert_eq!(bits(&case), bits(&meant));

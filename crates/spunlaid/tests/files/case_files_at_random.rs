@@ -2,14 +2,14 @@
 
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
-use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::case::{Case, Checks, FLIGHT_MEMORY_LIMIT, Run};
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::{Fibre, Root};
+use spunlaid::air::motion::{Air, EddyModel, Lateral};
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::case::{Case, Checks, FLIGHT_MEMORY_LIMIT, Run};
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
+use spunlaid::fibre::line::{Contact, Line};
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::{parse_case, starter_case, write_case};
-use spunlaid::line::{Contact, Line};
-use spunlaid::vec3::Vec3;
 
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {

@@ -1,8 +1,8 @@
 //! What was removed is refused by its name, with what to do now.
 
-use spunlaid::case::keys;
+use spunlaid::fibre::case::keys;
+use spunlaid::ground::removed::{REMOVED, Removed};
 use spunlaid::input::{Overrides, parse_case, parse_study, parse_web, starter_case};
-use spunlaid::removed::{REMOVED, Removed};
 
 const WEB: &str = "
 [fibre]

@@ -2,11 +2,11 @@
 //! another way than by saying what is wrong.
 
 use proptest::prelude::*;
-use spunlaid::case::keys::Value;
+use spunlaid::fibre::case::keys::Value;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
-use spunlaid::layers::Flown;
-use spunlaid::surrogate::Surrogate;
-use spunlaid::web::{Defect, Edges, Fibres, Filaments, Row};
+use spunlaid::simulation::layers::Flown;
+use spunlaid::web::map::{Defect, Edges, Fibres, Filaments, Row};
+use spunlaid::web::surrogate::Surrogate;
 use std::fs;
 
 pub(super) const KNOWN: &str = "../../cases/web_known.toml";

@@ -2,17 +2,19 @@
 
 use crate::cases;
 use crate::meshes;
-use spunlaid::air::{Air, Axis, Eddies, FileContent, Flow, FlowNumbers, PlacedField, Profile, StreamKey};
-use spunlaid::air::{Atmosphere, Surroundings, Wind};
-use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Keep, KeepShapes, RunControl, Trajectory, fly};
-use spunlaid::error::Error;
-use spunlaid::field::{Field, Hint, Values};
-use spunlaid::flight::Flight;
+use spunlaid::air::field::{Field, Hint, Values};
+use spunlaid::air::motion::{
+    Air, Axis, Eddies, FileContent, Flow, FlowNumbers, PlacedField, Profile, StreamKey,
+};
+use spunlaid::air::motion::{Atmosphere, Surroundings, Wind};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::flight::Flight;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::parse_case;
-use spunlaid::lanes::Isa;
-use spunlaid::vec3::Vec3;
+use spunlaid::simulation::ensemble::{Keep, KeepShapes, RunControl, Trajectory, fly};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -2,12 +2,12 @@
 //! has them.
 
 use crate::common::*;
-use spunlaid::chain::Strand;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::drag::{BoundaryLayer, Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::{Fibre, Root};
-use spunlaid::flight::Flight;
-use spunlaid::lanes::Isa;
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::drag::{BoundaryLayer, Drag, FrictionLaw, NormalLaw};
+use spunlaid::fibre::flight::Flight;
+use spunlaid::ground::lanes::Isa;
 use std::f64::consts::PI;
 
 const DENSITY: f64 = 1.204;

@@ -2,12 +2,12 @@
 
 use crate::common::reference::{ReferenceDrag, forces};
 use crate::common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::chain::Strand;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::fibre::{Fibre, Root};
-use spunlaid::flight::Flight;
-use spunlaid::lanes::Isa;
+use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::flight::Flight;
+use spunlaid::ground::lanes::Isa;
 
 #[test]
 fn analytic_every_element_feels_its_own_eddy() {

@@ -1,11 +1,11 @@
 //! Flights that others step: owned, changed in flight, endless.
 
 use crate::common;
-use spunlaid::case::Case;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::error::Error;
-use spunlaid::flight::{Flight, Job};
-use spunlaid::lanes::Isa;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::flight::{Flight, Job};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
 
 /// In steps of 20 µs.
 fn table1() -> Case {

@@ -4,8 +4,8 @@
 use crate::common::reference::{ReferenceDrag, elastic_energy, forces};
 use crate::common::*;
 use proptest::prelude::*;
-use spunlaid::chain::Strand;
-use spunlaid::fibre::{Fibre, Root};
+use spunlaid::fibre::body::{Fibre, Root};
+use spunlaid::fibre::chain::Strand;
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };
 
@@ -161,9 +161,9 @@ fn analytic_terminal_velocity_along_and_across() {
 
 #[test]
 fn analytic_terminal_velocity_is_reached_by_falling() {
-    use spunlaid::chain::schemes::Scheme;
-    use spunlaid::flight::Flight;
-    use spunlaid::lanes::Isa;
+    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::fibre::flight::Flight;
+    use spunlaid::ground::lanes::Isa;
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);
         strand.fibre.direction = heading;

@@ -1,12 +1,12 @@
 //! The statistics of a spunbond line's lay-down: what must not move them, and what must not move a bit.
 
 use crate::common::laying::{flight, laid_until, spunbond};
-use spunlaid::case::Case;
-use spunlaid::ensemble::{Keep, LaidCurves, RunControl, fly};
-use spunlaid::error::Error;
-use spunlaid::flight::{Flight, Job, LaidPoint};
-use spunlaid::lanes::Isa;
-use spunlaid::laydown::{Trace, TraceSettings};
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::flight::{Flight, Job, LaidPoint};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::simulation::ensemble::{Keep, LaidCurves, RunControl, fly};
+use spunlaid::web::laydown::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Mean and standard error over replicates.

@@ -1,9 +1,9 @@
 //! The load of filaments on their air, against numbers by hand.
 
-use spunlaid::case::Case;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::load::{Load, WayPlace};
+use spunlaid::fibre::spinline::{Station, ZERO_CELSIUS};
 use spunlaid::input::read_case;
-use spunlaid::load::{Load, WayPlace};
-use spunlaid::spinline::{Station, ZERO_CELSIUS};
 use std::path::Path;
 
 fn case(name: &str) -> Case {

@@ -1,13 +1,13 @@
 //! Order of convergence of the schemes, energy ledgers, and bits that never change.
 
 use crate::common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::case::{Case, Run};
-use spunlaid::chain::Strand;
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::ensemble::{Job, Keep, RunControl, fly_together};
-use spunlaid::flight::{Flight, Snapshot};
-use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
+use spunlaid::fibre::case::{Case, Run};
+use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::flight::{Flight, Snapshot};
+use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::{Job, Keep, RunControl, fly_together};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;

@@ -2,12 +2,12 @@
 //! finds the fibres whose computation has diverged.
 
 use crate::common::laying::{flight, spunbond};
-use spunlaid::case::Case;
-use spunlaid::error::Error;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::line::Contact;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Lanes;
+use spunlaid::ground::vec3::Vec3;
 use spunlaid::input::{parse_case, read_case};
-use spunlaid::lanes::Lanes;
-use spunlaid::line::Contact;
-use spunlaid::vec3::Vec3;
 
 /// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-]
 /// and other values.

@@ -1,7 +1,7 @@
 //! A steady state that is followed from a line nearby is the one that a search finds.
 
+use spunlaid::fibre::spinline::{Failure, Law, Solution, Spinline};
 use spunlaid::input::{SpinFile, read_spinline};
-use spunlaid::spinline::{Failure, Law, Solution, Spinline};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

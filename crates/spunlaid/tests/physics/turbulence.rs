@@ -2,9 +2,9 @@
 //! have.
 
 use crate::common::*;
-use spunlaid::air::{Air, Stream, StreamKey, Wind};
-use spunlaid::lanes::{Isa, WIDTH};
-use spunlaid::statistics::{Welch, Window};
+use spunlaid::air::motion::{Air, Stream, StreamKey, Wind};
+use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::ground::statistics::{Welch, Window};
 use std::f64::consts::PI;
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! Reads which rooms of a crate, the modules at its root, import which others.
+//! Reads which rooms of a crate or of a wing, the modules at its root, import which others.
 #![allow(clippy::expect_used)]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -115,12 +115,15 @@ fn paths(code: &str) -> Vec<NamePath> {
     found
 }
 
-/// Rooms that a file imports from, its own left out.
-fn imports(rooms: Rooms<'_>, source: &str, room: &str, depth: usize) -> BTreeSet<String> {
+/// Rooms of a wing that a file imports from, its own left out. The rooms of no wing stand at the root of the crate.
+fn imports(rooms: Rooms<'_>, wing: Option<&str>, source: &str, room: &str, depth: usize) -> BTreeSet<String> {
+    let root: Vec<&str> = ["crate"].into_iter().chain(wing).collect();
     // `super` as often as the file is deep leaves the room, as `crate` does.
     let outside = |path: NamePath| {
         let above = path.names.iter().take_while(|name| *name == "super").count();
-        let entered = if path.names[0] == "crate" { Some(1) } else { (above == depth).then_some(above) };
+        let from_root =
+            path.names.len() > root.len() && root.iter().zip(&path.names).all(|(one, other)| one == other);
+        let entered = if from_root { Some(root.len()) } else { (above == depth).then_some(above) };
         entered.and_then(|at| path.names.get(at).cloned())
     };
     let mut found: BTreeSet<String> = paths(&code_only(source)).into_iter().filter_map(outside).collect();
@@ -128,8 +131,9 @@ fn imports(rooms: Rooms<'_>, source: &str, room: &str, depth: usize) -> BTreeSet
     found
 }
 
-/// What is wrong with the imports of the sources below `root`, a line each, the files of `entrances` left out.
-pub fn faults(root: &Path, rooms: Rooms<'_>, entrances: &[&str]) -> Vec<String> {
+/// What is wrong with the imports of the sources below `root`, the folder of a wing or of a crate without wings, a line
+/// each, the files of `entrances` left out.
+pub fn faults(root: &Path, wing: Option<&str>, rooms: Rooms<'_>, entrances: &[&str]) -> Vec<String> {
     let mut seen = BTreeSet::new();
     let mut wrong = Vec::new();
     for path in sources(root) {
@@ -152,7 +156,7 @@ pub fn faults(root: &Path, rooms: Rooms<'_>, entrances: &[&str]) -> Vec<String> 
         let is_room = inside.len() == 1 || inside.last().is_some_and(|name| name == "mod.rs");
         let depth = if is_room { inside.len().max(2) - 1 } else { inside.len() };
         let source = fs::read_to_string(&path).expect("a readable source");
-        for imported in imports(rooms, &source, &room, depth) {
+        for imported in imports(rooms, wing, &source, &room, depth) {
             if rank(rooms, &imported).is_some_and(|other| other < own) {
                 continue;
             }
@@ -250,7 +254,9 @@ pub fn circles(root: &Path) -> Vec<String> {
 #[test]
 fn rooms_are_found_however_they_are_imported() {
     const ROOMS: Rooms<'_> = &[&["fibre", "chain", "air", "vec3", "case", "input"]];
-    let found = |source: &str, depth| imports(ROOMS, source, "fibre", depth).into_iter().collect::<Vec<_>>();
+    let found =
+        |source: &str, depth| imports(ROOMS, None, source, "fibre", depth).into_iter().collect::<Vec<_>>();
+    let in_wing = |source: &str, depth| imports(ROOMS, Some("house"), source, "fibre", depth);
     assert_eq!(found("use crate::chain::Chain;", 1), ["chain"]);
     assert_eq!(found("use crate::{\n    air::{Air, Eddies},\n    vec3::Vec3,\n};", 1), ["air", "vec3"]);
     assert_eq!(found("fn f() { super::super::case::check() }", 2), ["case"]);
@@ -258,6 +264,9 @@ fn rooms_are_found_however_they_are_imported() {
     assert_eq!(found("// crate::case\n/// [`crate::case`]\nconst A: &str = \"crate::case\";", 1), [""; 0]);
     assert_eq!(found("let q = '\"'; crate::input::read();", 1), ["input"]);
     assert_eq!(found("use crate::fibre::Fibre; use thecrate::case;", 1), [""; 0]);
+    assert!(in_wing("use crate::house::chain::Chain;", 1).contains("chain"));
+    assert!(in_wing("use super::air::Air;", 1).contains("air"));
+    assert!(in_wing("use crate::chain::Chain;", 1).is_empty(), "the room of another wing");
 }
 
 #[test]

@@ -3,11 +3,11 @@
 use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::claim::Verdict::{self, Fails, Holds, Open};
-use spunlaid::observe::MEASURES;
-use spunlaid::study::{
+use spunlaid::experiment::claim::Verdict::{self, Fails, Holds, Open};
+use spunlaid::experiment::study::{
     Journal, PointResults, Record, ReplicateOutcome, Study, judge, rankings, results_of_point,
 };
+use spunlaid::simulation::observe::MEASURES;
 
 /// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {

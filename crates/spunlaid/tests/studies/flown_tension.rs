@@ -1,15 +1,15 @@
 //! The tension at the end of a spinline that flights find: a reader says what has to be flown, and whoever
 //! settles the file flies it.
 
-use spunlaid::case::{Case, Note, keys};
-use spunlaid::ensemble::{Keep, RunControl, fly};
-use spunlaid::error::Error;
+use spunlaid::fibre::case::{Case, Note, keys};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::units::Dimension;
 use spunlaid::input::{
     CaseWithNotes, Overrides, Resources, StudyChanges, StudyFile, parse_case, parse_changed_study,
     parse_spinline, parse_web,
 };
-use spunlaid::lanes::Isa;
-use spunlaid::units::Dimension;
+use spunlaid::simulation::ensemble::{Keep, RunControl, fly};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The filament of the whole line, coarse and short.

@@ -1,8 +1,8 @@
 //! The studies of the paper, which are compiled in.
 
-use spunlaid::chain::schemes::Scheme;
-use spunlaid::fibre::Root;
-use spunlaid::paper::{Parameter, choices, table1, time_steps};
+use spunlaid::fibre::body::Root;
+use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::input::paper::{Parameter, choices, table1, time_steps};
 use std::fs;
 use std::path::{Path, PathBuf};
 

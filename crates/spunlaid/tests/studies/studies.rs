@@ -2,17 +2,17 @@
 
 use crate::short;
 use crate::short::{SHORT, case_of};
-use spunlaid::case::Case;
-use spunlaid::case::keys::{self, Value};
-use spunlaid::ensemble::{Keep, Results, RunControl, Trajectory, fly};
-use spunlaid::error::Error;
-use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
-use spunlaid::lanes::Isa;
-use spunlaid::statistics::Estimate;
-use spunlaid::study::{
+use spunlaid::experiment::study::{
     Batch, Journal, PointResults, Progress, Record, ReplicateOutcome, Replicates, Study, fly_batches,
     measured, results_of_point, run,
 };
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::case::keys::{self, Value};
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::statistics::Estimate;
+use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
+use spunlaid::simulation::ensemble::{Keep, Results, RunControl, Trajectory, fly};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -229,7 +229,7 @@ fn published_students_t() {
         (63, 1.99834),
         (100_000, 1.95999),
     ] {
-        assert!((spunlaid::statistics::student_t_95(degrees) / t - 1.0).abs() < 4e-6, "{degrees}");
+        assert!((spunlaid::ground::statistics::student_t_95(degrees) / t - 1.0).abs() < 4e-6, "{degrees}");
     }
     let estimate = Estimate::new(vec![1.0, 2.0]);
     assert_eq!(estimate.standard_error, Some(0.5));

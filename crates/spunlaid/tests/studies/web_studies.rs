@@ -1,12 +1,12 @@
 //! Studies of webs: what they vary, and what they refuse.
 
-use spunlaid::error::Error;
+use spunlaid::experiment::study::Point;
+use spunlaid::ground::error::Error;
 use spunlaid::input::{
     LaydownSource, Overrides, StudyChanges, StudyFile, WebFile, parse_changed_study, parse_web,
     write_experiment,
 };
-use spunlaid::study::Point;
-use spunlaid::web::Filaments;
+use spunlaid::web::map::Filaments;
 use std::path::Path;
 
 const WEB: &str = r#"

@@ -1,12 +1,12 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
-use spunlaid::advice::{Advice, Change, Tried, advise, judged_by};
-use spunlaid::effects::Setting;
-use spunlaid::error::Error;
+use spunlaid::experiment::advice::{Advice, Change, Tried, advise, judged_by};
+use spunlaid::ground::effects::Setting;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
-use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flights, Flyer};
-use spunlaid::web::LayControl;
+use spunlaid::simulation::layers::{Flights, Flyer};
+use spunlaid::web::map::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -237,8 +237,8 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
                     assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");
                 }
                 if let (Some(found), Some(wanted)) = (found.source.case(), wanted.source.case()) {
-                    let air = |case: &spunlaid::case::Case| {
-                        let key = |name| spunlaid::case::keys::find(name).unwrap().get(case);
+                    let air = |case: &spunlaid::fibre::case::Case| {
+                        let key = |name| spunlaid::fibre::case::keys::find(name).unwrap().get(case);
                         let number = |name| key(name).and_then(|value| value.number());
                         [
                             "air.speed_factor",

@@ -1,14 +1,14 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
-use spunlaid::air::Lateral;
-use spunlaid::beam::{Beam, BeamControl, BeamFindings};
-use spunlaid::case::Case;
-use spunlaid::error::Error;
-use spunlaid::fibre::Place;
+use spunlaid::air::motion::Lateral;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::place::Place;
 use spunlaid::input::read_case;
-use spunlaid::lanes::Isa;
-use spunlaid::web::uniformity::unevenness;
-use spunlaid::web::{LaidWeb, Map, Sheet, Window};
+use spunlaid::simulation::beam::{Beam, BeamControl, BeamFindings};
+use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::{LaidWeb, Map, Sheet, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -1,10 +1,10 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
+use spunlaid::ground::lanes::Isa;
 use spunlaid::input::parse_web;
-use spunlaid::lanes::Isa;
-use spunlaid::layers::{Flyer, WebSpec};
-use spunlaid::web::{Defect, LaidWeb, LayControl, Map, lay, strands};
+use spunlaid::simulation::layers::{Flyer, WebSpec};
+use spunlaid::web::map::{Defect, LaidWeb, LayControl, Map, lay, strands};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const KNOWN: &str = "

@@ -4,12 +4,12 @@
 mod closed_loops;
 
 use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, read, scanned};
-use spunlaid::fit::{KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
+use spunlaid::experiment::fit::{KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
+use spunlaid::experiment::study::{Journal, seed_of_point};
+use spunlaid::ground::statistics::student_t_95;
 use spunlaid::input::{Overrides, parse_fit};
-use spunlaid::statistics::student_t_95;
-use spunlaid::study::{Journal, seed_of_point};
-use spunlaid::web::Map;
-use spunlaid::web::uniformity::cv_of_piece;
+use spunlaid::web::map::Map;
+use spunlaid::web::map::uniformity::cv_of_piece;
 
 /// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code;
 /// here, that laid and scanned webs give what their fit needs.

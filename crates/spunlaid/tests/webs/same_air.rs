@@ -1,8 +1,8 @@
 //! Webs of a few filaments each in the same air.
 
 use spunlaid::input::{Overrides, WebFile, parse_web};
-use spunlaid::layers::{Compared, Flights, Flyer};
-use spunlaid::web::LayerFew;
+use spunlaid::simulation::layers::{Compared, Flights, Flyer};
+use spunlaid::web::map::LayerFew;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

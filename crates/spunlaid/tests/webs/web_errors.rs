@@ -1,13 +1,13 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
-use spunlaid::error::Error;
-use spunlaid::lanes::Isa;
-use spunlaid::statistics::difference_of_deviations;
-use spunlaid::surrogate::Surrogate;
-use spunlaid::web::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::{
+use spunlaid::ground::error::Error;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::statistics::difference_of_deviations;
+use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
+use spunlaid::web::map::{
     Clouds, Edges, Fibres, Filaments, Findings, LayControl, Layer, Row, Sheet, Web, find, lay,
 };
+use spunlaid::web::surrogate::Surrogate;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const WEBS: u64 = 80;

@@ -2,8 +2,8 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::uniformity::unevenness;
-use spunlaid::web::{Clouds, Map, autocorrelation};
+use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::{Clouds, Map, autocorrelation};
 use std::f64::consts::TAU;
 
 const MEAN: f64 = 1e6;

@@ -6,8 +6,8 @@ use crate::args::{Check, overrides};
 use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::experiment::study::{Point, Study};
 use spunlaid::input::{StudyChanges, read_changed_study};
-use spunlaid::study::{Point, Study};
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {

@@ -1,9 +1,9 @@
 //! The files of a line: one of its web and its filament, and the air between slot and belt.
 
 use crate::args::{Given, LineNumbers};
-use spunlaid::error::Fault;
-use spunlaid::spinline::Polymer;
-use spunlaid::units::Dimension;
+use spunlaid::fibre::spinline::Polymer;
+use spunlaid::ground::error::Fault;
+use spunlaid::ground::units::Dimension;
 use spunlaid_results::numbers::significant;
 use std::f64::consts::PI;
 

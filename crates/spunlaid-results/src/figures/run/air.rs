@@ -2,9 +2,9 @@
 
 use super::MM;
 use crate::numbers::range;
-use spunlaid::air::LocalAir;
-use spunlaid::case::Case;
-use spunlaid::field::Hint;
+use spunlaid::air::field::Hint;
+use spunlaid::air::motion::LocalAir;
+use spunlaid::fibre::case::Case;
 use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
 
 /// Places that are asked along the fibre.

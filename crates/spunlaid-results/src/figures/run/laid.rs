@@ -3,9 +3,9 @@
 use super::MM;
 use crate::figures::run::measured::one_of;
 use crate::numbers::significant;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{Results, Trajectory};
-use spunlaid::flight::LaidPoint;
+use spunlaid::fibre::case::Case;
+use spunlaid::fibre::flight::LaidPoint;
+use spunlaid::simulation::ensemble::{Results, Trajectory};
 use spunlaid_charts::{
     Axis, Chart, Drawing, Figure, Map, Series, Shades, Table,
     palette::{Colour, GREY, INK, VERMILION},

@@ -2,8 +2,8 @@
 
 use crate::figures::with_unit;
 use crate::numbers::significant;
-use spunlaid::ensemble::{Curve, Place, Results};
-use spunlaid::observe::{self, Kind, Measure};
+use spunlaid::simulation::ensemble::{Curve, Place, Results};
+use spunlaid::simulation::observe::{self, Kind, Measure};
 use spunlaid_charts::{
     Axis, Chart, Figure, Rose, Series, even,
     palette::{BLUE, GREEN, PURPLE, VERMILION},

@@ -2,8 +2,8 @@
 
 use super::{MM, swings};
 use crate::numbers::significant;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{EndPath, EndPoint, Results};
+use spunlaid::fibre::case::Case;
+use spunlaid::simulation::ensemble::{EndPath, EndPoint, Results};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{GREEN, GREY, INK, ORANGE},

@@ -1,9 +1,9 @@
 //! What happens at which frequency: the motion of the free end, the turbulence.
 
 use crate::numbers::significant;
-use spunlaid::air::SpectrumShape;
-use spunlaid::case::Case;
-use spunlaid::ensemble::SpectrumPoint;
+use spunlaid::air::motion::SpectrumShape;
+use spunlaid::fibre::case::Case;
+use spunlaid::simulation::ensemble::SpectrumPoint;
 use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
 
 /// The spectrum of the turbulence, as made and as asked for.

@@ -2,7 +2,7 @@
 
 use super::quantity::{FactorAxis, Group, name_of_key};
 use super::{FAMILY, file_name};
-use spunlaid::study::{PointResults, Study};
+use spunlaid::experiment::study::{PointResults, Study};
 use spunlaid_charts::{
     Chart, Figure, Marker, Series,
     palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},

@@ -2,7 +2,7 @@
 
 use super::quantity::{FactorAxis, Group, label_of_key, name_of_key};
 use crate::numbers::significant;
-use spunlaid::study::{PointResults, Study};
+use spunlaid::experiment::study::{PointResults, Study};
 use spunlaid_charts::{
     Drawing, Figure, Table,
     palette::{Colour, INK, PAPER},

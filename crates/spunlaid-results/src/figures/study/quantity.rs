@@ -1,13 +1,13 @@
 //! The axes of a study's figures: quantities and readable units.
 
 use crate::figures::with_unit;
-use spunlaid::case::keys;
-use spunlaid::layers::{place_in_web, web_key};
-use spunlaid::observe::{self, Unit};
-use spunlaid::spinline::ZERO_CELSIUS;
-use spunlaid::study;
-use spunlaid::study::{Design, Factor, PointResults, Study};
-use spunlaid::units::Dimension;
+use spunlaid::experiment::study;
+use spunlaid::experiment::study::{Design, Factor, PointResults, Study};
+use spunlaid::fibre::case::keys;
+use spunlaid::fibre::spinline::ZERO_CELSIUS;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::layers::{place_in_web, web_key};
+use spunlaid::simulation::observe::{self, Unit};
 use spunlaid_charts::Axis;
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.

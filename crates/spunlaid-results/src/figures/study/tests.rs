@@ -2,11 +2,11 @@
 
 use super::super::sample;
 use super::*;
-use spunlaid::effects::Effect;
-use spunlaid::observe::MEASURES;
-use spunlaid::statistics::Difference;
-use spunlaid::study::{Contrast, Factor, Levels, Point, Replicates, Spacing};
-use spunlaid::units::Dimension;
+use spunlaid::experiment::study::{Contrast, Factor, Levels, Point, Replicates, Spacing};
+use spunlaid::ground::effects::Effect;
+use spunlaid::ground::statistics::Difference;
+use spunlaid::ground::units::Dimension;
+use spunlaid::simulation::observe::MEASURES;
 use spunlaid_charts::png;
 
 /// A study with synthetic factors and results.

@@ -1,7 +1,7 @@
 //! Where charged filaments hang between inlet and belt, as they are seen from the side.
 
 use super::MM;
-use spunlaid::web::ChargedCurtain;
+use spunlaid::web::map::ChargedCurtain;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREEN, ORANGE, VERMILION},

@@ -2,7 +2,7 @@
 
 use super::{MM, PER_CENT};
 use crate::numbers::significant;
-use spunlaid::web::Clouds;
+use spunlaid::web::map::Clouds;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, VERMILION},

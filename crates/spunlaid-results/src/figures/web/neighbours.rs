@@ -1,7 +1,7 @@
 //! How filaments that hang side by side in one air come down together.
 
 use super::MM;
-use spunlaid::web::{Correlation, NeighbourCorrelation};
+use spunlaid::web::map::{Correlation, NeighbourCorrelation};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, Colour, GREEN, ORANGE, VERMILION},

@@ -5,7 +5,7 @@ use super::clouds::{density, empty_spectrum};
 use super::unevenness::empty_chart;
 use super::{MM, PER_CENT};
 use crate::numbers::significant;
-use spunlaid::web::Clouds;
+use spunlaid::web::map::Clouds;
 use spunlaid_charts::{Figure, Series, palette::GREY};
 
 /// The unevenness of a web over patches of one size.

@@ -2,7 +2,7 @@
 
 use super::{GRAMS, MM, PER_CENT, Weights};
 use crate::numbers::significant;
-use spunlaid::web::{Edges, Findings, Map, Web};
+use spunlaid::web::map::{Edges, Findings, Map, Web};
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREY, VERMILION},

@@ -2,9 +2,9 @@
 
 use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
-use spunlaid::scan;
-use spunlaid::web::uniformity::Unevenness;
-use spunlaid::web::{Edges, Findings, Map, Web, straight_fibres};
+use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::{Edges, Findings, Map, Web, straight_fibres};
+use spunlaid::web::scan;
 use spunlaid_charts::{
     Axis, Chart, Figure, Series,
     palette::{BLUE, GREY, VERMILION},

@@ -2,8 +2,8 @@
 
 use crate::output::web::MapFile;
 use serde_json::Value as Json;
-use spunlaid::scan::{Doubt, FEWEST};
-use spunlaid::statistics::NORMAL_95;
+use spunlaid::ground::statistics::NORMAL_95;
+use spunlaid::web::scan::{Doubt, FEWEST};
 use std::path::{Path, PathBuf};
 
 /// The results of a web.

@@ -9,9 +9,9 @@ use crate::Failure;
 use crate::figures::{ComparedPatch, SEEN, overlaid_webs};
 use crate::numbers::significant;
 use crate::output::comparison::{ComparedMeasure, Comparison};
-use spunlaid::error::{Error, Fault};
-use spunlaid::scan::shortest_sharp_wave;
-use spunlaid::statistics::{Difference, Estimate, difference_of_logarithms};
+use spunlaid::ground::error::{Error, Fault};
+use spunlaid::ground::statistics::{Difference, Estimate, difference_of_logarithms};
+use spunlaid::web::scan::shortest_sharp_wave;
 use std::path::PathBuf;
 
 /// How many standard errors an end of an interval is away, over 1.96, where the standard error alone would mislead.

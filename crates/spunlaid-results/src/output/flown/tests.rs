@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::output::folder::ENTRIES;
-use spunlaid::ensemble::{KeepShapes, RunControl, fly};
+use spunlaid::ground::lanes::{Isa, WIDTH};
 use spunlaid::input::parse_case;
-use spunlaid::lanes::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::{KeepShapes, RunControl, fly};
 use std::path::Path;
 
 const FIXED: &str = "version = 1

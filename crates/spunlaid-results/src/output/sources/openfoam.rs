@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use spunlaid::case::Case;
-use spunlaid::ensemble::{CellSource, Sources};
-use spunlaid::field::Description;
+use spunlaid::air::field::Description;
+use spunlaid::fibre::case::Case;
+use spunlaid::simulation::ensemble::{CellSource, Sources};
 use std::fmt::Write;
 
 /// Folder of the fields.

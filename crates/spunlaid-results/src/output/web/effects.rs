@@ -4,9 +4,9 @@
 use crate::command::web_command;
 use crate::output::measured::{joined, known};
 use serde_json::{Value as Json, json};
-use spunlaid::advice::{Advice, Change, ChangedWeb, Tried};
-use spunlaid::effects::{ChangedKey, Effect};
-use spunlaid::web::Findings;
+use spunlaid::experiment::advice::{Advice, Change, ChangedWeb, Tried};
+use spunlaid::ground::effects::{ChangedKey, Effect};
+use spunlaid::web::map::Findings;
 
 /// Seconds of an hour.
 pub(crate) const HOUR: f64 = 3600.0;

@@ -2,8 +2,8 @@
 
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::observe::{ErrorRole, Measure, OF_PATCHES};
-use spunlaid::web::{Findings, PatchFindings};
+use spunlaid::simulation::observe::{ErrorRole, Measure, OF_PATCHES};
+use spunlaid::web::map::{Findings, PatchFindings};
 
 /// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -6,14 +6,14 @@ use crate::output::measured::{joined, json, known, mean, values, with_errors};
 use crate::output::{load, versioned_json};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
-use spunlaid::advice::Advice;
-use spunlaid::fabric::Fabric;
-use spunlaid::lanes::Isa;
-use spunlaid::load::Load;
-use spunlaid::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
-use spunlaid::scan::{self, Doubt};
-use spunlaid::statistics::{Estimate, interval_of_deviation};
-use spunlaid::web::{ChargedCurtain, Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
+use spunlaid::experiment::advice::Advice;
+use spunlaid::fibre::load::Load;
+use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::statistics::{Estimate, interval_of_deviation};
+use spunlaid::simulation::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
+use spunlaid::web::fabric::Fabric;
+use spunlaid::web::map::{ChargedCurtain, Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
+use spunlaid::web::scan::{self, Doubt};
 use std::time::Instant;
 
 /// What a layer was laid from.

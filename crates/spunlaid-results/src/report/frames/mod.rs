@@ -6,9 +6,9 @@ mod fixed;
 
 pub(super) use data::Frames;
 
-use spunlaid::case::Case;
-use spunlaid::ensemble::Results;
-use spunlaid::error::Error;
+use spunlaid::fibre::case::Case;
+use spunlaid::ground::error::Error;
+use spunlaid::simulation::ensemble::Results;
 
 /// Chooses and packs the shapes of a run; `None` where none were kept.
 ///

@@ -3,16 +3,16 @@
 mod polymer;
 mod profile;
 
-use crate::air::{FileContent, Measured, RecordLayout, RecordNumbers};
-use crate::case::Remark;
-use crate::case::keys::{Content, FileKind as Kind};
-use crate::error::{FileError, FileKind};
-use crate::field::{FieldLayout, ReadField};
-use crate::file;
+use crate::air::field::{FieldLayout, ReadField};
+use crate::air::motion::{FileContent, Measured, RecordLayout, RecordNumbers};
+use crate::air::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
+use crate::fibre::case::Remark;
+use crate::fibre::case::keys::{Content, FileKind as Kind};
+use crate::ground::error::{FileError, FileKind};
+use crate::ground::file;
+use crate::ground::threads::lock;
+use crate::ground::vec3::Vec3;
 use crate::input::file::text as text_of;
-use crate::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
-use crate::threads::lock;
-use crate::vec3::Vec3;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};

@@ -1,11 +1,11 @@
 //! Reads the file of a polymer: the table `[spinline.material]` with every constant, as in a case.
 
-use crate::case::Case;
-use crate::case::keys::{self, Key};
-use crate::error::{Fault, FileError, Finding, Place, Position};
+use crate::fibre::case::Case;
+use crate::fibre::case::keys::{self, Key};
+use crate::fibre::spinline::{Material, Polymer, PolymerFile, PolymerSource, Spinline};
+use crate::ground::error::{Fault, FileError, Finding, Place, Position};
 use crate::input::document;
 use crate::input::write::toml_value;
-use crate::spinline::{Material, Polymer, PolymerFile, PolymerSource, Spinline};
 
 /// The table of the constants.
 const TABLE: &str = "spinline.material";

@@ -1,14 +1,14 @@
 //! Reads profiles of the air and spectra: small tables with units in their headers.
 
-use crate::air::{Profile, SpectrumTable};
-use crate::case::keys::Kind;
-use crate::case::keys::Sign::{self, Any, NotNegative, Positive};
-use crate::error::{Fault, FileError, FileKind, Problem, listed};
-use crate::spinline::{AirTable, ZERO_CELSIUS};
-use crate::table::{Head, Table};
-use crate::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
-use crate::units::excerpt;
-use crate::vec3::Vec3;
+use crate::air::motion::{Profile, SpectrumTable};
+use crate::fibre::case::keys::Kind;
+use crate::fibre::case::keys::Sign::{self, Any, NotNegative, Positive};
+use crate::fibre::spinline::{AirTable, ZERO_CELSIUS};
+use crate::ground::error::{Fault, FileError, FileKind, Problem, listed};
+use crate::ground::table::{Head, Table};
+use crate::ground::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
+use crate::ground::units::excerpt;
+use crate::ground::vec3::Vec3;
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;

@@ -8,11 +8,11 @@ use super::super::{Overrides, values_of_case};
 use super::advice;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
-use crate::case::keys::{self, Value};
-use crate::case::{Note, Remark};
-use crate::error::{Error, Fault, FileKind, Place, Problem};
-use crate::spinline::{SpinSpec, Spinline};
-use crate::study::{Experiment, Point, Quantity, Study};
+use crate::experiment::study::{Experiment, Point, Quantity, Study};
+use crate::fibre::case::keys::{self, Value};
+use crate::fibre::case::{Note, Remark};
+use crate::fibre::spinline::{SpinSpec, Spinline};
+use crate::ground::error::{Error, Fault, FileKind, Place, Problem};
 
 /// The case as it is written, with the files that it names.
 pub(super) struct CaseBase {

@@ -5,9 +5,9 @@ use super::super::{Overrides, Resources, file};
 use super::line::{OpenWeb, changes_of_line};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::advice::Change;
-use crate::effects::{ChangedKey, Setting};
-use crate::error::{Error, FileKind};
+use crate::experiment::advice::Change;
+use crate::ground::effects::{ChangedKey, Setting};
+use crate::ground::error::{Error, FileKind};
 use std::path::Path;
 
 /// Which changes of a web are made.

@@ -4,12 +4,12 @@ use super::super::document::Named;
 use super::super::entry::{Entry, kind};
 use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, VariedKey, level};
 use super::{Reader, not_varied, not_written};
-use crate::case::keys::Value;
-use crate::error::{Fault, Finding, nearest_word};
-use crate::study::{
+use crate::experiment::study::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
     Way,
 };
+use crate::fibre::case::keys::Value;
+use crate::ground::error::{Fault, Finding, nearest_word};
 use toml::de::{DeTable, DeValue};
 
 impl<'a> Reader<'a> {

@@ -4,9 +4,9 @@ use super::super::web::WebFile;
 use super::super::{Overrides, Resources, file};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::case::keys::{Kind, Sign};
-use crate::error::{Error, Fault, FileKind, Finding, Place, Problem};
-use crate::fit::{Parameter, USUAL_FACTOR};
+use crate::experiment::fit::{Parameter, USUAL_FACTOR};
+use crate::fibre::case::keys::{Kind, Sign};
+use crate::ground::error::{Error, Fault, FileKind, Finding, Place, Problem};
 use std::path::Path;
 
 /// The web of a fit, with the keys that are sought in it.

@@ -6,14 +6,14 @@ use super::super::influence::{Step, changed_key};
 use super::super::web::{WebFile, replaces};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::advice::{Change, ChangedWeb};
-use crate::air::{Air, Flow};
-use crate::effects::{ChangedKey, Setting};
-use crate::error::Error;
-use crate::layers::{LayerSpec, WebSpec, web_key};
-use crate::plausible::leads_outside;
-use crate::units::Dimension;
-use crate::web::Filaments;
+use crate::air::motion::{Air, Flow};
+use crate::experiment::advice::{Change, ChangedWeb};
+use crate::experiment::plausible::leads_outside;
+use crate::ground::effects::{ChangedKey, Setting};
+use crate::ground::error::Error;
+use crate::ground::units::Dimension;
+use crate::simulation::layers::{LayerSpec, WebSpec, web_key};
+use crate::web::map::Filaments;
 
 /// How settings are changed.
 const STEPS: [Step; 2] = [Step { factor: 0.8, kelvin: -10.0 }, Step { factor: 1.2, kelvin: 10.0 }];

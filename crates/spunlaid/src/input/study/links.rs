@@ -4,9 +4,9 @@ use super::super::document::Named;
 use super::super::entry::Entry;
 use super::{Base, VariedKey};
 use super::{Reader, not_written};
-use crate::error::{Fault, Finding};
-use crate::study::{Factor, Link};
-use crate::units::{Expression, Powers, unknown_name};
+use crate::experiment::study::{Factor, Link};
+use crate::ground::error::{Fault, Finding};
+use crate::ground::units::{Expression, Powers, unknown_name};
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =

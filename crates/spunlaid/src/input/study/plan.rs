@@ -6,10 +6,12 @@ use super::super::entry::Entry;
 use super::super::overrides::AUTO;
 use super::super::write::quoted;
 use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice};
-use crate::case::keys::{self, Kind};
-use crate::error::{Fault, FileKind, Finding};
-use crate::layers::full_names::{are_alternatives, is_replaced};
-use crate::study::{Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim};
+use crate::experiment::study::{
+    Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim,
+};
+use crate::fibre::case::keys::{self, Kind};
+use crate::ground::error::{Fault, FileKind, Finding};
+use crate::simulation::layers::full_names::{are_alternatives, is_replaced};
 use toml::de::DeValue;
 
 /// A study before its points are made.

@@ -3,9 +3,9 @@
 use super::super::Resources;
 use super::plan::{Plan, base_value};
 use super::{Base, VariedKey, links};
-use crate::case::Note;
-use crate::error::{Error, Place};
-use crate::study::{Point, seed_of_point};
+use crate::experiment::study::{Point, seed_of_point};
+use crate::fibre::case::Note;
+use crate::ground::error::{Error, Place};
 use std::fmt;
 
 /// A remark that applies to one or more points of a study.

@@ -8,11 +8,11 @@ use super::super::written_values::WrittenValues;
 use super::TAKE_A_NUMBER;
 use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, VariedKey, level};
-use crate::case::keys::{self, Value};
-use crate::error::{Error, Place, nearest_word};
-use crate::layers::full_names::{full_name, value, web_key, without_numbers};
-use crate::layers::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
-use crate::study::{Experiment, Point, Quantity, Study};
+use crate::experiment::study::{Experiment, Point, Quantity, Study};
+use crate::fibre::case::keys::{self, Value};
+use crate::ground::error::{Error, Place, nearest_word};
+use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
+use crate::simulation::layers::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {

@@ -1,14 +1,14 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
 use super::read::{BELT_SPEED, Reading};
-use crate::case::{Note, Remark};
-use crate::charge::{BREAKDOWN, STRONG};
-use crate::error::{Fault, Place};
-use crate::layers::keys::{NUMBERS, WEB};
-use crate::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
-use crate::plausible::implausible;
-use crate::units::Dimension;
-use crate::web::{Defect, Edges, Filaments, Row, Sheet, holes};
+use crate::experiment::plausible::implausible;
+use crate::fibre::case::{Note, Remark};
+use crate::fibre::charge::{BREAKDOWN, STRONG};
+use crate::ground::error::{Fault, Place};
+use crate::ground::units::Dimension;
+use crate::simulation::layers::keys::{NUMBERS, WEB};
+use crate::simulation::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
+use crate::web::map::{Defect, Edges, Filaments, Row, Sheet, holes};
 
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;

@@ -2,12 +2,12 @@
 
 use super::read::Reading;
 use super::{flies_none, is_of_case};
-use crate::case::keys::{self, Kind};
-use crate::error::{Fault, nearest_word};
-use crate::layers::full_names::{full_name, value, web_key};
-use crate::layers::keys::WEB;
-use crate::layers::{SAME, WEB_KEYS, WebKey, WebSpec};
-use crate::units::Dimension;
+use crate::fibre::case::keys::{self, Kind};
+use crate::ground::error::{Fault, nearest_word};
+use crate::ground::units::Dimension;
+use crate::simulation::layers::full_names::{full_name, value, web_key};
+use crate::simulation::layers::keys::WEB;
+use crate::simulation::layers::{SAME, WEB_KEYS, WebKey, WebSpec};
 
 /// The key whose value names them.
 const GUESSED: &str = "web.guessed";

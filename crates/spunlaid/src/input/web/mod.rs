@@ -23,10 +23,10 @@ pub(super) use write::write_web_to_vary;
 use super::Resources;
 use super::written_values::WrittenValues;
 use super::{Overrides, document, file};
-use crate::case::{Note, keys};
-use crate::error::{Error, Fault, FileKind, Problem};
-use crate::layers::keys::WEB_FILE;
-use crate::layers::{WebSpec, web_key};
+use crate::fibre::case::{Note, keys};
+use crate::ground::error::{Error, Fault, FileKind, Problem};
+use crate::simulation::layers::keys::WEB_FILE;
+use crate::simulation::layers::{WebSpec, web_key};
 use std::path::Path;
 
 /// The file of a web, read.

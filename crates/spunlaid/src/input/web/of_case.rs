@@ -1,8 +1,8 @@
 //! Keys of a web that are those of its filament.
 
-use crate::case::keys::{self, CASE};
-use crate::layers::full_names::without_numbers;
-use crate::layers::keys::WEB;
+use crate::fibre::case::keys::{self, CASE};
+use crate::simulation::layers::full_names::without_numbers;
+use crate::simulation::layers::keys::WEB;
 
 /// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
 pub(crate) fn is_of_case(name: &str, flies: bool) -> bool {

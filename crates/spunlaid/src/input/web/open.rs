@@ -6,12 +6,12 @@ use super::super::{Overrides, Resources};
 use super::filament::Filament;
 use super::flies_none;
 use super::read::{CASE, Reading, THROUGHPUT, as_web};
-use crate::case::Note;
-use crate::case::keys::{self, Value};
-use crate::error::{Error, Fault, Place};
-use crate::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
-use crate::layers::{LaydownSource, LayerSpec, WebSpec};
-use crate::web::Filaments;
+use crate::fibre::case::Note;
+use crate::fibre::case::keys::{self, Value};
+use crate::ground::error::{Error, Fault, Place};
+use crate::simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
+use crate::simulation::layers::{LaydownSource, LayerSpec, WebSpec};
+use crate::web::map::Filaments;
 use std::path::PathBuf;
 
 /// The file of a web, read as far as it goes before its filaments are spun and flown.

@@ -1,0 +1,184 @@
+//! Webs of which a few filaments were flown in the same air, compared block by block.
+
+use crate::ground::effects::Effect;
+use crate::ground::statistics::Difference;
+use crate::simulation::layers::WebSpec;
+use crate::web::map::{ExpectedCv, FewDoubt, LayerFew};
+
+/// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
+/// shares of the CV.
+const OF_MESH: f64 = 0.015;
+const OF_OTHER_MESH: f64 = 0.03;
+
+/// What a few filaments say about the layers of a web.
+pub(super) struct WebOfFew {
+    /// Of each layer: its share of the basis weight, and what its filaments say.
+    layers: Vec<(f64, LayerFew)>,
+}
+
+/// What is known of the patches of one side.
+struct Patches<'a> {
+    /// CV² of the web.
+    square: f64,
+    /// The part of it that filaments make each for itself.
+    own: f64,
+    /// Of each layer the squared share of the basis weight, the blocks of the sheet, and their number across.
+    layers: Vec<(f64, &'a [f64], usize)>,
+    /// How far every second filament is off, as a share of the CV.
+    of_halves: f64,
+}
+
+impl WebOfFew {
+    pub(super) fn new(spec: &WebSpec, few: Vec<LayerFew>) -> Self {
+        let share = |few: &LayerFew| spec.alone(few.layer).mass_flow() / spec.mass_flow();
+        Self { layers: few.into_iter().map(|few| (share(&few), few)).collect() }
+    }
+
+    /// The changes of the CV from this web to another one in the same air, over the patches that both have.
+    /// What both have by chance, because they have the same clouds, does not count.
+    ///                                                                  theory.md, "Two webs in the same air"
+    pub(super) fn changes_to(&self, other: &Self) -> Vec<Effect<f64>> {
+        let Some((_, first)) = self.layers.first() else { return Vec::new() };
+        let change = |patch: f64| {
+            let (before, after) = (self.over(patch)?, other.over(patch)?);
+            let ratio = (after.square / before.square).sqrt();
+            let (mut variance, mut degrees, mut common) = (0.0, f64::INFINITY, [0.0; 3]);
+            for ((weight, blocks, across), (other_weight, other_blocks, _)) in
+                before.layers.iter().zip(&after.layers)
+            {
+                let count = blocks.len().min(other_blocks.len());
+                // To first order, half the relative change of CV² is that of CV.
+                let shares = |blocks: &[f64], share: f64| {
+                    let mean = blocks.iter().take(count).sum::<f64>() / count as f64;
+                    blocks.iter().take(count).map(|block| 0.5 * share * (block - mean)).collect::<Vec<_>>()
+                };
+                let here = shares(blocks, weight / before.square);
+                let there = shares(other_blocks, other_weight / after.square);
+                let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+                    here.iter().zip(&there).map(|(here, there)| of(*here, *there)).sum()
+                };
+                let parts: Vec<f64> = here.iter().zip(&there).map(|(here, there)| there - here).collect();
+                let [of_mean, of_error] = variance_of_mean(&parts, *across);
+                let moments = [sum(&|a, _| a * a), sum(&|_, b| b * b), sum(&|a, b| a * b)];
+                common.iter_mut().zip(moments).for_each(|(all, of_layer)| *all += of_layer);
+                variance += of_mean;
+                degrees = degrees.min(of_error);
+            }
+            let by_pitch = 0.5 * (after.of_halves - before.of_halves);
+            let standard_error = ratio * (variance + by_pitch * by_pitch + OF_MESH * OF_MESH).sqrt();
+            let own = Some(0.5 * (after.own - before.own) / before.square);
+            let [here, there, both] = common;
+            let in_common = Some(both / (here * there).sqrt()).filter(|common| common.is_finite());
+            let difference = Difference { value: ratio - 1.0, standard_error, degrees };
+            Some(Effect { of: patch, difference, own, in_common })
+        };
+        first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
+    }
+
+    /// The CV over patches of each size, in an air that no other web has.
+    pub(super) fn cvs(&self) -> Vec<ExpectedCv> {
+        let Some((_, first)) = self.layers.first() else { return Vec::new() };
+        let of_patch = |patch: f64| {
+            let cv = self.over(patch)?.square.sqrt();
+            let part = |(share, few): &(f64, LayerFew)| {
+                let of_layer = few.cvs.iter().find(|of_layer| of_layer.patch == patch)?;
+                let error = of_layer.by_chance?.hypot(of_layer.by_pitch);
+                Some((share * share * of_layer.cv * error / cv).powi(2))
+            };
+            let variance: Option<f64> = self.layers.iter().map(part).sum();
+            let error = variance.map_or(f64::NAN, f64::sqrt).hypot(OF_OTHER_MESH * cv);
+            Some(ExpectedCv::alone(patch, cv, error))
+        };
+        first.cvs.iter().filter_map(|cv| of_patch(cv.patch)).collect()
+    }
+
+    fn over(&self, patch: f64) -> Option<Patches<'_>> {
+        let of_layer = |(share, few): &'_ (f64, LayerFew)| {
+            let number = few.cvs.iter().position(|cv| cv.patch == patch)?;
+            Some((share * share, number))
+        };
+        let mut patches = Patches { square: 0.0, own: 0.0, layers: Vec::new(), of_halves: 0.0 };
+        for layer in &self.layers {
+            let (weight, number) = of_layer(layer)?;
+            // Nothing is a change of a CV that is not told at all.
+            if let Some(FewDoubt::Own(_) | FewDoubt::Neighbours(_)) = layer.1.doubt_over(patch) {
+                return None;
+            }
+            let cv = layer.1.cvs[number];
+            patches.square += weight * cv.cv * cv.cv;
+            patches.own += weight * cv.own;
+            patches.of_halves += weight * cv.cv * cv.cv * cv.of_halves;
+            patches.layers.push((weight, &layer.1.blocks[number][..], layer.1.blocks_across));
+        }
+        patches.of_halves /= patches.square;
+        Some(patches)
+    }
+}
+
+/// Blocks along and across the belt, as far as one still knows of another.
+const ALONG: usize = 3;
+const ACROSS: usize = 2;
+
+/// Variance of the mean of some blocks, and its degrees of freedom. A cloud may reach into the blocks beside
+/// its own, so what these have in common counts too.
+///
+/// * `parts` – deviations from their mean, block after block across
+/// * `across` – number of blocks across; the web goes on at its edges
+fn variance_of_mean(parts: &[f64], across: usize) -> [f64; 2] {
+    let (count, across) = (parts.len() as f64, across.max(1));
+    let along = parts.len() / across;
+    // Weights fall with the distance as those of moving sums of blocks do, so that the variance is never negative.
+    let weight = |steps: usize, reach: usize| 1.0 - steps as f64 / reach as f64;
+    let (mut sum, mut weights, mut squares) = (0.0, 0.0, 0.0);
+    for (number, part) in parts.iter().enumerate() {
+        let [row, column] = [number / across, number % across];
+        for (other, other_part) in parts.iter().enumerate() {
+            let steps = (other % across).abs_diff(column);
+            let steps = [(other / across).abs_diff(row), steps.min(across - steps)];
+            if steps[0] >= ALONG.min(along) || steps[1] >= ACROSS.min(across) {
+                continue;
+            }
+            let weight = weight(steps[0], ALONG) * weight(steps[1], ACROSS);
+            sum += weight * part * other_part;
+            weights += weight / count;
+            squares += weight * weight / count;
+        }
+    }
+    // The mean of all takes a part of the variance away.
+    let left = (1.0 - weights / count).max(0.0);
+    [sum / (count * count) / left, left * count / squares]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    /// Blocks that know nothing of each other, and blocks of which each has a half of its clouds in common
+    /// with the next one along.
+    #[test]
+    fn stat_the_variance_of_the_mean_of_blocks_counts_what_they_have_in_common() {
+        const ACROSS: usize = 4;
+        let mut random = SplitMix64::seed_from_u64(1);
+        let mut normal = || (0..12).map(|_| random.next_u64() as f64 / u64::MAX as f64).sum::<f64>() - 6.0;
+        for in_common in [false, true] {
+            let (mut told, mut found, trials) = (0.0, 0.0, 2000.0);
+            for _ in 0..trials as usize {
+                let clouds: Vec<f64> = (0..16 * ACROSS + ACROSS).map(|_| normal()).collect();
+                let next = |i: usize| if in_common { clouds[i + ACROSS] } else { 0.0 };
+                let mut blocks: Vec<f64> = (0..16 * ACROSS).map(|i| clouds[i] + next(i)).collect();
+                let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+                blocks.iter_mut().for_each(|block| *block -= mean);
+                let [variance, degrees] = variance_of_mean(&blocks, ACROSS);
+                assert!((15.0..21.0).contains(&degrees), "{degrees}");
+                told += variance / trials;
+                found += mean * mean / trials;
+            }
+            println!("{told} {found}");
+            // Two thirds of what a block has in common with the next one count, of five sixths of the whole.
+            let expected = if in_common { 10.0 / 12.0 } else { 1.0 };
+            assert!((told / found / expected - 1.0).abs() < 0.1, "{told} {found}");
+        }
+    }
+}

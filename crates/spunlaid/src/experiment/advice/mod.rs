@@ -1,0 +1,283 @@
+//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are guesses.
+//!
+//! ```text
+//! settings of the line → webs with one of them changed, on the belt that lays the same weight
+//!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre, or block by block
+//!   → in one air the best ones flown once more in another air → Advice
+//! ```
+
+mod aim;
+mod few;
+mod setting;
+
+pub use aim::{AIMS, Aim, judged_by};
+pub use setting::ChangedWeb;
+
+use self::few::WebOfFew;
+use crate::experiment::study::Experiment;
+use crate::fibre::case::Case;
+use crate::ground::effects::{self, Effect, Outcome, RACING, Setting, Trials};
+use crate::ground::error::{Error, Fault};
+use crate::ground::threads::try_each;
+use crate::ground::units::Dimension;
+use crate::simulation::layers::{
+    Compared, FewOfWeb, Flights, Flyer, WebSpec, fits_memory, steps_in_same_air,
+};
+use crate::web::map::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv, nearest_to_seen};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A change of a web.
+pub type Change = effects::Change<ChangedWeb>;
+/// A change of a web with what it does to the CV over patches of each size, as a share of it: negative for a
+/// more even web.
+pub type Tried = effects::Tried<ChangedWeb, f64>;
+/// What changes of settings do to the CV of a web.
+pub type Advice = Trials<ChangedWeb, f64>;
+
+/// What is flown of webs in one air: where guesses are tried, which may be far from what the file says; where
+/// all changes are; and where those are compared once more that may be the best.
+const GUESSES: Compared = Compared { area: 0.06, pitches: 2.0 };
+const CHANGES: Compared = Compared { area: 0.08, pitches: 2.0 };
+const RACE: Compared = Compared { area: 0.12, pitches: 2.0 };
+/// How many times as long or as short eddies have no clouds in common with others.
+const OTHER_EDDIES: f64 = 1.5;
+/// Bits of a seed that are others in another air.
+const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
+pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
+    if spec.flies() {
+        let all = compared(changes);
+        let alone = changes.iter().filter(|change| has_own_clouds(spec, change));
+        let alone: u64 = alone.map(|change| steps_in_same_air(&[&change.experiment.spec], all)).sum();
+        let racing = changes.iter().filter(|change| !is_guess(change)).count().min(RACING) as u64;
+        let again = if racing == 0 { 0 } else { (1 + racing) * steps_in_same_air(&[spec], RACE) };
+        return steps_in_same_air(&all_webs(spec, changes), all) + alone + again;
+    }
+    0
+}
+
+/// What is flown of some changes of a web in one air.
+fn compared(changes: &[Change]) -> Compared {
+    if changes.iter().any(is_guess) { GUESSES } else { CHANGES }
+}
+
+/// A web and the changed ones that are flown beside it.
+fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
+    let beside = changes.iter().filter(|change| !has_own_clouds(spec, change));
+    std::iter::once(spec).chain(beside.map(|change| &change.experiment.spec)).collect()
+}
+
+/// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of
+/// a processor.
+pub const MOST_STEPS: u64 = 20_000_000;
+
+/// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
+/// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
+/// effects are seen. Guesses must also fit into the memory beside each other.
+pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
+    let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
+    let is_told = seen.is_none_or(|seen| findings.patches[seen].doubt.is_none());
+    let says_enough = is_told && few.is_none_or(|layers| layers == spec.layers.len());
+    let are_guesses = changes.iter().any(is_guess);
+    let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
+    says_enough && steps(spec, changes) <= MOST_STEPS && fits()
+}
+
+fn is_same(patch: f64, side: f64) -> bool {
+    (patch / side - 1.0).abs() < 1e-6
+}
+
+fn is_guess(change: &Change) -> bool {
+    change.setting == Setting::GUESS
+}
+
+/// Keeps what flights in one air have said of changes, so that a command which was interrupted goes on.
+pub trait Shelf: std::fmt::Debug {
+    /// What was kept under a key.
+    fn find(&self, key: u32) -> Option<Vec<Outcome<f64>>>;
+    /// Keeps what was found.
+    fn keep(&self, key: u32, found: &[Outcome<f64>]);
+}
+
+/// Tries changes of a web.
+///
+/// * `web`, `findings` – the web as it is, and what was found of it
+/// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`judged_by`]; if None, that
+///   of the patches which the eye judges first
+/// * `shelf` – where what flights in one air say is kept, if it is
+/// * `by` – its counter grows by the [`steps`] of the changes that are done
+///
+/// # Errors
+/// If it is stopped, if nothing is expected of the web as it is, or if no CV is known by which to judge.
+pub fn advise(
+    spec: &WebSpec,
+    (web, findings): (&Web, &Findings),
+    changes: Vec<Change>,
+    judged_by: Option<f64>,
+    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
+) -> Result<Advice, Error> {
+    let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
+        few_of_changes((spec, findings), (changes, of_each), (shelf, by))
+    };
+    let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+    let mut is_in_same_air = false;
+    let mut advice = Trials::new(changes, |changes| {
+        let in_same_air = if has_few { few_of((spec, changes), compared(changes))? } else { None };
+        is_in_same_air = in_same_air.is_some();
+        in_same_air.map_or_else(|| try_alone(spec, (web, findings), changes, by), Ok)
+    })?;
+    let patches = || advice.tried.iter().flat_map(|tried| &tried.effects).map(|effect| effect.of);
+    advice.judged_by = match judged_by {
+        None => nearest_to_seen(patches()).and_then(|number| patches().nth(number)),
+        Some(side) => patches().find(|patch| is_same(*patch, side)),
+    };
+    if let (Some(side), None, false) = (judged_by, advice.judged_by, advice.tried.is_empty()) {
+        let side = Dimension::Length.pretty_to(side, 3);
+        let what = format!("the CV over patches of {side} is not known of the compared webs");
+        return Err(Fault::new(what, "take smaller patches, or a larger sheet").into());
+    }
+    // Nobody chooses the best one of some guesses.
+    if is_in_same_air && advice.tried.iter().any(|tried| !is_guess(&tried.change)) {
+        advice.confirm(|changes| {
+            let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };
+            let mut changes = changes.to_vec();
+            changes.iter_mut().for_each(|Change { experiment, .. }| {
+                experiment.spec = in_another_air(&experiment.spec);
+            });
+            Ok(few_of((&in_another_air(spec), &changes), RACE)?.unwrap_or_default())
+        })?;
+    }
+    Ok(advice)
+}
+
+/// What changes do, each to the CV over patches of each size [m].
+type Outcomes = Vec<Outcome<f64>>;
+
+/// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
+///
+/// * `of_each` – what is flown of each
+fn few_of_changes(
+    (spec, findings): (&WebSpec, &Findings),
+    (changes, of_each): (&[Change], Compared),
+    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
+) -> Result<Option<Outcomes>, Error> {
+    let flyer = Flyer::new(by.threads, by.stop, &unwatched);
+    // Flies webs, unless it is known what they say of the changed ones among them.
+    let tell = |webs: &[&WebSpec], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
+        let key = key_of(spec, webs, of_each);
+        if let Some(found) = shelf.and_then(|shelf| shelf.find(key)) {
+            by.laid.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
+            return Ok(Some(found));
+        }
+        let Some(told) = flyer.few_in_same_air((webs, of_each), by.laid)? else { return Ok(None) };
+        let found = effects(told)?;
+        shelf.iter().for_each(|shelf| shelf.keep(key, &found));
+        Ok::<_, Error>(Some(found))
+    };
+    let webs = all_webs(spec, changes);
+    let beside = tell(&webs, &|told| {
+        let mut told = webs.iter().zip(told).map(|(spec, few)| Ok(WebOfFew::new(spec, few?)));
+        let base = told.next().unwrap_or_else(|| Err(Error::no_fibre()))?;
+        let changes = told.map(|few: Result<_, Error>| few.map(|few| base.changes_to(&few)));
+        Ok(changes.map(|effects| effects.map_err(|why| why.to_string())).collect())
+    })?;
+    let Some(beside) = beside else { return Ok(None) };
+    let (mut beside, mut tried) = (beside.into_iter(), Vec::new());
+    for change in changes {
+        if !has_own_clouds(spec, change) {
+            tried.extend(beside.next());
+            continue;
+        }
+        // The web as it is has been flown.
+        let changed = &change.experiment.spec;
+        let alone = tell(&[changed], &|told| {
+            let effects = |few: FewOfWeb| {
+                Ok(effects_between(&of_maps(&findings.patches), &WebOfFew::new(changed, few?).cvs()))
+            };
+            Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
+        })?;
+        let all_are_flown = || Err("its filaments are so few that all of them are flown".to_owned());
+        tried.push(alone.into_iter().flatten().next().unwrap_or_else(all_are_flown));
+    }
+    Ok(Some(tried))
+}
+
+/// Under what is kept what webs say: a checksum of all on which it depends.
+fn key_of(spec: &WebSpec, webs: &[&WebSpec], of_each: Compared) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(env!("CARGO_PKG_VERSION").as_bytes());
+    let numbers = [of_each.area, of_each.pitches, spec.memory_limit];
+    numbers.iter().for_each(|number| sum.update(&number.to_bits().to_le_bytes()));
+    for web in std::iter::once(&spec).chain(webs) {
+        sum.update(&web.seed.to_le_bytes());
+        sum.update(&Experiment::Web((*web).clone()).checksum().to_le_bytes());
+    }
+    sum.finalize()
+}
+
+/// Whether a changed web hangs in eddies of other lengths, so that it has no clouds in common with the web as it
+/// is. Beside each other they would take the room of the longest eddies and the time of the shortest.
+fn has_own_clouds(spec: &WebSpec, change: &Change) -> bool {
+    let length = |spec: &WebSpec| {
+        let cases = spec.layers.iter().filter_map(|layer| layer.source.case());
+        cases.map(Case::smallest_length_scale).fold(f64::INFINITY, f64::min)
+    };
+    let ratio = length(&change.experiment.spec) / length(spec);
+    !(1.0 / OTHER_EDDIES..=OTHER_EDDIES).contains(&ratio)
+}
+
+/// What becomes of the CV over patches of each size, from webs that have nothing in common.
+fn effects_between(base: &[ExpectedCv], other: &[ExpectedCv]) -> Vec<Effect<f64>> {
+    base.iter().filter_map(|before| before.effect_to(other)).collect()
+}
+
+/// Flies and lays each changed web by itself.
+fn try_alone(
+    spec: &WebSpec,
+    (web, findings): (&Web, &Findings),
+    changes: &[Change],
+    by: LayControl<'_>,
+) -> Result<Outcomes, Error> {
+    let is_shared = spec.flies();
+    let aside = AtomicU64::new(0);
+    let base = match is_shared {
+        true => of_maps(&findings.patches),
+        false => expected_cv(web, LayControl { laid: &aside, ..by })?,
+    };
+    // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in
+    // one air take all threads.
+    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    try_each(abreast, changes.len(), |i| {
+        let changed = &changes[i..=i];
+        let found = cvs(&changed[0].experiment.spec, LayControl { threads, laid: &aside, ..by });
+        by.laid.fetch_add(steps(spec, changed), Ordering::Relaxed);
+        match found {
+            Ok(found) => Ok(Ok(effects_between(&base, &found))),
+            Err(Error::Interrupted) => Err(Error::Interrupted),
+            Err(error) => Ok(Err(error.to_string())),
+        }
+    })
+}
+
+fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
+    work();
+}
+
+/// How uneven a web of filaments in one air is.
+fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
+    let of_map = |found: &PatchFindings| {
+        let few = found.few.map_or(0.0, |few| few.by_pitch);
+        let error = found.map.standard_error.map_or(f64::NAN, |error| error.hypot(few));
+        ExpectedCv::alone(found.map.patch, found.map.cv, error)
+    };
+    patches.iter().filter(|found| found.doubt.is_none()).map(of_map).collect()
+}
+
+/// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of
+/// independent ones.
+fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
+    let mut flown = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
+    if spec.flies() { Ok(of_maps(&flown.find(by)?.patches)) } else { expected_cv(&flown.web, by) }
+}

@@ -1,0 +1,159 @@
+//! Whether the numbers of a line are such as spunbond lines have.
+
+use crate::fibre::case::{Note, Remark};
+use crate::ground::error::Place;
+use crate::simulation::layers::{LayerSpec, WebSpec};
+use std::fmt;
+
+/// A number of a line, with the range in which spunbond lines have it; `docs/line.md` says where that comes from.
+#[derive(Debug)]
+pub struct Limit {
+    /// The key of a web that is this number, or from which it follows.
+    pub key: &'static str,
+    /// What it is called.
+    pub words: &'static str,
+    /// The unit in which a plant says it, and its size [SI].
+    pub unit: (&'static str, f64),
+    /// Least and greatest in this unit.
+    pub range: [f64; 2],
+    /// Whether no line can be outside, or only none is known to be.
+    pub is_law: bool,
+    /// What may be wrong where it is outside.
+    advice: &'static str,
+    /// The number of a web or of one of its layers, if it has it [SI].
+    of: fn(&WebSpec, &LayerSpec) -> Option<f64>,
+}
+
+/// All numbers that are looked at.
+pub const LIMITS: &[Limit] = &[
+    Limit {
+        key: "line.throughput",
+        words: "throughput of a hole",
+        unit: ("g/min", 1e-3 / 60.0),
+        range: [0.05, 5.0],
+        is_law: false,
+        advice: "is it that of several holes?",
+        of: |_, layer| Some(layer.linear_density() * layer.feed_speed),
+    },
+    Limit {
+        key: "fibre.linear_density",
+        words: "titre",
+        unit: ("dtex", 1e-7),
+        range: [0.3, 20.0],
+        is_law: false,
+        advice: "check titre or diameter, and the density",
+        of: |_, layer| Some(layer.linear_density()),
+    },
+    Limit {
+        key: "line.feed_speed",
+        words: "spinning speed",
+        unit: ("m/min", 1.0 / 60.0),
+        range: [500.0, 8000.0],
+        is_law: false,
+        advice: "it follows from throughput and titre, so check both",
+        of: |_, layer| Some(layer.feed_speed),
+    },
+    Limit {
+        key: "line.feed_speed",
+        words: "filament",
+        unit: ("times the speed of its fastest air", 1.0),
+        range: [0.0, 1.0],
+        is_law: true,
+        advice: "air draws no filament faster than it blows: check the speed of the air, throughput and titre",
+        of: |_, layer| {
+            let case = layer.source.case().filter(|case| case.spinline.is_none())?;
+            Some(layer.feed_speed / case.fastest_air()?)
+        },
+    },
+    Limit {
+        key: "line.belt_speed",
+        words: "speed of the belt",
+        unit: ("m/min", 1.0 / 60.0),
+        range: [5.0, 1500.0],
+        is_law: false,
+        advice: "it follows from holes, throughput and basis weight, so check them",
+        of: |_, layer| Some(layer.belt_speed),
+    },
+    Limit {
+        key: "line.basis_weight",
+        words: "basis weight",
+        unit: ("g/m²", 1e-3),
+        range: [3.0, 800.0],
+        is_law: false,
+        advice: "check it, or holes, throughput and belt from which it follows",
+        of: |web, layer| Some(web.mass_flow() / layer.belt_speed),
+    },
+];
+
+/// A number that is outside the range of spunbond lines.
+#[derive(Debug)]
+pub struct Implausible {
+    /// The layer, from 0.
+    pub layer: usize,
+    /// The range.
+    pub limit: &'static Limit,
+    /// The number [SI].
+    pub value: f64,
+}
+
+impl Implausible {
+    /// How far it is outside, as a factor above 1.
+    fn excess(&self) -> f64 {
+        let ([least, greatest], value) = (self.limit.range, self.value / self.limit.unit.1);
+        (least / value).max(value / greatest)
+    }
+
+    /// What is told of it.
+    pub(crate) fn note(&self) -> Note {
+        let Limit { key, words, unit: (unit, size), range, advice, .. } = self.limit;
+        let told = format!("{} {unit}", shown(self.value / size));
+        let range = match range {
+            [0.0, most] => format!("{} at most", shown(*most)),
+            ends => format!("{} {unit}", ends.map(shown).join(" to ")),
+        };
+        let what = Remark::doubt(format!(
+            "is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}"
+        ));
+        Note { place: Place::Code, key: (*key).to_owned(), value: None, what }
+    }
+}
+
+impl fmt::Display for Implausible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.note().fmt(f)
+    }
+}
+
+/// A number with three digits.
+fn shown(number: f64) -> String {
+    format!("{number:.2e}").parse::<f64>().unwrap_or(number).to_string()
+}
+
+/// The numbers of a web that are outside the ranges of spunbond lines, each once.
+pub fn implausible(web: &WebSpec) -> Vec<Implausible> {
+    let of_layer = |(number, layer)| {
+        let of = move |limit: &'static Limit| {
+            Some(Implausible { layer: number, limit, value: (limit.of)(web, layer)? })
+        };
+        LIMITS.iter().filter_map(of).filter(|found| found.excess() > 1.0 + ROUNDING)
+    };
+    web.layers.iter().enumerate().flat_map(of_layer).collect()
+}
+
+/// Share by which a number may be outside.
+const ROUNDING: f64 = 1e-6;
+
+/// Whether a changed web has a number outside the ranges of spunbond lines that the web itself has not, or a filament
+/// that is even faster than its air.
+pub fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
+    let before = implausible(before);
+    let most = |found: &Implausible| {
+        let same = |old: &&Implausible| old.layer == found.layer && std::ptr::eq(old.limit, found.limit);
+        match before.iter().find(same) {
+            Some(old) if found.limit.is_law => old.excess(),
+            Some(_) => f64::INFINITY,
+            None => 1.0,
+        }
+    };
+    implausible(after).iter().any(|found| found.excess() > most(found) * (1.0 + ROUNDING))
+}

@@ -1,0 +1,153 @@
+//! The keys of a study file: a row for each. A key named `*` stands for any name in its table: of keys of
+//! what varies, or of results.
+
+use super::{Design, Spacing, Study};
+use crate::fibre::case::keys::row::{choose, key};
+use crate::fibre::case::keys::{Key, KeyTable, Kind, Sign, Value};
+use crate::ground::units::Dimension;
+
+/// Largest number of points of a study, and of values of a range.
+pub(crate) const MOST_POINTS: u64 = 10_000_000;
+/// Largest number of replicates of a point.
+pub(crate) const MOST_REPLICATES: u64 = 1_000_000;
+/// The table of a range of values, which stands in place of a list.
+pub(crate) const RANGE: &str = "range";
+
+/// The keys of a study.
+pub static STUDY: KeyTable<Study> = KeyTable {
+    rows: KEYS,
+    tables: &["set", "vary", "link", "replicates", "replicates.until", "claims"],
+    lists: &[],
+    noun: "a study",
+    file: "a study file",
+};
+
+const ONE_BASE: &str = "a study varies a case, a web or a spinline, so keep one of them";
+
+/// In the order of the file.
+const KEYS: &[Key<Study>] = &[
+    key("case", Kind::Text("table1.toml"))
+        .told(|study: &Study| base(study, "case.toml"))
+        .required("\"table1.toml\"")
+        .meaning(
+            "The file of the case to vary, named from where the study lies. Every key that is not \
+            varied or linked is as it says.",
+        ),
+    key("web", Kind::Text("web.toml"))
+        .told(|study: &Study| base(study, "web.toml"))
+        .alternative_to(&["case"], ONE_BASE)
+        .follows("a case varies")
+        .meaning("The file of a web to vary, in place of a case."),
+    key("spinline", Kind::Text("spinline.toml"))
+        .told(|study: &Study| base(study, "spinline.toml"))
+        .alternative_to(&["case", "web"], ONE_BASE)
+        .follows("a case varies")
+        .meaning("The file of a spinline to vary alone, in place of a case."),
+    choose("design", || Design::all(1).map(Design::name).to_vec())
+        .told(|study: &Study| Some(study.design.name().into()))
+        .fixed()
+        .required("\"grid\"")
+        .meaning(
+            "How the values are combined to points: every combination; around the base one key at a \
+            time; the first values of all lists, then the second ones; or a number of points drawn at random \
+            in slices of the ranges.",
+        ),
+    key("points", Kind::Whole(1, MOST_POINTS))
+        .told(|study: &Study| match study.design {
+            Design::LatinHypercube(points) => Some(points.into()),
+            _ => None,
+        })
+        .follows("that of the values; required for `latin-hypercube`, like `64`")
+        .meaning("Number of points that `latin-hypercube` draws."),
+    key("seed", Kind::Whole(0, u64::MAX))
+        .told(|study: &Study| Some(study.seed.into()))
+        .follows("that of the case or web")
+        .meaning("Master seed of the random phases, and of a Latin hypercube."),
+    key("common_phases", Kind::Switch)
+        .told(|study: &Study| Some(study.common_phases.to_string().into()))
+        .value("true")
+        .meaning("Whether all points have turbulence of the same random phases."),
+    key("replicates", Kind::Whole(1, MOST_REPLICATES))
+        .told(|study: &Study| study.replicates.until.is_empty().then(|| study.replicates.at_most.into()))
+        .follows("that of the case; one web")
+        .meaning("Fibres or webs at each point; or, as a table, until their results are as exact as asked."),
+    key("set.*", Kind::Other("a value of that key, or \"auto\""))
+        .told(|_: &Study| None)
+        .follows("every key is as the case or web says")
+        .meaning(
+            "A key that is the same at all points, with a value in place of that of the case or web. \
+            `auto` takes the key out.",
+        ),
+    key("vary.*", Kind::Other("a list of values, or { from, to, steps }; a formula belongs in [link]"))
+        .told(|_: &Study| None)
+        .required("\"air.velocity\" = [\"5 m/s\", \"10 m/s\"]")
+        .meaning(
+            "A key that varies. The keys of cases and webs that may vary are marked *study* in their pages.",
+        ),
+    key("link.*", Kind::Text("air.velocity / (4 * air.length_scale)"))
+        .told(|_: &Study| None)
+        .follows("none is linked")
+        .meaning("A key that follows from others by a formula."),
+    key("claims.*", Kind::Text("amplitude_y: air.velocity > 5 * fibre.density"))
+        .told(|_: &Study| None)
+        .follows("nothing is judged")
+        .meaning(
+            "A claim in a sentence, and how it is judged: `RESULT: KEY > 5 * OTHER KEY` that a key moves the             result by more than five times what the other one does, over their ranges; `RESULT: KEY rises`,             `falls` or `turns` how the result follows a key, the others as at the first point.",
+        ),
+    key("replicates.at_least", Kind::Whole(2, MOST_REPLICATES))
+        .told(|study: &Study| (!study.replicates.until.is_empty()).then(|| study.replicates.at_least.into()))
+        .follows("8, or `at_most` if that is less")
+        .meaning("Replicates that every point gets."),
+    key("replicates.at_most", Kind::Whole(2, MOST_REPLICATES))
+        .told(|study: &Study| (!study.replicates.until.is_empty()).then(|| study.replicates.at_most.into()))
+        .value("100")
+        .meaning("Most replicates of a point."),
+    key("replicates.until.*", Kind::Quantity(Dimension::Ratio, Sign::Positive))
+        .told(|_: &Study| None)
+        .follows("required beside `at_least` and `at_most`, like `amplitude_y = \"5 %\"`")
+        .meaning(
+            "A result, as its column is called, and the standard error below which a point gets no more \
+            replicates, as a fraction of its mean.",
+        ),
+    key("range.from", Kind::Other("a value of the key"))
+        .told(|_: &Study| None)
+        .required("\"5 m/s\"")
+        .meaning("The first value of a range, `{ from = \"5 m/s\", to = \"30 m/s\", steps = 6 }`."),
+    key("range.to", Kind::Other("a value of the key"))
+        .told(|_: &Study| None)
+        .required("\"30 m/s\"")
+        .meaning("The last value of a range."),
+    key("range.steps", Kind::Whole(2, MOST_POINTS))
+        .told(|_: &Study| None)
+        .follows("the design draws the values; required for the others, like `5`")
+        .meaning("Number of values, both ends included."),
+    choose("range.spacing", || [Spacing::Linear, Spacing::Logarithmic].map(Spacing::name).to_vec())
+        .told(|_: &Study| None)
+        .fixed()
+        .value("linear")
+        .meaning("Equal differences between the values, or equal ratios."),
+];
+
+impl Study {
+    /// The file of what its points vary, in the folder of its results.
+    pub fn base_file(&self) -> &'static str {
+        match self.noun() {
+            "web" => "web.toml",
+            "spinline" => "spinline.toml",
+            _ => "case.toml",
+        }
+    }
+}
+
+/// The file of what varies, if it is this one.
+fn base(study: &Study, file: &str) -> Option<Value> {
+    (study.base_file() == file).then(|| file.into())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn relations_name_keys_that_are_there_and_values_that_they_take() {
+        super::STUDY.check_relations();
+    }
+}

@@ -1,0 +1,55 @@
+//! Lays the webs of a study, one after another.
+
+use super::measures::{Record, ReplicateOutcome, measured_of_web};
+use super::pack::Batch;
+use super::{Point, seed_of_point};
+use crate::ground::error::Error;
+use crate::simulation::ensemble::RunControl;
+use crate::simulation::layers::{Flights, Flyer, WebSpec};
+use crate::web::map::LayControl;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments
+/// of a web fly in one air.
+///
+/// * `sides` – of the patches of the study [m]
+/// * `steps` – the number of steps and pieces to do becomes larger by those of each case and each web
+/// * `take` – receives the record of each web, in their order
+///
+/// # Errors
+/// If fibres cannot be flown or read, if a web cannot be laid, and every error of `take`.
+pub(super) fn lay(
+    (points, sides): (&[Point], &[f64]),
+    batches: &[Batch],
+    computing: RunControl<'_>,
+    steps: &AtomicU64,
+    mut take: impl FnMut(Record) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let RunControl { threads, isa, stop, fibre_steps, .. } = computing;
+    let follow = |Flights { done, steps: all, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+        steps.fetch_add(all, Ordering::Relaxed);
+        work();
+        fibre_steps.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
+    };
+    let flyer = Flyer::new(threads, stop, &follow);
+    for Batch { point, replicates } in batches {
+        let Some(spec) = points[*point].experiment.web() else { continue };
+        for replicate in replicates.clone() {
+            let seed = seed_of_web(spec, replicate);
+            let spec = WebSpec { seed, ..spec.clone() };
+            let mut flown = flyer.web(&spec)?;
+            steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
+            let found = flown.find(LayControl { threads, isa, stop, laid: fibre_steps })?;
+            let fabric = spec.fabric(&flown.web, &found, threads);
+            let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found, &fabric));
+            take(Record { point: *point as u64, replicate, outcome })?;
+        }
+    }
+    Ok(())
+}
+
+/// The seed of a web of a point, or of a trial. The same webs lie at each, as far as the keys allow: what differs is
+/// then less by chance.
+pub(crate) fn seed_of_web(spec: &WebSpec, replicate: u64) -> u64 {
+    if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}

@@ -1,0 +1,279 @@
+//! The keys of a kind of input, and how its file is divided into tables.
+
+use super::{Key, Omission, Relations};
+use crate::fibre::case::Case;
+use crate::ground::error::{by_similarity, nearest_word};
+
+/// The keys of a kind of input: those of a case, or those of a web.
+#[derive(Debug)]
+pub struct KeyTable<T: 'static = Case> {
+    /// A row for each key, in the order of the file.
+    pub rows: &'static [Key<T>],
+    /// The tables at the top of its file, in order, and the lists of tables.
+    pub tables: &'static [&'static str],
+    /// Its lists of tables.
+    pub(crate) lists: &'static [TableList],
+    /// The input in words, `a case`.
+    pub(crate) noun: &'static str,
+    /// Its file in words, `a case file`.
+    pub(crate) file: &'static str,
+}
+
+/// A list of tables in a file, like `[[layer]]`. An entry has a number in the full name of its keys,
+/// `layer.2.line.belt_speed`.
+#[derive(Debug)]
+pub(crate) struct TableList {
+    /// Its name with the table in which it stands, `line.rows`.
+    pub(crate) name: &'static str,
+    /// The tables that stand in each of its entries.
+    pub(crate) tables: &'static [&'static str],
+    /// Those of them that may also stand once, at the top of the file, and then hold for all entries.
+    pub(crate) common: &'static [&'static str],
+    /// What an entry is, `a layer`.
+    pub(crate) entry: &'static str,
+    /// What to write, in words.
+    pub(crate) wanted: &'static str,
+}
+
+impl<T> KeyTable<T> {
+    /// The other keys whose values these keys give, if all of them are set: each may be replaced by them.
+    pub fn replaced_by(&self, names: &[&str]) -> Vec<&'static str> {
+        let mut replaced: Vec<&'static str> = Vec::new();
+        let relations = || self.rows.iter().filter(|key| !key.relations.alternative_to.is_empty());
+        loop {
+            let gives = |name: &str| names.contains(&name) || replaced.contains(&name);
+            let others = relations().flat_map(|key| match key.relations.alternative_to {
+                others if gives(key.name) => others.to_vec(),
+                others if others.iter().all(|other| gives(other)) => vec![key.name],
+                _ => Vec::new(),
+            });
+            let Some(next) = others.into_iter().find(|other| !gives(other)) else { return replaced };
+            replaced.push(next);
+        }
+    }
+
+    /// The keys of flown cases whose values these keys give, and the keys that give a value of these in other
+    /// words: all of them are replaced where these are set.
+    pub(crate) fn replaced_between(&self, names: &[&str]) -> Vec<&'static str> {
+        let giving = || self.rows.iter().filter(|key| !key.relations.gives_case.is_empty());
+        let given = giving().filter(|key| names.contains(&key.name)).flat_map(|key| key.relations.gives_case);
+        let others = giving().filter(|key| key.relations.gives_case.iter().any(|name| names.contains(name)));
+        given.copied().chain(others.map(|key| key.name)).filter(|name| !names.contains(name)).collect()
+    }
+
+    /// Whether a table may stand at the top of the file beside the list in whose entries it stands.
+    pub(crate) fn is_common(&self, table: &str) -> bool {
+        let top = table.split('.').next().unwrap_or(table);
+        self.lists.iter().any(|list| list.common.contains(&top))
+    }
+
+    /// Whether written keys give the value of a key in other words.
+    pub(crate) fn is_given(&self, name: &str, is_written: impl Fn(&str) -> bool) -> bool {
+        let gives = |key: &Key<T>| key.relations.alternative_to.contains(&name) && is_written(key.name);
+        self.rows.iter().any(gives)
+    }
+
+    /// Whether a key gives the value of another one, of its own file or of a case, by their names.
+    pub(crate) fn gives(&self, name: &str, other: &str) -> bool {
+        let gives =
+            |key: &Key<T>| [key.relations.alternative_to, key.relations.gives_case].concat().contains(&other);
+        self.find(name).is_some_and(gives)
+    }
+
+    /// Whether one of two keys gives the value of the other, by their names.
+    pub(crate) fn are_alternatives(&self, one: &str, other: &str) -> bool {
+        self.gives(one, other) || self.gives(other, one)
+    }
+
+    /// What applies if a key is left out, in words, with backquotes around values and names of keys.
+    pub fn left_out(&self, key: &Key<T>) -> String {
+        let required = |example| format!("required, like `{example}`");
+        let mut words = match key.omission {
+            Omission::Required(example) => required(example),
+            Omission::Value(value) => format!("`{value}`"),
+            Omission::Follows(words) => words.to_owned(),
+        };
+        if let Some((when, value)) = key.relations.default_if {
+            words += &format!("; {}, `{value}`", when.words);
+        }
+        if let Some((when, example)) = key.relations.needed_if {
+            words += &format!("; {}, {}", when.words, required(example));
+        }
+        let is_instead = |other: &&Key<T>| other.relations.alternative_to.contains(&key.name);
+        let instead = self.rows.iter().filter(is_instead).map(|other| format!("`{}`", other.name));
+        let instead = instead.collect::<Vec<_>>().join(" or ");
+        match key.omission {
+            Omission::Required(_) if !instead.is_empty() => words + &format!(", unless {instead} is written"),
+            _ => words,
+        }
+    }
+
+    /// The key with this full name, `air.velocity`.
+    pub fn find(&self, name: &str) -> Option<&'static Key<T>> {
+        self.rows.iter().find(|key| key.name == name)
+    }
+
+    /// The keys of a table.
+    pub fn keys_of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
+        self.rows.iter().filter(move |key| key.table() == table)
+    }
+
+    /// The key with this short name, if exactly one table has such a key.
+    pub(crate) fn find_by_short_name(&self, name: &str) -> Option<&'static Key<T>> {
+        // The air of a spinline has the names of the air, which are meant more often.
+        let of_spinline = |key: &&Key<T>| key.table().starts_with("spinline");
+        let only = |is_wanted: &dyn Fn(&&Key<T>) -> bool| {
+            let homes = self.rows.iter().filter(|key| key.short() == name && !self.is_within(key.table()));
+            let mut homes = homes.filter(is_wanted);
+            let home = homes.next();
+            if homes.next().is_some() { None } else { home }
+        };
+        only(&|key| !of_spinline(key)).or_else(|| only(&of_spinline))
+    }
+
+    /// The keys of any table that are similar to one written in `table`, or that have such a synonym, the most
+    /// similar first.
+    pub(crate) fn like(&self, table: &str, key: &str) -> Vec<&'static Key<T>> {
+        // Of equally similar keys, prefer the one of the same table.
+        let bonus = |home: &str| if home == table { 0.05 } else { 0.0 };
+        let spellings = |known: &'static Key<T>| {
+            let words = std::iter::once(known.short()).chain(known.synonyms.iter().copied());
+            words.map(move |word| (known, word, bonus(known.table())))
+        };
+        let mut like = by_similarity(key, self.rows.iter().flat_map(spellings));
+        let mut names = std::collections::BTreeSet::new();
+        like.retain(|key| names.insert(key.name));
+        like
+    }
+
+    /// The row of a table whose keys may have any name.
+    pub(crate) fn of_any_name(&self, table: &str) -> Option<&'static Key<T>> {
+        self.keys_of_table(table).find(|key| key.short() == "*")
+    }
+
+    /// Whether a table has no place of its own in the file: it stands in place of a value.
+    pub(crate) fn is_within(&self, table: &str) -> bool {
+        !table.is_empty() && !self.tables.contains(&table) && self.list(table).is_none()
+    }
+
+    /// The list with this name.
+    pub(crate) fn list(&self, name: &str) -> Option<&'static TableList> {
+        self.lists.iter().find(|list| list.name == name)
+    }
+
+    /// The tables that stand in a table, or at the top of the file: `spinline.material` stands in `spinline`.
+    pub(crate) fn tables_in(&self, table: &str) -> Vec<&'static str> {
+        match self.list(table) {
+            Some(list) => list.tables.to_vec(),
+            None => self.tables.iter().copied().filter(|inner| parent(inner) == table).collect(),
+        }
+    }
+
+    /// The table that stands in another one, or at the top of the file.
+    pub(crate) fn table_in(&self, table: &str, name: &str) -> Option<&'static str> {
+        let is_named = |inner: &&str| inner.rsplit('.').next() == Some(name);
+        self.tables_in(table).into_iter().find(|one| is_named(one) && self.list(one).is_none())
+    }
+
+    /// The table that is most similar to a misspelt one.
+    pub(crate) fn nearest_table(&self, table: &str, name: &str) -> Option<&'static str> {
+        nearest_word(name, self.tables_in(table).into_iter())
+    }
+
+    /// A table or list of the file as it is written, `[air]` or `[[layer]]`.
+    pub fn header(&self, table: &str) -> String {
+        match self.list(table) {
+            Some(_) => format!("[[{table}]]"),
+            None if self.is_within(table) => format!("a {table}"),
+            None => format!("[{table}]"),
+        }
+    }
+}
+
+/// The table in which a table stands; empty for one at the top of the file.
+fn parent(table: &str) -> &str {
+    table.rsplit_once('.').map_or("", |(parent, _)| parent)
+}
+
+/// Name of a table, and its keys in one or several parts.
+pub(crate) type Table<T> = (&'static str, &'static [&'static [Key<T>]]);
+
+/// The names of tables.
+pub(crate) const fn names<T, const TABLES: usize>(tables: &[Table<T>; TABLES]) -> [&'static str; TABLES] {
+    let (mut names, mut i) = ([""; TABLES], 0);
+    while i < names.len() {
+        names[i] = tables[i].0;
+        i += 1;
+    }
+    names
+}
+
+/// Number of keys of tables.
+pub(crate) const fn count<T>(tables: &[Table<T>]) -> usize {
+    let (mut count, mut i) = (0, 0);
+    while i < tables.len() {
+        let (parts, mut j) = (tables[i].1, 0);
+        while j < parts.len() {
+            count += parts[j].len();
+            j += 1;
+        }
+        i += 1;
+    }
+    count
+}
+
+/// The keys of tables, one after another.
+pub(crate) const fn joined<T, const COUNT: usize>(tables: &[Table<T>]) -> [Key<T>; COUNT] {
+    let mut all = [tables[0].1[0][0]; COUNT];
+    let (mut count, mut i) = (0, 0);
+    while i < tables.len() {
+        let (parts, mut j) = (tables[i].1, 0);
+        while j < parts.len() {
+            let (keys, mut k) = (parts[j], 0);
+            while k < keys.len() {
+                all[count] = keys[k];
+                count += 1;
+                k += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    all
+}
+
+/// What a key says of its values and of other keys, without access to an input: for a file that describes
+/// several inputs.
+pub(crate) fn described<T>(key: &Key<T>) -> Key<()> {
+    let of = &key.relations;
+    let relations = Relations {
+        alternative_to: of.alternative_to,
+        remedy: of.remedy,
+        read_after: of.read_after,
+        gives: of.gives,
+        takes_unit: of.takes_unit,
+        in_study: of.in_study,
+        same_in_case: of.same_in_case,
+        gives_case: of.gives_case,
+        of_all_layers: of.of_all_layers,
+        ..Relations::NONE
+    };
+    Key {
+        name: key.name,
+        kind: key.kind,
+        omission: key.omission,
+        meaning: key.meaning,
+        synonyms: key.synonyms,
+        label: key.label,
+        varies: key.varies,
+        in_flight: key.in_flight,
+        slider: key.slider,
+        usual: key.usual,
+        read_last: key.read_last,
+        words: key.words,
+        relations,
+        get: |()| None,
+        set: |(), _| Ok(()),
+        derived: |()| false,
+    }
+}

@@ -1,0 +1,442 @@
+//! How a row of the table of keys is written.
+
+use super::value::{FileKind, Kind, SWITCH, Sign, Value};
+use super::{Condition, Key, Omission, Relations};
+use crate::air::motion::{Flow, PlacedField};
+use crate::fibre::case::Case;
+use crate::fibre::line::Line;
+use crate::ground::error::Fault;
+use crate::ground::units::Dimension;
+use crate::ground::vec3::Vec3;
+
+/// How to get and set the value of a key in a case or another input.
+pub(crate) struct AccessTo<T: 'static> {
+    pub(crate) get: fn(&T) -> Option<Value>,
+    pub(crate) set: fn(&mut T, &Value) -> Result<(), Fault>,
+}
+
+/// Access to a case.
+pub(super) type Access = AccessTo<Case>;
+
+/// A fibre that is fed on to a belt.
+pub(super) const FED: &Condition = &Condition { words: "of a fed fibre", holds: |case| case.line.is_some() };
+
+/// What a key is in memory.
+pub(crate) trait KeyField {
+    /// Its value; None if there is none.
+    fn tell(&self) -> Option<Value>;
+
+    /// Sets it.
+    fn take(&mut self, value: &Value) -> Result<(), Fault>;
+}
+
+/// Fields of a plain type, each with what makes a value of them and what takes one.
+macro_rules! fields {
+    ($($type:ty: $tell:expr, $take:ident;)+) => {
+        $(impl KeyField for $type {
+            fn tell(&self) -> Option<Value> {
+                let tell: fn(&Self) -> Value = $tell;
+                Some(tell(self))
+            }
+
+            fn take(&mut self, value: &Value) -> Result<(), Fault> {
+                *self = $take(value)?;
+                Ok(())
+            }
+        })+
+    };
+}
+
+fields! {
+    f64: |number| Value::Number(*number), number;
+    u64: |number| Value::Whole(*number), whole;
+    bool: |switch| Value::from_switch(*switch), switch;
+    String: |text| Value::Text(text.clone()), text;
+    usize: |number| Value::Whole(*number as u64), count;
+    Vec3<f64>: |vector| Value::Vector(*vector), vector;
+    Vec<f64>: |list| Value::Numbers(list.clone()), numbers;
+}
+
+impl<F: KeyField + Default> KeyField for Option<F> {
+    fn tell(&self) -> Option<Value> {
+        self.as_ref()?.tell()
+    }
+
+    fn take(&mut self, value: &Value) -> Result<(), Fault> {
+        self.insert(F::default()).take(value)
+    }
+}
+
+/// Fields that are one of several named options: `named_fields!(Root)`.
+macro_rules! named_fields {
+    ($($type:ty),+) => {
+        $(impl $crate::fibre::case::keys::row::KeyField for $type {
+            fn tell(&self) -> Option<$crate::fibre::case::keys::Value> {
+                Some(self.name().into())
+            }
+
+            fn take(&mut self, value: &$crate::fibre::case::keys::Value) -> Result<(), $crate::ground::error::Fault> {
+                $crate::fibre::case::keys::row::change(self, value, &Self::ALL, |one| one.name())
+            }
+        })+
+    };
+}
+
+/// Access to a field, `at!(fibre.diameter)`; or to one of a part that an input may lack, which two functions find,
+/// `at!(placed, placed_mut, root)`.
+macro_rules! at {
+    ($($field:ident).+) => {
+        Access {
+            get: |input| $crate::fibre::case::keys::row::KeyField::tell(&input.$($field).+),
+            set: |input, value| $crate::fibre::case::keys::row::KeyField::take(&mut input.$($field).+, value),
+        }
+    };
+    ($get:ident, $set:ident, $($field:ident).+) => {
+        Access {
+            get: |input| $crate::fibre::case::keys::row::KeyField::tell(&$get(input)?.$($field).+),
+            set: |input, value| $crate::fibre::case::keys::row::KeyField::take(&mut $set(input)?.$($field).+, value),
+        }
+    };
+}
+
+/// Access to a field of a part that an input may lack: where the part is, to read and to change it, its pattern with
+/// the field, and what is wrong without it.
+macro_rules! within {
+    (|$input:ident| $get:expr, $set:expr, $pattern:pat => $part:ident $(.$field:ident)*, $fault:expr) => {
+        Access {
+            get: |$input| {
+                use $crate::fibre::case::keys::row::KeyField as _;
+                match $get {
+                    $pattern => $part $(.$field)* .tell(),
+                    _ => None,
+                }
+            },
+            set: |$input, value| {
+                use $crate::fibre::case::keys::row::KeyField as _;
+                match $set {
+                    $pattern => $part $(.$field)* .take(value),
+                    _ => Err($fault),
+                }
+            },
+        }
+    };
+}
+
+pub(crate) use {at, within};
+
+/// Access to a number of the air that the flow may give instead.
+macro_rules! of_air {
+    ($field:ident) => {
+        Access {
+            get: |case| Some(Value::Number(case.air.$field)),
+            set: |case, value| {
+                case.air.$field = number(value)?;
+                case.air.from_flow.$field = false;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to a factor on a number of the air that the flow gives: `of_flow!(length_scale, length_factor)`.
+macro_rules! of_flow {
+    ($number:ident, $factor:ident) => {
+        Access {
+            get: |case| case.air.from_flow.$number.then_some(Value::Number(case.air.$factor)),
+            set: |case, value| {
+                if !case.air.flow.numbers().$number {
+                    let needed = concat!("a profile or a field that gives ", stringify!($number));
+                    return Err(Fault::needs(needed, concat!("change air.", stringify!($number))));
+                }
+                case.air.$factor = number(value)?;
+                Ok(())
+            },
+        }
+    };
+}
+
+/// Access to the name of an array that a case gives for a field: `of_field_layout!(velocity)`.
+macro_rules! of_field_layout {
+    ($array:ident) => {
+        Access {
+            get: |case| placed(case)?.field.layout().$array.clone().map(Value::Text),
+            set: |case, value| {
+                let name = text(value)?;
+                match placed_mut(case)?.field.layout().$array == Some(name) {
+                    // The field has been read with it.
+                    true => Ok(()),
+                    false => Err(read_with_case()),
+                }
+            },
+        }
+    };
+}
+
+/// Access to what a case says of the file of a record: `of_record!(rate, Value::Number, number)`.
+macro_rules! of_record {
+    ($field:ident, $value:path, $read:ident) => {
+        Access {
+            get: |case| case.air.records.first()?.layout.clone().$field.map($value),
+            set: |case, value| {
+                let setting = $read(value)?;
+                match case.air.records.first() {
+                    None => Err(Fault::needs("air.record", "leave it out")),
+                    // The records have been read with it.
+                    Some(record) if record.layout.$field == Some(setting) => Ok(()),
+                    Some(_) => Err(read_with_case()),
+                }
+            },
+        }
+    };
+}
+
+/// Access to a time that is a whole number of steps.
+macro_rules! steps {
+    ($field:ident, $time:ident, $least:expr) => {
+        Access {
+            get: |case| (case.run.time_step > 0.0).then(|| Value::Number(case.run.$time())),
+            set: |case, value| {
+                case.run.$field = whole_parts(number(value)?, case.run.time_step).0.max($least);
+                Ok(())
+            },
+        }
+    };
+}
+
+/// A key of which it is still to be said where its value is.
+pub(crate) struct NewKey {
+    name: &'static str,
+    kind: Kind,
+    varies: bool,
+}
+
+pub(crate) const fn key(name: &'static str, kind: Kind) -> NewKey {
+    NewKey { name, kind, varies: false }
+}
+
+/// A quantity, which a study may vary.
+pub(crate) const fn quantity(name: &'static str, dimension: Dimension, sign: Sign) -> NewKey {
+    NewKey { name, kind: Kind::Quantity(dimension, sign), varies: true }
+}
+
+/// One of a few words, which a study may vary.
+pub(crate) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>) -> NewKey {
+    NewKey { name, kind: Kind::Choice(names), varies: true }
+}
+
+pub(super) const fn file(name: &'static str, kind: FileKind) -> NewKey {
+    key(name, Kind::File(kind))
+}
+
+impl NewKey {
+    /// Where its value is.
+    pub(crate) const fn access<T>(self, access: AccessTo<T>) -> Key<T> {
+        let (Self { name, kind, varies }, AccessTo { get, set }) = (self, access);
+        Key {
+            name,
+            kind,
+            omission: Omission::Follows(""),
+            meaning: "",
+            synonyms: &[],
+            label: name,
+            varies,
+            in_flight: false,
+            slider: None,
+            usual: None,
+            read_last: false,
+            words: &[],
+            relations: Relations::NONE,
+            get,
+            set,
+            derived: |_| false,
+        }
+    }
+
+    /// A key of a file that is read as a whole: its value can be told, and is never set alone.
+    pub(crate) const fn told<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
+        self.access(AccessTo { get, set: |_, _| Err(read_with_case()) })
+    }
+}
+
+impl<T> Key<T> {
+    pub(crate) const fn required(self, example: &'static str) -> Self {
+        Self { omission: Omission::Required(example), ..self }
+    }
+
+    pub(crate) const fn value(self, value: &'static str) -> Self {
+        Self { omission: Omission::Value(value), ..self }
+    }
+
+    pub(crate) const fn follows(self, words: &'static str) -> Self {
+        Self { omission: Omission::Follows(words), ..self }
+    }
+
+    pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
+        Self { meaning, ..self }
+    }
+
+    pub(crate) const fn synonyms(self, synonyms: &'static [&'static str]) -> Self {
+        Self { synonyms, ..self }
+    }
+
+    pub(crate) const fn label(self, label: &'static str) -> Self {
+        Self { label, ..self }
+    }
+
+    pub(crate) const fn slider(self, least: f64, greatest: f64) -> Self {
+        Self { slider: Some((least, greatest)), ..self }
+    }
+
+    pub(crate) const fn usual(self, least: f64, greatest: f64) -> Self {
+        Self { usual: Some((least, greatest)), ..self }
+    }
+
+    pub(crate) const fn varies(self) -> Self {
+        Self { varies: true, ..self }
+    }
+
+    pub(crate) const fn fixed(self) -> Self {
+        Self { varies: false, ..self }
+    }
+
+    pub(crate) const fn in_flight(self) -> Self {
+        Self { in_flight: true, ..self }
+    }
+
+    pub(crate) const fn read_last(self) -> Self {
+        Self { read_last: true, ..self }
+    }
+
+    /// Words that may stand in place of a number.
+    pub(crate) const fn or_words(self, words: &'static [&'static str]) -> Self {
+        Self { words, ..self }
+    }
+
+    pub(crate) const fn derived(self, derived: fn(&T) -> bool) -> Self {
+        Self { derived, ..self }
+    }
+}
+
+/// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.
+fn wrong_type(value: &Value, wanted: &str) -> Fault {
+    Fault::wrong_type(value.what(), wanted)
+}
+
+/// The fault of a value that can only be set by reading the case again.
+pub(crate) fn read_with_case() -> Fault {
+    Fault::new(
+        "is read from a file together with the case",
+        "write it in the case file and read the case again",
+    )
+}
+
+pub(crate) fn number(value: &Value) -> Result<f64, Fault> {
+    value.number().ok_or_else(|| wrong_type(value, "a number"))
+}
+
+pub(crate) fn whole(value: &Value) -> Result<u64, Fault> {
+    match value {
+        Value::Whole(number) => Ok(*number),
+        _ => Err(wrong_type(value, "a whole number")),
+    }
+}
+
+fn count(value: &Value) -> Result<usize, Fault> {
+    Ok(usize::try_from(whole(value)?).unwrap_or(usize::MAX))
+}
+
+/// A list of numbers; one alone makes a list.
+fn numbers(value: &Value) -> Result<Vec<f64>, Fault> {
+    match value {
+        Value::Numbers(numbers) => Ok(numbers.clone()),
+        _ => Ok(vec![number(value)?]),
+    }
+}
+
+pub(crate) fn text(value: &Value) -> Result<String, Fault> {
+    match value {
+        Value::Text(text) => Ok(text.clone()),
+        _ => Err(wrong_type(value, "a text")),
+    }
+}
+
+pub(crate) fn switch(value: &Value) -> Result<bool, Fault> {
+    match value {
+        Value::Text(text) if text == SWITCH[1] => Ok(true),
+        Value::Text(text) if text == SWITCH[0] => Ok(false),
+        _ => Err(wrong_type(value, "true or false")),
+    }
+}
+
+pub(super) fn vector(value: &Value) -> Result<Vec3<f64>, Fault> {
+    match value {
+        Value::Vector(vector) => Ok(*vector),
+        _ => Err(wrong_type(value, "a vector")),
+    }
+}
+
+pub(crate) fn named<T: Copy>(value: &Value, all: &[T], name: impl Fn(T) -> &'static str) -> Result<T, Fault> {
+    let found = match value {
+        Value::Text(text) => all.iter().copied().find(|one| name(*one) == text),
+        _ => None,
+    };
+    found.ok_or_else(|| wrong_type(value, "a name"))
+}
+
+/// Takes a number that a file may give, and says whether it does.
+pub(super) fn take(number: &mut f64, of_file: Option<f64>) -> bool {
+    *number = of_file.unwrap_or(*number);
+    of_file.is_some()
+}
+
+/// Changes to another of several named options. One that is chosen already keeps its numbers.
+pub(super) fn change<T: Copy>(
+    chosen: &mut T,
+    value: &Value,
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+) -> Result<(), Fault> {
+    let other = named(value, all, &name)?;
+    if name(other) != name(*chosen) {
+        *chosen = other;
+    }
+    Ok(())
+}
+
+pub(super) fn placed(case: &Case) -> Option<&PlacedField> {
+    match &case.air.flow {
+        Flow::Field(placed) => Some(placed),
+        _ => None,
+    }
+}
+
+pub(super) fn placed_mut(case: &mut Case) -> Result<&mut PlacedField, Fault> {
+    match &mut case.air.flow {
+        Flow::Field(placed) => Ok(placed),
+        _ => {
+            let remedy = "leave it out, or name the file of a CFD field";
+            Err(Fault::needs("air.field", remedy))
+        }
+    }
+}
+
+pub(super) fn fed(case: &Case) -> Option<&Line> {
+    case.line.as_ref()
+}
+
+/// Feed and belt of a fed fibre.
+pub(super) fn line(case: &mut Case) -> Result<&mut Line, Fault> {
+    let remedy = "leave it out, or feed the fibre on to a belt";
+    case.line.as_mut().ok_or_else(|| Fault::needs("feed.speed", remedy))
+}
+
+/// Refuses a value that the spinline of the case gives.
+pub(super) fn without_spinline(case: &Case) -> Result<(), Fault> {
+    if case.spinline.is_none() {
+        return Ok(());
+    }
+    Err(Fault::excludes(
+        "[spinline]",
+        "the spinline gives this number; leave it out, or leave out [spinline]",
+    ))
+}

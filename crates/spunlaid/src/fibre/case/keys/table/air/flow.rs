@@ -1,0 +1,230 @@
+//! The mean flow of the air: a number, a profile or a CFD field.
+
+use crate::air::motion::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
+use crate::fibre::case::keys::Key;
+use crate::fibre::case::keys::row::{
+    Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text,
+};
+use crate::fibre::case::keys::value::Sign::{Any, Positive};
+use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
+use crate::ground::error::Fault;
+use crate::ground::units::Dimension;
+
+named_fields!(Axis);
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("air.velocity", Dimension::Velocity, Any)
+        .access(Access {
+            get: |case| Some(Value::Number(case.air.velocity)),
+            set: |case, value| {
+                let flow = match case.air.flow {
+                    Flow::Uniform => {
+                        case.air.velocity = number(value)?;
+                        return Ok(());
+                    }
+                    Flow::Profile(_) => "air.profile",
+                    Flow::Field(_) => "air.field",
+                };
+                Err(Fault::new(
+                    format!("has no effect because {flow} gives the velocity"),
+                    "leave it out, and scale the flow with air.speed_factor",
+                ))
+            },
+        })
+        .derived(|case| !case.air.is_uniform())
+        .inferred(|case| {
+            let of_record = case.air.records.first().and_then(|record| record.says.velocity);
+            take(&mut case.air.velocity, of_record)
+        })
+        .required("10 m/s")
+        // Up to the speed of sound.
+        .usual(1e-3, 340.0)
+        .meaning("Mean velocity of the air along x. A record, a profile or a field gives it instead.")
+        .synonyms(&["air speed", "wind"])
+        .label("Mean velocity *U*")
+        .slider(0.0, 60.0)
+        .in_flight(),
+    file("air.profile", FileKind::Profile)
+        .access(Access {
+            get: |case| match &case.air.flow {
+                Flow::Profile(profile) => Some(Content::Profile(profile.clone()).into()),
+                _ => None,
+            },
+            set: |case, value| {
+                let Value::Content(Content::Profile(profile)) = value else {
+                    return Err(read_with_case());
+                };
+                case.air.flow = Flow::Profile(profile.clone());
+                Ok(())
+            },
+        })
+        .alternative_to(&["air.field"], "the air is one or the other; leave one out")
+        .gives("air.")
+        .follows("the same air everywhere")
+        .meaning(
+            "Table of the air along the fibre: velocity over the distance from the root and, if it has \
+             such columns, turbulence.",
+        ),
+    file("air.field", FileKind::Field)
+        .access(Access {
+            get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
+            set: |case, value| {
+                let Value::Content(Content::Field(field)) = value else {
+                    return Err(read_with_case());
+                };
+                let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
+                let root = PlacedField::middle_of_inlet(&field, axis, unit);
+                let (length_constant, time_constant) = (LENGTH_CONSTANT, TIME_CONSTANT);
+                let machine_direction = Axis::ALL[1];
+                let placed = PlacedField {
+                    field,
+                    root,
+                    axis,
+                    machine_direction,
+                    unit,
+                    length_constant,
+                    time_constant,
+                };
+                case.air.flow = Flow::Field(Box::new(placed));
+                Ok(())
+            },
+        })
+        .gives("air.")
+        .follows("the same air everywhere")
+        .meaning(
+            "CFD solution around the fibre: VTK files or tables of points with the velocity and, if \
+             available, k with ε or ω.",
+        ),
+    key("air.field_root", Kind::Point)
+        .access(at!(placed, placed_mut, root))
+        .read_after(&["air.field_axis", "air.field_unit"])
+        .inferred(|case| {
+            let Ok(placed) = placed_mut(case) else { return false };
+            placed.root = PlacedField::middle_of_inlet(&placed.field, placed.axis, placed.unit);
+            true
+        })
+        .follows("the middle of the side where the air enters the box around the field")
+        .meaning(
+            "Position of the root in the field: three coordinates, as lengths. Choose the position of the \
+             spinneret's hole, or of the slot where the fibre enters the diffuser.",
+        ),
+    choose("air.field_axis", || Axis::ALL.map(Axis::name).to_vec())
+        .access(at!(placed, placed_mut, axis))
+        .value("x")
+        .meaning(
+            "Direction in the field that is the fibre's x, the direction of gravity. Write `-z` if the CFD \
+             model points down along −z.",
+        )
+        .label("Direction of the fibre in the field"),
+    choose("air.field_machine_direction", || Axis::ALL.map(Axis::name).to_vec())
+        .access(at!(placed, placed_mut, machine_direction))
+        .read_after(&["air.field_axis"])
+        .inferred(|case| {
+            let Ok(placed) = placed_mut(case) else { return false };
+            placed.machine_direction = PlacedField::usual_machine_direction(&placed.field, placed.axis);
+            true
+        })
+        .follows("in the plane of a plane flow, so that the air is the same along the cross direction")
+        .meaning(
+            "Direction in the field that is the fibre's y, the machine direction, in which the belt runs; at a \
+             right angle to `air.field_axis`. The fibre's z, the cross direction, follows from both.",
+        )
+        .synonyms(&["MD", "belt"])
+        .label("Machine direction in the field"),
+    quantity("air.field_unit", Dimension::Length, Positive)
+        .access(at!(placed, placed_mut, unit))
+        .or_unit()
+        .value("1 m")
+        .usual(1e-6, 10.0)
+        .meaning(
+            "Length of one unit of the field's coordinates. Write `1 mm` if the mesh was drawn in \
+             millimetres. Velocities are not scaled.",
+        )
+        .fixed(),
+    key("air.field_velocity", Kind::Text("U"))
+        .access(of_field_layout!(velocity))
+        .follows("the array with a usual name of the velocity")
+        .meaning(
+            "Array of the velocity in a field, by name: one of three components, or two or three of one \
+             with commas between them, `Ux, Uy, Uz`.",
+        ),
+    key("air.field_k", Kind::Text("k"))
+        .access(of_field_layout!(k))
+        .follows("the array with a usual name of k")
+        .meaning("Array of the turbulent kinetic energy k in a field, by name.")
+        .synonyms(&["TKE"]),
+    key("air.field_epsilon", Kind::Text("epsilon"))
+        .access(of_field_layout!(epsilon))
+        .follows("the array with a usual name of ε")
+        .meaning("Array of the dissipation rate ε of the turbulence in a field, by name."),
+    key("air.field_omega", Kind::Text("omega"))
+        .access(of_field_layout!(omega))
+        .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
+        .follows("the array with a usual name of ω, if there is none of ε")
+        .meaning(
+            "Array of the specific dissipation rate ω of the turbulence in a field, by name, in place of ε.",
+        ),
+    quantity("air.length_constant", Dimension::Ratio, Positive)
+        .access(at!(placed, placed_mut, length_constant))
+        .value("0.43")
+        .usual(0.01, 10.0)
+        .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
+        .label("Constant of the eddies’ length *C*_{L}")
+        .slider(0.1, 1.0),
+    quantity("air.time_constant", Dimension::Ratio, Positive)
+        .access(at!(placed, placed_mut, time_constant))
+        .value("0.3")
+        .usual(0.01, 10.0)
+        .meaning(
+            "Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency follows as \
+             ¼ (velocity/length + 1/T).",
+        )
+        .label("Constant of the eddies’ lifetime *C*_{T}")
+        .slider(0.1, 1.0),
+    quantity("air.speed_factor", Dimension::Ratio, Positive)
+        .access(Access {
+            get: |case| (!case.air.is_uniform()).then_some(Value::Number(case.air.speed_factor)),
+            set: |case, value| {
+                if case.air.is_uniform() {
+                    let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
+                    return Err(Fault::needs(needed, remedy));
+                }
+                case.air.speed_factor = number(value)?;
+                Ok(())
+            },
+        })
+        .value("1")
+        .usual(0.01, 100.0)
+        .meaning("Factor on all velocities of a profile or a field. It makes the same flow faster or slower.")
+        .label("Factor on the velocity of the air")
+        .slider(0.2, 3.0)
+        .in_flight(),
+    choose("air.widening", || Widening::ALL.map(Widening::name).to_vec())
+        .access(Access {
+            get: |case| {
+                let widening = case.air.widening.filter(|_| matches!(case.air.flow, Flow::Profile(_)))?;
+                Some(widening.name().into())
+            },
+            set: |case, value| {
+                let widening = named(value, &Widening::ALL, Widening::name)?;
+                let remedy = match (&case.air.flow, widening) {
+                    (Flow::Profile(_), _) | (_, Widening::None) => {
+                        case.air.widening = Some(widening);
+                        return Ok(());
+                    }
+                    (Flow::Uniform, _) => "leave it out: air that keeps its speed does not widen",
+                    (Flow::Field(_), _) => {
+                        "leave it out: the field's own velocity across says how the flow widens"
+                    }
+                };
+                Err(Fault::needs("air.profile", remedy))
+            },
+        })
+        .follows("the air only slows, and a web says so")
+        .meaning(
+            "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine \
+             direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the slot. \
+             `none`: the air only slows, and this is meant.",
+        )
+        .label("Widening of the mean flow"),
+];

@@ -1,0 +1,175 @@
+//! The numbers of the air: strength and size of its turbulence, density and viscosity.
+
+use crate::air::motion::{
+    Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape, density_at, kinematic_viscosity_at,
+};
+use crate::fibre::case::keys::row::{Access, number, quantity, take};
+use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
+use crate::fibre::case::keys::value::Value;
+use crate::fibre::case::keys::{Key, TAYLOR};
+use crate::ground::error::Fault;
+use crate::ground::units::Dimension;
+
+/// Takes a number of the air from the flow, which is asked for it when the air is settled, or from a file.
+macro_rules! from_air {
+    ($field:ident, $of_file:expr) => {
+        |case| {
+            let of_file: fn(&Air) -> Option<f64> = $of_file;
+            let of_file = of_file(&case.air);
+            case.air.from_flow.$field = case.air.flow.numbers().$field;
+            case.air.from_flow.$field || take(&mut case.air.$field, of_file)
+        }
+    };
+}
+
+/// What the first record says of the air.
+fn said(air: &Air) -> Option<RecordNumbers> {
+    Some(air.records.first()?.says)
+}
+
+/// The highest frequency of a measured spectrum or of a record.
+fn highest(air: &Air) -> Option<f64> {
+    match &air.spectrum {
+        SpectrumShape::Measured(table) => Some(table.highest()),
+        _ => Some(said(air)?.cutoff_frequency),
+    }
+}
+
+/// Sets the cut-off frequency by Taylor's hypothesis: eddies of length `L` that pass at velocity `U` make
+/// `U/(4 L)`.
+fn by_taylor(air: &mut Air) -> Result<(), Fault> {
+    if !air.is_uniform() || air.from_flow.length_scale {
+        let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
+        return Err(Fault::needs(needed, remedy));
+    }
+    // NaN where either is missing, which has been reported.
+    air.cutoff_frequency = air.velocity.abs() / (4.0 * air.length_scale);
+    Ok(())
+}
+
+/// The fault of a temperature for which the formula of the viscosity does not hold.
+fn beyond_sutherland() -> Fault {
+    let (least, most) = (*SUTHERLAND_RANGE.start(), *SUTHERLAND_RANGE.end());
+    Fault::new(
+        format!("is not between {least} and {most} K, where the formula of the air's viscosity holds"),
+        "correct the temperature or its unit, or write air.density and air.kinematic_viscosity instead",
+    )
+}
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative)
+        .access(of_air!(turbulence_intensity))
+        .derived(|case| case.air.from_flow.turbulence_intensity)
+        .inferred(from_air!(turbulence_intensity, |air| said(air)?.turbulence_intensity))
+        .required("0.1")
+        .usual(1e-5, 1.0)
+        .meaning(
+            "Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile \
+             or a field may give it instead.",
+        )
+        .synonyms(&["turbulence level", "degree of turbulence"])
+        .label("Turbulence intensity *Tu*")
+        .slider(0.0, 0.5)
+        .in_flight(),
+    quantity("air.length_scale", Dimension::Length, Positive)
+        .access(of_air!(length_scale))
+        .derived(|case| case.air.from_flow.length_scale)
+        .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
+        .required("50 mm")
+        .usual(1e-5, 10.0)
+        .meaning(
+            "Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, \
+             a profile or a field may give it instead.",
+        )
+        .synonyms(&["eddy size", "integral length scale"])
+        .label("Length of the eddies *L*_{T}")
+        .slider(5e-3, 0.2),
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive)
+        .access(Access {
+            get: |case| Some(Value::Number(case.air.cutoff_frequency)),
+            set: |case, value| {
+                if matches!(value, Value::Text(word) if word == TAYLOR) {
+                    return by_taylor(&mut case.air);
+                }
+                case.air.cutoff_frequency = number(value)?;
+                case.air.from_flow.cutoff_frequency = false;
+                Ok(())
+            },
+        })
+        .read_after(&["air.velocity", "air.length_scale"])
+        .derived(|case| case.air.from_flow.cutoff_frequency)
+        .inferred(from_air!(cutoff_frequency, highest))
+        .required("100 Hz")
+        .or_words(&[TAYLOR])
+        .usual(0.1, 50000.0)
+        .meaning(
+            "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A \
+             record, a spectrum, a profile or a field may give it instead.",
+        )
+        .label("Cut-off frequency *f*")
+        .slider(10.0, 1000.0),
+    quantity("air.intensity_factor", Dimension::Ratio, NotNegative)
+        .access(of_flow!(turbulence_intensity, intensity_factor))
+        .value("1")
+        .usual(0.01, 100.0)
+        .meaning(
+            "Factor on the turbulence intensity of a profile or a field. It makes the same air calmer or \
+             rougher everywhere.",
+        )
+        .label("Factor on the turbulence intensity")
+        .slider(0.2, 3.0),
+    quantity("air.length_factor", Dimension::Ratio, Positive)
+        .access(of_flow!(length_scale, length_factor))
+        .value("1")
+        .usual(0.01, 100.0)
+        .meaning(
+            "Factor on the length scale of a profile or a field. All eddies are so many times as long, and \
+             the cut-off frequency of the flow is so many times lower, because longer eddies take more time \
+             to pass.",
+        )
+        .synonyms(&["eddy size"])
+        .label("Factor on the length of the eddies")
+        .slider(0.2, 3.0),
+    quantity("air.density", Dimension::Density, NotNegative)
+        .access(at!(air.density))
+        .value("1.204 kg/m³")
+        // From a thousandth to fifty times that of the atmosphere.
+        .usual(0.01, 50.0)
+        .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
+        .label("Air density")
+        .slider(0.0, 2.0)
+        .in_flight(),
+    quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive)
+        .access(at!(air.kinematic_viscosity))
+        .value("1.51e-5 m²/s")
+        // From compressed to hot thin air.
+        .usual(5e-7, 1e-3)
+        .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
+        .label("Kinematic viscosity *ν*")
+        .slider(1e-5, 6e-5)
+        .in_flight(),
+    quantity("air.temperature", Dimension::Temperature, Any)
+        .access(Access {
+            get: |_| None,
+            set: |case, value| {
+                let temperature = number(value)?;
+                if !SUTHERLAND_RANGE.contains(&temperature) {
+                    return Err(beyond_sutherland());
+                }
+                case.air.density = density_at(temperature);
+                case.air.kinematic_viscosity = kinematic_viscosity_at(temperature);
+                Ok(())
+            },
+        })
+        .alternative_to(
+            &["air.density", "air.kinematic_viscosity"],
+            "the temperature gives density and viscosity; leave it out, or leave out both of these",
+        )
+        .follows("density and viscosity as they are written, or at 20 °C")
+        .meaning(
+            "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
+             `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+        )
+        .label("Air temperature")
+        .slider(253.15, 373.15),
+];

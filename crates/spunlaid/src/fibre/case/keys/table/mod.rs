@@ -1,0 +1,29 @@
+//! The table of keys: one row for each, in the order of a case file.
+
+mod air;
+mod belt;
+mod drag;
+mod fibre;
+mod run;
+mod spinline;
+
+use super::Key;
+use super::key_table::{Table, count, joined, names};
+use crate::fibre::case::Case;
+
+/// The tables of a case file and their keys, in one or several parts.
+const TABLES: [Table<Case>; 8] = [
+    ("spinline", spinline::KEYS),
+    ("spinline.material", spinline::MATERIAL),
+    ("fibre", &[fibre::KEYS]),
+    ("feed", &[belt::FEED]),
+    ("belt", &[belt::KEYS]),
+    ("air", air::KEYS),
+    ("drag", &[drag::KEYS]),
+    ("run", &[run::KEYS]),
+];
+
+/// The names of the tables.
+pub(super) const NAMES: [&str; TABLES.len()] = names(&TABLES);
+
+pub(super) static KEYS: [Key; count(&TABLES)] = joined(&TABLES);

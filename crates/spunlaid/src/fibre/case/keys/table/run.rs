@@ -1,0 +1,138 @@
+//! The run: times, replicates, scheme and what is kept.
+
+use super::super::Key;
+use super::super::row::{Access, FED, choose, key, number, quantity};
+use super::super::value::Sign::{Any, NotNegative, Positive};
+use super::super::value::{Kind, Value};
+use crate::fibre::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
+use crate::fibre::chain::schemes::Scheme;
+use crate::ground::units::Dimension;
+
+named_fields!(Checks, Scheme);
+
+pub(super) const KEYS: &[Key] = &[
+    quantity("run.duration", Dimension::Time, Positive)
+        .access(steps!(steps, duration, 1))
+        .required("1 s")
+        .usual(1e-5, 3600.0)
+        .meaning("Time that is simulated, the spin-up included.")
+        .label("Simulated time")
+        .slider(0.1, 10.0)
+        .read_last(),
+    quantity("run.time_step", Dimension::Time, Positive)
+        .access(Access {
+            get: |case| Some(Value::Number(case.run.time_step)),
+            set: |case, value| {
+                case.set_time_step(number(value)?);
+                Ok(())
+            },
+        })
+        .follows(
+            "the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the \
+             stability limit; of a fed fibre, a whole part of the time in which an element is fed, at most \
+             half of it",
+        )
+        .usual(1e-10, 0.1)
+        .meaning(
+            "Length of a time step. It must be below the stability limit; otherwise a message gives the \
+             limit.",
+        )
+        .label("Time step *h*")
+        .slider(1e-7, 1e-3)
+        .read_last(),
+    quantity("run.error_tolerance", Dimension::Ratio, Positive)
+        .access(Access {
+            get: |_| None,
+            set: |case, value| {
+                let (time_step, _) = case.suggested_time_step(number(value)?, case.run.duration());
+                case.set_time_step(time_step);
+                Ok(())
+            },
+        })
+        .value("0.003")
+        .usual(1e-7, 0.1)
+        .meaning(
+            "Largest error of the free end's path that the time step may cause, divided by its amplitude. \
+             The time step is chosen from it if `run.time_step` is left out.",
+        )
+        .label("Error tolerance")
+        .slider(1e-4, 0.03)
+        .read_last(),
+    key("run.replicates", Kind::Whole(1, MOST_REPLICATES))
+        .access(at!(run.replicates))
+        .value("10")
+        .in_study("replicates = 10")
+        .meaning(
+            "Number of fibres, each in its own turbulence. Means and standard errors are taken over them.",
+        ),
+    key("run.seed", Kind::Whole(0, u64::MAX)).access(at!(run.seed)).value("1").in_study("seed = 1").meaning(
+        "Seed of the random phases. Another seed gives other turbulence; the same seed gives the same \
+             results to the last bit.",
+    ),
+    choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec())
+        .access(at!(run.scheme))
+        .value("semi-implicit-euler")
+        .default_if(FED, "implicit-tension")
+        .meaning(
+            "Time integration: the paper's scheme has first order, `leapfrog` has second order, \
+             `implicit-tension` allows long steps.",
+        )
+        .label("Scheme"),
+    quantity("run.gravity", Dimension::Acceleration, Any)
+        .access(at!(run.gravity))
+        .value("9.81 m/s²")
+        // From a thousandth of the earth's to thirty times it.
+        .usual(0.01, 300.0)
+        .meaning("Acceleration of gravity, along x.")
+        .label("Gravity *g*")
+        .slider(0.0, 20.0)
+        .in_flight(),
+    quantity("run.spin_up", Dimension::Time, NotNegative)
+        .access(steps!(spin_up_steps, spin_up, 0))
+        .value("0 s")
+        .usual(1e-9, 3600.0)
+        .meaning(
+            "Time at the start that the statistics of the motion leave out; the energy errors and the time \
+             outside the flow include it. The fibre starts straight and at rest, and its motion depends on \
+             this start for a fraction of a second. Of a fed fibre the default is four times distance / \
+             feed speed, at most half the run: it comes down once, and its length between inlet and belt \
+             is laid twice.",
+        )
+        .label("Spin-up")
+        .slider(0.0, 1.0)
+        .read_last(),
+    quantity("run.output_interval", Dimension::Time, Positive)
+        .access(steps!(output_steps, output_interval, 1))
+        .value("1 ms")
+        .usual(1e-7, 10.0)
+        .meaning("Time from one recorded instant to the next.")
+        .label("Output interval")
+        .slider(1e-4, 1e-2)
+        .read_last(),
+    key("run.shapes", Kind::Whole(0, MOST_SHAPES))
+        .access(at!(run.shapes))
+        .follows("every recorded instant as far as they fit into 96 MB, of which 500 go to ParaView")
+        .meaning(
+            "Number of shapes of a fibre that are kept for the moving picture and for ParaView, evenly \
+             over the run, at most one for each recorded instant. Eight in each period of the end's motion \
+             follow it. `0` keeps none.",
+        ),
+    choose("run.checks", || Checks::ALL.map(Checks::name).to_vec())
+        .access(at!(run.checks))
+        .value("auto")
+        .meaning(
+            "What the checks of time step and mesh may cost, which fly some fibres again when the results \
+             are written. `auto`: together at most a fifth of the flight; what that does not buy is not \
+             checked, and the run says so. `full`: whatever the whole run takes with a finer step and with \
+             finer elements. `none`: nothing is checked.",
+        )
+        .label("Checks"),
+    quantity("run.damping", Dimension::Rate, NotNegative)
+        .access(at!(run.damping))
+        .value("0 1/s")
+        .usual(0.001, 100000.0)
+        .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")
+        .label("Damping")
+        .slider(0.0, 100.0)
+        .in_flight(),
+];

@@ -1,0 +1,155 @@
+//! What the thread does on its way, how the melt stretches, freezes, cools and breaks; and what is known at its end.
+
+use super::{known, of_spinline, spinline, spun};
+use crate::fibre::case::keys::row::{Access, change, choose, key, number, quantity, switch};
+use crate::fibre::case::keys::value::Sign::{Any, Positive, Share};
+use crate::fibre::case::keys::value::{Kind, Value};
+use crate::fibre::case::keys::{FLOWN, Key};
+use crate::fibre::spinline::{End, Law, PolymerSource};
+use crate::ground::error::Fault;
+use crate::ground::units::Dimension;
+
+named_fields!(Law);
+
+pub(super) const KEYS: &[Key] = &[
+    choose("spinline.law", || Law::ALL.map(Law::name).to_vec())
+        .access(at!(spun, spinline, law))
+        .value("newtonian")
+        .meaning(
+            "How the melt resists stretching: as a Newtonian liquid, or viscoelastic by Giesekus (with \
+             `modulus` and `mobility` of [spinline.material]) or Phan-Thien–Tanner (with `modulus` and \
+             `extensibility`).",
+        )
+        .label("Law of the melt"),
+    key("spinline.crystallisation", Kind::Switch)
+        .access(Access {
+            get: |case| Some(Value::from_switch(case.spinline.as_ref()?.crystallisation)),
+            set: |case, value| {
+                let (line, crystallises) = (spinline(case)?, switch(value)?);
+                if crystallises != line.crystallisation
+                    && let PolymerSource::Known(polymer) = line.polymer
+                {
+                    let [before, after] = [line.crystallisation, crystallises]
+                        .map(|flag| polymer.material(flag).freezing_temperature);
+                    if line.material.freezing_temperature == before {
+                        line.material.freezing_temperature = after;
+                    }
+                }
+                line.crystallisation = crystallises;
+                Ok(())
+            },
+        })
+        .value("false")
+        .meaning(
+            "Whether crystallisation on the way is computed. Its enhancement by orientation was chosen and \
+             not measured, so that places of crystallisation are no predictions.",
+        )
+        .label("Crystallisation")
+        .varies(),
+    quantity("spinline.emissivity", Dimension::Ratio, Share)
+        .access(of_spinline!(emissivity))
+        .value("0.0")
+        .usual(0.01, 1.0)
+        .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
+        .label("Emissivity *ε*"),
+    key("spinline.dissipation", Kind::Switch)
+        .access(at!(spun, spinline, dissipation))
+        .value("false")
+        .meaning("Whether the work of stretching heats the thread.")
+        .label("Dissipation")
+        .varies(),
+    quantity("spinline.nusselt_factor", Dimension::Ratio, Positive)
+        .access(of_spinline!(nusselt_factor))
+        .value("1.0")
+        .usual(0.2, 5.0)
+        .meaning("Factor on the Nusselt number of Kase and Matsuo. Measurements leave a doubt of some 20 %.")
+        .label("Factor on the Nusselt number")
+        .slider(0.5, 1.5),
+    quantity("spinline.break_stress", Dimension::Pressure, Positive)
+        .access(of_spinline!(break_stress))
+        .follows("no limit, because none is known well enough")
+        .usual(1e5, 1e9)
+        .meaning("Stress at which the thread breaks. A line in which it is reached is refused.")
+        .label("Stress at break"),
+];
+
+/// The words of `spinline.end`.
+const END: [&str; 2] = ["free", "take-up"];
+
+pub(super) const END_KEYS: &[Key] = &[
+    choose("spinline.end", || END.to_vec())
+        .access(Access {
+            get: |case| {
+                Some(match case.spinline.as_ref()?.end {
+                    End::Tension(_) | End::Flown(_) => END[0].into(),
+                    End::TakeUp(_) => END[1].into(),
+                })
+            },
+            set: |case, value| {
+                change(&mut spinline(case)?.end, value, &[End::Tension(0.0), End::TakeUp(f64::NAN)], |end| {
+                    match end {
+                        End::Tension(_) | End::Flown(_) => END[0],
+                        End::TakeUp(_) => END[1],
+                    }
+                })
+            },
+        })
+        .value("free")
+        .meaning(
+            "What is known at the end of the line: `free`, the tension (that of a fibre which flies on in \
+             the air), or `take-up`, the speed of a godet.",
+        )
+        .label("End of the spinline"),
+    quantity("spinline.take_up_speed", Dimension::Velocity, Positive)
+        .access(Access {
+            get: |case| match case.spinline.as_ref()?.end {
+                End::TakeUp(speed) => known(speed),
+                End::Tension(_) | End::Flown(_) => None,
+            },
+            set: |case, value| match &mut spinline(case)?.end {
+                End::TakeUp(speed) => {
+                    *speed = number(value)?;
+                    Ok(())
+                }
+                End::Tension(_) | End::Flown(_) => {
+                    Err(Fault::needs("spinline.end = \"take-up\"", "leave it out, or write this line too"))
+                }
+            },
+        })
+        .follows("a free end")
+        .usual(0.1, 200.0)
+        .meaning("Speed at which a godet takes the filament up.")
+        .label("Take-up speed")
+        .slider(1.0, 100.0),
+    quantity("spinline.end_tension", Dimension::Force, Any)
+        .access(Access {
+            get: |case| match case.spinline.as_ref()?.end {
+                End::Tension(tension) => Some(Value::Number(tension)),
+                End::Flown(_) => Some(FLOWN.into()),
+                End::TakeUp(_) => None,
+            },
+            set: |case, value| {
+                let line = spinline(case)?;
+                if let End::TakeUp(_) = line.end {
+                    return Err(Fault::excludes(
+                        "spinline.end = \"take-up\"",
+                        "the speed is given; leave it out",
+                    ));
+                }
+                line.end = match value {
+                    Value::Text(word) if word == FLOWN => End::Flown(0.0),
+                    value => End::Tension(number(value)?),
+                };
+                Ok(())
+            },
+        })
+        .value("0 N")
+        .or_words(&[FLOWN])
+        .usual(1e-9, 1.0)
+        .meaning(
+            "Tension at a free end: the pull of the fibre that flies on below the line. With \"flown\" \
+             some fibres fly, their mean tension at the root is fed back, and they fly again until the \
+             speed stands within 0.1 %; the result says which tension it was.",
+        )
+        .label("Tension at the end"),
+];

@@ -1,0 +1,102 @@
+//! Notes and warnings about a case that can be run.
+
+use crate::ground::error::{Fault, Finding, Problem};
+use std::fmt;
+use std::panic::Location;
+
+/// A note or a warning about a case that can be run.
+pub type Note = Finding<Remark>;
+
+/// What a note or a warning says about a value of a case. The text continues after `key = value `.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    text: String,
+    weight: Weight,
+    /// Where in the program it arises: all remarks from there are of one kind.
+    origin: &'static Location<'static>,
+}
+
+/// How much a remark matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Weight {
+    /// A choice of the program, which is no flaw: the case with every default written out says it.
+    Choice,
+    /// For example on rounding.
+    Note,
+    /// The results may mislead.
+    Warning,
+    /// A number that no spunbond line is known to have.
+    Doubt,
+}
+
+impl Remark {
+    #[track_caller]
+    pub(crate) fn choice(text: impl Into<String>) -> Self {
+        Self::new(Weight::Choice, text.into())
+    }
+
+    #[track_caller]
+    pub(crate) fn note(text: impl Into<String>) -> Self {
+        Self::new(Weight::Note, text.into())
+    }
+
+    #[track_caller]
+    pub(crate) fn warning(text: impl Into<String>) -> Self {
+        Self::new(Weight::Warning, text.into())
+    }
+
+    #[track_caller]
+    pub(crate) fn doubt(text: impl Into<String>) -> Self {
+        Self::new(Weight::Doubt, text.into())
+    }
+
+    #[track_caller]
+    fn new(weight: Weight, text: String) -> Self {
+        Self { text, weight, origin: Location::caller() }
+    }
+
+    /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.
+    pub fn is_warning(&self) -> bool {
+        self.weight >= Weight::Warning
+    }
+
+    /// Whether it is about a number that no spunbond line is known to have.
+    pub fn is_doubt(&self) -> bool {
+        self.weight == Weight::Doubt
+    }
+
+    /// Whether it is a choice of the program, which is no flaw.
+    pub fn is_choice(&self) -> bool {
+        self.weight == Weight::Choice
+    }
+
+    /// Whether another one says the same, perhaps with other numbers.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.origin == other.origin
+    }
+
+    /// The same, said of one file of several.
+    pub(crate) fn of_file(self, file: &str) -> Self {
+        Self { text: format!("{file}: {}", self.text), ..self }
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// A warning becomes a problem where something else is wrong with the case, because it may be the cause.
+impl From<Note> for Problem {
+    fn from(Note { place, key, value, what }: Note) -> Self {
+        Self { place, key, value, what: Fault::plain(what.text) }
+    }
+}
+
+impl Note {
+    /// The notes that go with results: all but choices.
+    pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
+        notes.iter().filter(|note| !note.what.is_choice()).map(Self::to_string).collect()
+    }
+}

@@ -1,0 +1,271 @@
+//! What is worth a note or a warning in a case that can be run.
+
+use super::Case;
+use super::keys::finding;
+use super::note::{Note, Remark};
+use crate::air::field::{Hint, is_even};
+use crate::air::motion::{Flow, SpectrumShape};
+use crate::fibre::drag::NormalLaw;
+use crate::ground::error::Place;
+use crate::ground::units::Dimension;
+use crate::ground::vec3::Vec3;
+
+/// Share of the measured drag across a fibre below which a case is warned [-].
+const LOW_DRAG: f64 = 0.5;
+/// Velocity at the belt over that at the inlet below which the widening of the air matters [-].
+const LEAST_SLOWING: f64 = 0.9;
+/// Change of the velocity over the width of a web, over its mean, above which a web is warned [-].
+const MOST_ACROSS: f64 = 0.05;
+
+impl Case {
+    /// Notes and warnings.
+    pub(super) fn notes(&self) -> Vec<Note> {
+        let (fibre, l) = (&self.fibre, self.fibre.rest_length());
+        let mut notes = Vec::new();
+        let mut note = |key, value, remark| notes.push(finding(key, value, remark));
+        let across = self.drag.across;
+        let there_is_air = self.air.density > 0.0;
+        if let Some(fitted) = across.fitted_diameters()
+            && there_is_air
+            && !fitted.contains(&fibre.diameter)
+        {
+            let [from, to] = [fitted.start(), fitted.end()].map(|end| Dimension::Length.pretty(*end));
+            let (law, instead) = (across.name(), NormalLaw::MarheinekeWegener.name());
+            let text = format!(
+                "is outside {from} to {to}, the range of diameters that drag.across = \"{law}\" was fitted to; the \
+                 drag across the fibre is extrapolated. \"{instead}\" is valid for any diameter"
+            );
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+        }
+        if let Some(fitted) = across.fitted_reynolds()
+            && there_is_air
+            && !fitted.contains(&self.reynolds_across())
+        {
+            let text = format!(
+                "gives Reynolds numbers across the fibre up to {}, and drag.across = \"{}\" is valid up to {}; the \
+                 drag across the fibre is extrapolated. No other law covers so thick a fibre in so fast air",
+                Dimension::Ratio.pretty_to(self.reynolds_across(), 3),
+                across.name(),
+                Dimension::Ratio.pretty(*fitted.end())
+            );
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+        }
+        let reynolds = self.usual_reynolds_across();
+        // Outside of the diameters that it was fitted to, the case is warned of the law anyway.
+        let fitted = across.fitted_diameters().is_some_and(|fitted| fitted.contains(&fibre.diameter));
+        if across == NormalLaw::JuShambaugh && fitted && there_is_air && reynolds > 0.0 {
+            let measured = NormalLaw::MarheinekeWegener;
+            let drag = |law: NormalLaw| law.coefficient(reynolds, fibre.diameter);
+            let share = drag(across) / drag(measured);
+            if share < LOW_DRAG {
+                let (law, instead) = (across.name(), measured.name());
+                let [reynolds, share] = [reynolds, share].map(|number| Dimension::Ratio.pretty_to(number, 2));
+                let text = format!(
+                    "has Reynolds numbers of about {reynolds} across the fibre. There drag.across = \"{law}\" gives \
+                     only {share} times the drag that was measured on fine fibres and cylinders; \"{instead}\" agrees \
+                     with these measurements"
+                );
+                note("fibre.diameter", fibre.diameter, Remark::warning(text));
+            }
+        }
+        let element_length = Dimension::Length.pretty(l);
+        if fibre.diameter > l {
+            let text = format!("is larger than the element length, {element_length}; use longer elements");
+            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+        }
+        // At the centres of the first and the last element.
+        let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
+        let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
+        let root_outside = self.root_outside();
+        if root_outside.is_none() && !centres.into_iter().all(knows) {
+            let (key, length) = match self.line {
+                Some(line) => ("belt.distance", line.distance),
+                None => ("fibre.length", fibre.length),
+            };
+            let text = "reaches out of the region where the flow is known; outside it, the air at the nearest \
+                known point is used";
+            note(key, length, Remark::warning(text));
+        }
+        let felt = there_is_air && self.air.rms() > 0.0;
+        if felt && self.air.length_scale < l * (1.0 - 1e-9) {
+            let text = format!(
+                "is shorter than the elements ({element_length}): each element only feels the eddy at its centre. \
+                 Shorten fibre.element_length so that every eddy acts on the fibre"
+            );
+            note("air.length_scale", self.air.length_scale, Remark::warning(text));
+        }
+        let (air, from_flow) = (&self.air, self.air.from_flow);
+        let times = air.length_scale / fibre.length;
+        if felt && air.records.is_empty() {
+            if !from_flow.length_scale && times > 2.0 {
+                let text = format!(
+                    "is {} times fibre.length, so that the same fluctuation acts on the whole fibre; check the unit",
+                    Dimension::Ratio.pretty_to(times, 2)
+                );
+                note("air.length_scale", air.length_scale, Remark::warning(text));
+            }
+            let passing = air.velocity.abs() / air.length_scale;
+            if !from_flow.cutoff_frequency
+                && air.spectrum == SpectrumShape::VonKarman
+                && air.cutoff_frequency < passing
+            {
+                let text = format!(
+                    "is below velocity / length scale = {}, so that most of the energy of von Kármán's spectrum would \
+                     lie above it and is moved below; choose a cut-off several times higher",
+                    Dimension::Frequency.pretty(passing)
+                );
+                note("air.cutoff_frequency", air.cutoff_frequency, Remark::warning(text));
+            }
+        }
+        notes.extend(self.slips());
+        notes.extend(root_outside);
+        notes.extend(self.field_notes());
+        notes
+    }
+
+    /// A written intensity of more than the mean velocity.
+    pub(super) fn intensity_above_one(&self) -> Option<f64> {
+        let air = &self.air;
+        let is_written = air.records.is_empty() && !air.from_flow.turbulence_intensity;
+        let felt = air.density > 0.0 && air.rms() > 0.0;
+        (felt && is_written && air.turbulence_intensity > 1.0).then_some(air.turbulence_intensity)
+    }
+
+    /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say
+    /// whether it widens.
+    pub(crate) fn slows_only(&self) -> Option<Remark> {
+        if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening.is_some() {
+            return None;
+        }
+        let velocity = |at| self.air.local(at, &mut Hint::default()).velocity.x;
+        let (from, to) = (velocity(Vec3::new(0.0, 0.0, 0.0)), velocity(self.along()));
+        (to < LEAST_SLOWING * from).then(|| {
+            let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
+            Remark::warning(format!(
+                "lays filaments that have flown in air that slows from {from} to {to} and does not widen. A channel \
+                 in which air slows widens, and carries the filaments apart along the machine direction, so that the \
+                 web is more even; write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
+            ))
+        })
+    }
+
+    /// The machine direction of a field as the case has it, with what is said of it where nobody has written it.
+    pub(crate) fn chosen_machine_direction(&self) -> Option<(&'static str, Remark)> {
+        let Flow::Field(placed) = &self.air.flow else { return None };
+        let [_, machine, cross] = placed.axes();
+        let plane = placed.field.even_axis() == Some(cross.index);
+        let why = if plane {
+            "along which its air is the same"
+        } else {
+            "a choice of the program, because its air is the same along none of its axes, or along two; write the \
+            key if the belt runs otherwise"
+        };
+        let text = format!("is used: the cross direction (CD) is {} of the field, {why}", cross.name());
+        Some((machine.name(), Remark::choice(text)))
+    }
+
+    /// What is said of a web of this width [m], if the air of a field changes over it.
+    pub(crate) fn changes_across(&self, width: f64) -> Option<Remark> {
+        const PLACES: i32 = 8;
+        let Flow::Field(placed) = &self.air.flow else { return None };
+        let mut hint = Hint::default();
+        let mut at = |step: i32, z: f64| {
+            let along = self.along() * ((f64::from(step) + 0.5) / f64::from(PLACES));
+            self.air.local(along + Vec3::new(0.0, 0.0, z), &mut hint)
+        };
+        let middle: Vec<Vec3<f64>> = (0..PLACES).map(|step| at(step, 0.0).velocity).collect();
+        let speed: f64 = middle.iter().map(|velocity| velocity.norm()).sum();
+        let change = |side: i32| {
+            let z = 0.5 * width * f64::from(side) / f64::from(PLACES);
+            let there = middle.iter().zip(0..).map(|(here, step)| (here, at(step, z)));
+            there
+                .filter(|(_, there)| there.inside)
+                .map(|(here, there)| (there.velocity - *here).norm())
+                .sum::<f64>()
+        };
+        let share = (-PLACES..=PLACES).map(change).fold(0.0, f64::max) / speed;
+        let cross = placed.axes()[2].name();
+        (share > MOST_ACROSS).then(|| {
+            Remark::warning(format!(
+                "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), over \
+                 the {} of the web around the root; a web is laid as if its air were the same across. If {cross} is \
+                 the machine direction, write it here; otherwise choose root and width where the air is even, or make \
+                 a plane flow of the middle",
+                Dimension::Ratio.pretty_to(100.0 * share, 2),
+                Dimension::Length.pretty_to(width, 3)
+            ))
+        })
+    }
+
+    /// Whether the root is farther outside of a field's box than rounding.
+    fn root_outside(&self) -> Option<Note> {
+        let Flow::Field(placed) = &self.air.flow else {
+            return None;
+        };
+        let (low, high) = placed.field.bounds();
+        let (root, far) = (placed.root * (1.0 / placed.unit), 1e-9 * (high - low).norm());
+        let outside = |x: f64, low: f64, high: f64| low < high && !(low - far..=high + far).contains(&x);
+        if !(outside(root.x, low.x, high.x)
+            || outside(root.y, low.y, high.y)
+            || outside(root.z, low.z, high.z))
+        {
+            return None;
+        }
+        let shown = |v: Vec3<f64>| {
+            let shown = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
+            format!("[{}, {}, {}]", shown(v.x), shown(v.y), shown(v.z))
+        };
+        let what = Remark::warning(format!(
+            "is outside of the box around the field, {} to {}; the air at the nearest point of the field is used \
+             there",
+            shown(low),
+            shown(high)
+        ));
+        let value = Some(shown(root));
+        Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
+    }
+
+    /// A field that may be turned or scaled wrongly.
+    fn field_notes(&self) -> Vec<Note> {
+        let Flow::Field(placed) = &self.air.flow else {
+            return Vec::new();
+        };
+        let mut notes = Vec::new();
+        let mut note = |key: &str, value: String, what| {
+            notes.push(Note { place: Place::Code, key: key.to_owned(), value: Some(value), what });
+        };
+        let (along, speed) = self.air.along_and_speed(self.along());
+        if along < 0.25 * speed {
+            let how = if along < 0.0 { "it blows from the end to the root" } else { "it blows across" };
+            let [along, speed] = [along, speed].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
+            let what = Remark::warning(format!(
+                "lets the air flow along the fibre with {along} on average, although its speed is {speed}: {how}; \
+                 choose the direction in which the air leaves the spinneret"
+            ));
+            note("air.field_axis", format!("\"{}\"", placed.axis.name()), what);
+        }
+        let ([_, machine, cross], changes) = (placed.axes(), placed.field.changes());
+        if is_even(changes, machine.index) && !is_even(changes, cross.index) {
+            let cross = cross.name();
+            let what = Remark::warning(format!(
+                "makes the air the same along the machine direction, and lets it change along the cross direction \
+                 ({cross} of the field), as if the two were swapped: the air of a slot is the same across. Write \
+                 \"{cross}\", or leave the key out"
+            ));
+            note("air.field_machine_direction", format!("\"{}\"", machine.name()), what);
+        }
+        let (low, high) = placed.extent();
+        let size = high - low;
+        let (field, fibre) = (size.x.max(size.y).max(size.z), self.fibre.length);
+        if field > 30.0 * fibre || field < fibre / 30.0 {
+            let unit = Dimension::Length.pretty(placed.unit);
+            let what = Remark::warning(format!(
+                "makes the field {} long, while the fibre is {} long; check that this is the unit of the mesh",
+                Dimension::Length.pretty_to(field, 3),
+                Dimension::Length.pretty(fibre)
+            ));
+            note("air.field_unit", unit, what);
+        }
+        notes
+    }
+}

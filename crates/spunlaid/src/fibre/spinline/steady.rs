@@ -1,0 +1,318 @@
+//! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
+
+use super::shooting::{Hit, Miss, Shot, find, follow};
+use super::solution::{Freezing, Solution, Station};
+use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
+use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};
+use crate::fibre::drag::FrictionLaw;
+use crate::ground::error::Fault;
+use crate::ground::units::Dimension;
+
+/// Parts of the line between its stations, which are evenly spaced in the root of the distance.
+const PARTS: usize = 400;
+/// Looks at the strain rate in each step.
+const LOOKS: usize = 16;
+/// States whose speeds differ by more than this are not the same one, `ln v`.
+const FAR: f64 = 0.3;
+
+/// The steady state of a filament in this air.
+pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
+    let thread = Thread::new(line, friction, air);
+    if let Some(failure) = impossible_line(&thread) {
+        return Err(failure);
+    }
+    describe(&thread, &seek(&thread)?)
+}
+
+/// The steady state of a filament in this air, next to the state of a line that differs a little. If it is
+/// lost it is sought.
+pub(super) fn solve_near(
+    line: &Spinline,
+    friction: FrictionLaw,
+    air: &Surroundings,
+    near: &Solution,
+) -> Result<Solution, Failure> {
+    let thread = Thread::new(line, friction, air);
+    describe(&thread, &hit_near(&thread, near)?)
+}
+
+/// The speed at the end of such a filament [m/s].
+pub(super) fn final_speed_near(
+    line: &Spinline,
+    friction: FrictionLaw,
+    air: &Surroundings,
+    near: &Solution,
+) -> Result<f64, Failure> {
+    let thread = Thread::new(line, friction, air);
+    let hit = hit_near(&thread, near)?;
+    // Only where a thread breaks decides more than its end does.
+    if hit.shot.freezing.is_none() || line.break_stress.is_finite() {
+        return Ok(describe(&thread, &hit)?.final_speed);
+    }
+    Ok(libm::exp(hit.shot.end[LN_SPEED]))
+}
+
+/// The shot that meets the end next to a known one; sought if it is lost.
+fn hit_near(thread: &Thread<'_>, near: &Solution) -> Result<Hit, Failure> {
+    if let Some(failure) = impossible_line(thread) {
+        return Err(failure);
+    }
+    // A state that differs much is another one: only a search tells which of them a line runs in.
+    let is_near = |hit: &Hit| (hit.shot.end[LN_SPEED] - libm::log(near.final_speed)).abs() < FAR;
+    match follow(thread, (near.force_at_die, near.has_second)).filter(is_near) {
+        Some(hit) => Ok(hit),
+        None => seek(thread),
+    }
+}
+
+/// The shot that meets the end.
+fn seek(thread: &Thread<'_>) -> Result<Hit, Failure> {
+    find(thread, thread.line.crystallisation).map_err(|miss| shooting_failure(thread, miss))
+}
+
+/// Why no thread can run in this line, as far as this is known before it is solved.
+fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
+    let line = thread.line;
+    let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
+    let freezing = line.material.freezing_temperature;
+    if line.die_temperature <= freezing {
+        let message = format!("is not above {}, at which the polymer freezes", celsius(freezing));
+        let remedy = "raise it, or correct spinline.material.freezing_temperature";
+        let value = Some(line.die_temperature);
+        return Some(Failure::new("spinline.die_temperature", value, Fault::new(message, remedy)));
+    }
+    let coldest = thread.coldest_air();
+    if coldest >= freezing && !line.crystallisation {
+        let (key, value) = key_of_air(thread.air, coldest, "spinline.temperature");
+        let message = format!(
+            "leaves the air nowhere colder than {}, and the polymer freezes at {}",
+            celsius(coldest),
+            celsius(freezing)
+        );
+        return Some(Failure::new(key, value, Fault::new(message, "cool the air")));
+    }
+    let die_speed = thread.die_speed();
+    match line.end {
+        End::TakeUp(speed) if speed < die_speed => {
+            let found = Dimension::Velocity.pretty(die_speed);
+            let message = format!("is below {found}, the speed of the melt in the hole");
+            let remedy =
+                "raise the take-up speed, lower spinline.throughput, or widen spinline.hole_diameter";
+            Some(Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy)))
+        }
+        End::TakeUp(_) | End::Tension(_) | End::Flown(_) => None,
+    }
+}
+
+/// The key that gives the air, and its value if it is a number.
+///
+/// * `value`, `key` – what they are if the air is the same everywhere
+fn key_of_air(air: &Surroundings, value: f64, key: &'static str) -> (&'static str, Option<f64>) {
+    match air {
+        Surroundings::Uniform(_) => (key, Some(value)),
+        Surroundings::Table(_) => ("spinline.profile", None),
+        Surroundings::Field { .. } => ("spinline.field", None),
+        Surroundings::Behind(_) => ("spinline.rows", None),
+    }
+}
+
+const NO_THREAD: &str =
+    "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
+
+/// Why no tension at the die meets the end of the line.
+fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
+    let (line, air) = (thread.line, thread.air);
+    match (miss, line.end) {
+        (Miss::Liquid(temperature), _) => liquid_end(line, temperature),
+        (Miss::ElasticWave, _) => Failure::new(
+            "spinline.law",
+            None,
+            Fault::new(
+                "makes the melt too elastic for this speed: the thread would be as fast as its own elastic wave",
+                "raise spinline.material.modulus, or leave spinline.law out",
+            ),
+        ),
+        (Miss::TooMuch, End::TakeUp(speed)) => Failure::new(
+            "spinline.take_up_speed",
+            Some(speed),
+            Fault::new(
+                "is slower than the filament gets by its weight and the air alone",
+                "raise it, or leave out spinline.end, which makes the end free",
+            ),
+        ),
+        _ if !thread.is_computable() => {
+            let message = "leads to numbers that are too large or too small to compute with";
+            let remedy = "check it, and all other values of the line, and their units";
+            Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, remedy))
+        }
+        (Miss::NoThread | Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
+            let remedy = "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"";
+            Failure::new("spinline.end_tension", Some(tension), Fault::new(NO_THREAD, remedy))
+        }
+        (Miss::NoThread | Miss::Slack, End::TakeUp(speed)) => {
+            let remedy = "lower it, heat the die, or write a higher melt flow rate";
+            Failure::new("spinline.take_up_speed", Some(speed), Fault::new(NO_THREAD, remedy))
+        }
+        (Miss::TooMuch | Miss::Slack, _) => {
+            let velocity = match air {
+                Surroundings::Uniform(air) => air.velocity,
+                _ => f64::NAN,
+            };
+            let (key, value) = key_of_air(air, velocity, "spinline.velocity");
+            let message =
+                "has no steady state: the air does not pull, it is slower than the filament everywhere";
+            Failure::new(key, value, Fault::new(message, "check the direction and the speed of the air"))
+        }
+        (Miss::NoThread, _) => Failure::new(
+            "spinline.throughput",
+            Some(line.throughput),
+            Fault::new(NO_THREAD, "check the viscosity of the melt, the air and the throughput"),
+        ),
+    }
+}
+
+/// The thread is not solid at the end of the line.
+fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
+    let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
+    let (reached, solid) = (celsius(temperature), celsius(line.material.freezing_temperature));
+    let message = format!(
+        "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
+    );
+    Failure::new(
+        "spinline.length",
+        Some(line.length),
+        Fault::new(message, "more quench air, or a longer line"),
+    )
+}
+
+/// What a shot says.
+fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
+    let (line, shot) = (thread.line, &hit.shot);
+    let Some((by, at, cooling_rate)) = shot.freezing else {
+        return Err(liquid_end(line, shot.end[TEMPERATURE]));
+    };
+    let freezing = Freezing {
+        distance: at.distance,
+        temperature: at.temperature,
+        diameter: at.diameter,
+        stress: at.stress,
+        cooling_rate,
+        by,
+    };
+    let stations = stations(thread, shot, at.distance);
+    let breaks = |station: &&Station| station.stress > line.break_stress && station.distance <= at.distance;
+    if let Some(broken) = stations.iter().find(breaks) {
+        let strongest = Dimension::Pressure.pretty(broken.stress);
+        let place = Dimension::Length.pretty(broken.distance);
+        let message = format!("is exceeded: {strongest} at {place} from the die");
+        let remedy = "a hotter die, less drawing air or a higher melt flow rate lowers the stress";
+        return Err(Failure::new(
+            "spinline.break_stress",
+            Some(line.break_stress),
+            Fault::new(message, remedy),
+        ));
+    }
+    let (largest_strain_rate, largest_strain_rate_at) = largest_strain_rate(thread, shot);
+    let material = &line.material;
+    let final_speed = libm::exp(shot.end[LN_SPEED]);
+    let linear_density = line.throughput / final_speed;
+    let birefringence = material.birefringence(at.stress, at.temperature);
+    let (momentum_residual, energy_residual) = residuals(thread, hit, &stations);
+    Ok(Solution {
+        die_speed: thread.die_speed(),
+        final_speed,
+        final_diameter: line.final_diameter(final_speed),
+        linear_density,
+        freezing,
+        force_at_die: hit.tension,
+        force_at_end: shot.end[TENSION],
+        largest_strain_rate,
+        largest_strain_rate_at,
+        birefringence,
+        has_low_birefringence: line.has_low_birefringence(),
+        modulus_estimate: material.estimate_modulus(birefringence),
+        momentum_residual,
+        energy_residual,
+        has_second: hit.has_second,
+        stations,
+    })
+}
+
+/// The thread at places evenly spaced in the root of the distance, at the rows of the air's table and where
+/// it becomes solid.
+fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
+    let length = thread.line.length;
+    let even = (0..=PARTS).map(|i| {
+        let share = i as f64 / PARTS as f64;
+        length * share * share
+    });
+    let rows = thread.air.rows().iter().copied().filter(|row| (0.0..=length).contains(row));
+    let mut distances: Vec<f64> = even.chain(rows).chain([frozen]).collect();
+    distances.sort_by(f64::total_cmp);
+    distances.dedup();
+    let (mut hint, mut steps) = (0, shot.steps.iter().peekable());
+    let at = |distance: f64| {
+        let s = libm::sqrt(distance);
+        // The freezing point belongs to the melt.
+        while steps.len() > 1 && steps.peek().is_some_and(|step| step.end() < s) {
+            steps.next();
+        }
+        let step = steps.peek()?;
+        let phase = if distance <= frozen { Phase::Melt } else { step.phase };
+        let looked = distance.max(1e-14 * length);
+        Some(Station { distance, ..thread.rates(looked, &step.at(s), phase, &mut hint).station })
+    };
+    distances.into_iter().filter_map(at).collect()
+}
+
+/// The largest strain rate [1/s] and its distance from the die [m]: of many places in each step, and then by
+/// thirds between the neighbours of the best.
+fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
+    let mut hint = 0;
+    let mut rate = |step: &super::integration::Step, s: f64| {
+        let distance = (s * s).max(1e-14 * thread.line.length);
+        thread.rates(distance, &step.at(s), Phase::Melt, &mut hint).station.strain_rate
+    };
+    let mut best = (f64::NEG_INFINITY, 0.0);
+    for step in shot.steps.iter().filter(|step| step.phase == Phase::Melt) {
+        let s = |i: usize| step.start + step.length * i as f64 / LOOKS as f64;
+        let Some(highest) = (0..=LOOKS).max_by(|a, b| rate(step, s(*a)).total_cmp(&rate(step, s(*b)))) else {
+            continue;
+        };
+        let (mut low, mut high) = (s(highest.saturating_sub(1)), s((highest + 1).min(LOOKS)));
+        if rate(step, s(highest)) > best.0 * (1.0 - 1e-3) {
+            for _ in 0..40 {
+                let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+                if rate(step, a) < rate(step, b) { low = a } else { high = b }
+            }
+            for place in [low, 0.5 * (low + high), high] {
+                let found = rate(step, place);
+                if found > best.0 {
+                    best = (found, place * place);
+                }
+            }
+        }
+    }
+    best
+}
+
+/// By how much the balances of momentum and of energy over the whole line fail [-].      theory.md (96), (97)
+fn residuals(thread: &Thread<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
+    let (line, end, material) = (thread.line, &hit.shot.end, &thread.line.material);
+    let mass_flow = line.throughput;
+    let accelerated = mass_flow * (libm::exp(end[LN_SPEED]) - thread.die_speed());
+    let forces = end[TENSION] - hit.tension - (accelerated - end[PULL]);
+    let largest = stations.iter().map(|station| station.tension.abs()).fold(hit.tension, f64::max);
+    // ∫ c_p dT from the end to the die.
+    let [cold, hot] = [end[TEMPERATURE], line.die_temperature].map(|kelvin| kelvin - ZERO_CELSIUS);
+    let cooled = (hot - cold) * (material.heat_capacity + 0.5 * material.heat_capacity_slope * (hot + cold));
+    let fused = if line.crystallisation {
+        material.crystals.heat_of_fusion * material.crystals.crystallinity * thread.transformed(end)
+    } else {
+        0.0
+    };
+    let worked = if line.dissipation { end[WORK] } else { 0.0 };
+    let given = mass_flow * (cooled + fused) + worked;
+    let scale = end[HEAT].abs().max(f64::MIN_POSITIVE);
+    (forces / largest, (given - end[HEAT]) / scale)
+}

@@ -1,0 +1,378 @@
+//! The loop that flies the filaments of beams: of one beam in air of its own, or of several in the same air, which fly
+//! side by side as far as they look at one field.
+//!
+//! ```text
+//! beams → airs: beams whose airs have one pattern share a field
+//!       → all fly for the same time, counted in what passes of the pattern → what they lay goes to their sinks
+//! ```
+
+use super::flying::Flying;
+use super::neighbours::Neighbours;
+use super::pack::Reach;
+use super::{BLOCK, Beam, BeamControl, BeamFindings};
+use crate::air::field::Hint;
+use crate::air::motion::{Air, EddyField, Extent, Flow, Lateral, Room, StreamKey};
+use crate::ground::error::{Error, Fault};
+use crate::ground::threads::{each, lock, try_each};
+use crate::ground::vec3::Vec3;
+use crate::web::map::{Brush, Edges, Sheet, TimeSpent, Window};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+/// Largest lateral wave number of the air of beams that are compared, times its length scale. Smaller eddies change
+/// no CV from patches of 10 mm on, and hardly any change of it, but take as much time again.
+const HIGHEST: f64 = 8.0;
+
+/// What takes what the filaments of a beam lay.
+pub(super) struct Sink<'a> {
+    /// A window of the sheet, whose single fibres are kept.
+    pub(super) window: Window,
+    /// What draws an element of fibre; None to keep the curves of all filaments in place of it.
+    pub(super) on: Option<&'a Brush<'a>>,
+    pub(super) neighbours: Option<Neighbours>,
+}
+
+/// The airs of beams that are flown.
+pub(super) struct SharedAir {
+    airs: Vec<BeamAir>,
+    /// Most memory that the airs which pass side by side take, unless a single one takes more [B].
+    memory: f64,
+}
+
+/// The air of a beam.
+struct BeamAir {
+    /// None if it is the same at every place.
+    field: Option<EddyField>,
+    /// The beam whose field is made, and how many times as fast the pattern passes as there.
+    maker: usize,
+    pace: f64,
+    /// Most memory that it takes [B].
+    memory: f64,
+}
+
+impl BeamAir {
+    /// Time by which all flights advance before the next block [s].
+    fn block(&self) -> f64 {
+        self.field.as_ref().map_or(BLOCK, EddyField::block)
+    }
+}
+
+/// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
+/// the first ones take; a beam may lay a little less than the sheet.
+///
+/// * `memory` – that the airs which pass side by side take at most, unless a single one takes more [B]
+///
+/// # Errors
+/// For each beam as of [`Beam::fly`]; and if it is stopped.
+pub(crate) fn fly_abreast(
+    beams: &[Beam<'_>],
+    (sheet, memory): (&Sheet, f64),
+    by: BeamControl<'_>,
+) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+    let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+    let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
+    fly(beams, (SharedAir::of(beams, (sheet, memory))?, sheet), sinks, by)
+}
+
+/// Flies beams in their airs until they have laid the sheet, or the belt that passes in the same time.
+pub(super) fn fly(
+    beams: &[Beam<'_>],
+    (air, sheet): (SharedAir, &Sheet),
+    mut sinks: Vec<Sink<'_>>,
+    by: BeamControl<'_>,
+) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+    let (started, mut spent) = (Instant::now(), TimeSpent::default());
+    let beside = beams.iter().zip(&sinks);
+    let mut flying: Vec<_> = beside.map(|(beam, sink)| Flying::new(*beam, (sheet, sink.window))).collect();
+    let all = All { beams, airs: &air.airs, sheet };
+    let makers = (0..beams.len()).filter(|beam| air.airs[*beam].maker == *beam);
+    let mut waiting: VecDeque<Group> = makers.map(|maker| all.group(maker)).collect();
+    let memory = |group: &Group| air.airs[group.members[0]].memory;
+    let mut until = None;
+    while let Some(first) = waiting.pop_front() {
+        let mut needed = memory(&first);
+        let mut groups = vec![first];
+        while let Some(next) = waiting.front()
+            && needed + memory(next) <= air.memory
+        {
+            needed += memory(next);
+            groups.extend(waiting.pop_front());
+        }
+        let begun = Instant::now();
+        loop {
+            groups.retain(|group| group.members.iter().any(|beam| flies(&flying[*beam])));
+            let has_ended = match (groups.first(), until) {
+                (None, _) => true,
+                (Some(group), Some(until)) => group.time * group.pace >= until,
+                (Some(group), None) => all.is_laid_by(group, &flying),
+            };
+            if has_ended {
+                break;
+            }
+            make(&mut groups, by.threads);
+            all.advance(&groups, &mut flying, &mut sinks, by)?;
+        }
+        spent.in_parallel += begun.elapsed();
+        until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
+    }
+    spent.whole = started.elapsed();
+    let paces = air.airs.iter().map(|of_beam| all.pace(of_beam.maker) * of_beam.pace);
+    let finish = |((of_beam, sink), pace): ((Result<Flying<'_>, Error>, Sink<'_>), f64)| {
+        let neighbours = sink.neighbours.map_or_else(Vec::new, |together| together.correlations());
+        of_beam?.finish(BeamFindings { neighbours, spent, pace, ..BeamFindings::default() })
+    };
+    Ok(flying.into_iter().zip(sinks).zip(paces).map(finish).collect())
+}
+
+/// Whether a beam goes on.
+fn flies(of_beam: &Result<Flying<'_>, Error>) -> bool {
+    of_beam.as_ref().is_ok_and(|of_beam| !of_beam.has_lost_too_many())
+}
+
+/// Makes the fields of all groups for their next block, side by side.
+fn make(groups: &mut [Group], threads: usize) {
+    let of_each = threads.div_ceil(groups.len());
+    let groups: Vec<_> = groups.iter_mut().map(Mutex::new).collect();
+    each(threads, groups.len(), |group| {
+        let mut group = lock(&groups[group]);
+        let from = group.time;
+        group.time += group.block;
+        // A flight that found its time outside would make a field for itself.
+        let times = from - group.margin..group.time + group.margin;
+        group.making.iter_mut().for_each(|field| field.make(times.clone(), of_each));
+    });
+}
+
+/// Most memory that the air of a beam takes in a room [B].
+fn memory_of_air(beam: &Beam<'_>, room: &Room) -> f64 {
+    let air = &beam.case.air;
+    let memory = |cutoff: f64| EddyField::memory_in_room(air, room, cutoff.min(HIGHEST));
+    air.lateral.cutoff().map_or(0.0, memory)
+}
+
+/// Most memory that the air of one of some beams takes that fly abreast [B].
+pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
+    let room = room_of(beams, sheet);
+    beams.iter().map(|beam| memory_of_air(beam, &room)).fold(0.0, f64::max)
+}
+
+impl SharedAir {
+    /// The air of one beam alone.
+    pub(super) fn of_one(beam: &Beam<'_>, sheet: &Sheet) -> Self {
+        let air = BeamAir { field: beam.field(sheet), maker: 0, pace: 1.0, memory: 0.0 };
+        Self { airs: vec![air], memory: f64::INFINITY }
+    }
+
+    /// The airs of beams in one room, of which those with one pattern share one.
+    fn of(beams: &[Beam<'_>], (sheet, memory): (&Sheet, f64)) -> Result<Self, Error> {
+        let room = room_of(beams, sheet);
+        let mut airs: Vec<BeamAir> = Vec::new();
+        for (number, beam) in beams.iter().enumerate() {
+            let (air, seed) = (&beam.case.air, beam.case.run.seed);
+            let cutoff = air.lateral.cutoff();
+            let cutoff =
+                cutoff.ok_or_else(|| Fault::plain("the air of a beam is the same everywhere across"))?;
+            let mut makers = (0..number).filter(|maker| airs[*maker].maker == *maker);
+            let shared = makers.find_map(|maker| {
+                let other = beams[maker].case;
+                if other.run.seed != seed || other.air.lateral != air.lateral {
+                    return None;
+                }
+                let field = airs[maker].field.as_ref()?;
+                let (field, pace) = match other.air == *air {
+                    true => (field.clone(), 1.0),
+                    false => field.at_pace_of([&other.air, air], &room)?,
+                };
+                Some((field, maker, pace))
+            });
+            let (field, maker, pace) = shared.unwrap_or_else(|| {
+                let key = StreamKey { seed, replicate: 0 };
+                (EddyField::in_room(air, &room, cutoff.min(HIGHEST), key), number, 1.0)
+            });
+            airs.push(BeamAir { field: Some(field), maker, pace, memory: memory_of_air(beam, &room) });
+        }
+        Ok(Self { airs, memory })
+    }
+}
+
+/// Beams that look at one field.
+struct Group {
+    /// The field, as far as it has been made; None if the air is the same at every place.
+    making: Option<EddyField>,
+    /// How many times as fast its pattern passes as that of the first beam.
+    pace: f64,
+    /// The beams, of which the first one has made the field, each with the time of the field in its step [s].
+    members: Vec<usize>,
+    steps: Vec<f64>,
+    /// Time by which they advance, until which they have, and for which the field is made besides [s].
+    block: f64,
+    time: f64,
+    margin: f64,
+}
+
+/// All beams, with the fields of their airs.
+struct All<'a> {
+    beams: &'a [Beam<'a>],
+    airs: &'a [BeamAir],
+    sheet: &'a Sheet,
+}
+
+impl All<'_> {
+    /// How many times as fast the pattern passes in the field of a beam as in that of the first one.
+    fn pace(&self, maker: usize) -> f64 {
+        self.airs[0].block() / self.airs[maker].block()
+    }
+
+    /// The beams of a field before they fly.
+    fn group(&self, maker: usize) -> Group {
+        let Self { beams, airs, .. } = self;
+        let members: Vec<usize> = (0..beams.len()).filter(|beam| airs[*beam].maker == maker).collect();
+        let making = airs[maker].field.clone();
+        let of_field = |beam: usize, time: f64| time * airs[beam].pace;
+        let steps: Vec<f64> =
+            members.iter().map(|beam| of_field(*beam, beams[*beam].case.run.time_step)).collect();
+        // The same stretch of the pattern passes for all groups, so that they end together.
+        let longest = |beam: usize| of_field(beam, beams[beam].longest_block()) * self.pace(airs[beam].maker);
+        let block = (0..beams.len()).map(longest).fold(airs[0].block(), f64::min);
+        let (pace, margin) = (self.pace(maker), 2.0 * steps.iter().copied().fold(0.0, f64::max));
+        let block =
+            if beams.len() == 1 { (block / steps[0]).ceil().max(1.0) * steps[0] } else { block / pace };
+        Group { making, pace, members, steps, block, time: 0.0, margin }
+    }
+
+    /// Whether all beams of a group have laid the sheet during the same time.
+    fn is_laid_by(&self, group: &Group, flying: &[Result<Flying<'_>, Error>]) -> bool {
+        let mut all = f64::NEG_INFINITY..f64::INFINITY;
+        for beam in group.members.iter().filter(|beam| flies(&flying[**beam])) {
+            // While some lay the fibre of their start, nothing is known.
+            let Some(laid) = flying[*beam].as_ref().ok().and_then(Flying::laid_during) else { return false };
+            let pace = self.airs[*beam].pace;
+            all = all.start.max(laid.start * pace)..all.end.min(laid.end * pace);
+        }
+        let belt = self.beams[group.members[0]].case.line.map_or(f64::NAN, |line| line.belt_speed);
+        all.end - all.start >= self.sheet.length / belt
+    }
+
+    /// Advances all beams of some groups to the end of the block that has been made. Their packs are shared
+    /// among the threads.
+    fn advance(
+        &self,
+        groups: &[Group],
+        flying: &mut [Result<Flying<'_>, Error>],
+        sinks: &mut [Sink<'_>],
+        by: BeamControl<'_>,
+    ) -> Result<(), Error> {
+        let members = groups.iter().flat_map(|group| {
+            group.members.iter().zip(&group.steps).map(move |(beam, step)| (group, *beam, *step))
+        });
+        let mut packs = Vec::new();
+        let mut advancing = Vec::new();
+        for (group, beam, step) in members {
+            let Some(of_beam) = flying[beam].as_ref().ok().filter(|_| flies(&flying[beam])) else { continue };
+            let BeamAir { field, pace, .. } = &self.airs[beam];
+            // A whole number of steps may be rounded to a little less.
+            let steps = ((group.time / step + 1e-6) as u64).saturating_sub(of_beam.done);
+            let made = field.as_ref().zip(group.making.as_ref());
+            let field = made.map(|(field, making)| Arc::new(field.made_as(making, *pace)));
+            packs.extend((0..of_beam.packs()).map(|pack| (advancing.len(), of_beam, pack)));
+            advancing.push((beam, field, steps));
+        }
+        // A beam that cannot fly does not end the others.
+        let reaches = try_each(by.threads, packs.len(), |i| {
+            let (number, of_beam, pack) = packs[i];
+            let (beam, field, steps) = &advancing[number];
+            let (field, on) = (field.as_ref(), sinks[*beam].on);
+            let start = if of_beam.done == 0 { of_beam.start(pack, on.is_none(), field, by) } else { Ok(()) };
+            match start.and_then(|()| of_beam.advance(pack, *steps, field, on, by)) {
+                Err(Error::Interrupted) => Err(Error::Interrupted),
+                reached => Ok(reached),
+            }
+        })?;
+        let numbers: Vec<usize> = packs.into_iter().map(|(number, ..)| number).collect();
+        let mut reaches = numbers.into_iter().zip(reaches).peekable();
+        for (number, (beam, _, steps)) in advancing.into_iter().enumerate() {
+            let of_packs = std::iter::from_fn(|| Some(reaches.next_if(|(of, _)| *of == number)?.1));
+            match (of_packs.collect::<Result<Vec<Reach>, Error>>(), &mut flying[beam]) {
+                (Ok(of_packs), Ok(of_beam)) => {
+                    of_beam.reached(steps, of_packs);
+                    if let Some(together) = &mut sinks[beam].neighbours
+                        && !of_beam.has_lost_too_many()
+                    {
+                        of_beam.compare(together);
+                        together.add();
+                    }
+                }
+                (Err(error), of_beam) => *of_beam = Err(error),
+                (Ok(_), Err(_)) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight
+/// standard deviations of a usual filament. One that goes farther meets the eddies of the other side again.
+const REACH: f64 = 0.36;
+/// As far as beams are compared, five of them: hardly two filaments that meet the same eddies again hang so.
+const REACH_OF_COMPARED: f64 = 0.22;
+impl Beam<'_> {
+    /// The air that its filaments share, of which nothing has been made; None if it is the same at every place.
+    pub(super) fn field(&self, sheet: &Sheet) -> Option<EddyField> {
+        let (case, key) = (self.case, StreamKey { seed: self.case.run.seed, replicate: 0 });
+        let (way, extent) = (case.way_of_air(), self.extent_of_air(sheet, REACH));
+        Some(EddyField::new(&case.air, way, extent, case.air.lateral.cutoff()?, key))
+    }
+
+    /// Most memory that the air of all filaments takes [B].
+    pub(crate) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
+        let (case, extent) = (self.case, self.extent_of_air(sheet, REACH));
+        match case.air.lateral {
+            Lateral::Uniform => 0.0,
+            Lateral::VonKarman { cutoff } => {
+                EddyField::memory(1, &case.air, case.way_of_air(), extent, cutoff)
+            }
+        }
+    }
+
+    /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
+    /// otherwise no filament meets the air of another one again.
+    ///
+    /// * `reach` – distance in which filaments come down, in ways from inlet to belt
+    fn extent_of_air(&self, sheet: &Sheet, reach: f64) -> Extent {
+        let (air, distance) = (&self.case.air, self.case.way_of_air());
+        let least = self.case.extent_of_air().y;
+        let width = range(self.places.iter().map(|place| place.z));
+        let y = (self.depth + reach * distance) * widening(air, distance).sqrt();
+        let z = match sheet.edges {
+            Edges::Periodic => sheet.width,
+            Edges::Cut => width + reach * distance + least,
+        };
+        Extent { y: y.max(least), z }
+    }
+}
+
+/// The room in which the airs of beams have the same pattern as far as they can.
+pub(super) fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
+    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet, REACH_OF_COMPARED);
+    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), air(beam)));
+    Room::of(&airs.collect::<Vec<_>>())
+}
+
+/// The largest of some numbers less the smallest.
+fn range(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
+    let smallest = numbers.clone().fold(f64::INFINITY, f64::min);
+    let largest = numbers.fold(f64::NEG_INFINITY, f64::max);
+    (largest - smallest).max(0.0)
+}
+
+/// How many times as wide the mean flow is at the belt as at the inlet. What comes down in the middle of the
+/// way has been moved aside by less.
+fn widening(air: &Air, distance: f64) -> f64 {
+    if matches!(air.flow, Flow::Uniform) || (matches!(air.flow, Flow::Profile(_)) && !air.widens()) {
+        return 1.0;
+    }
+    let mut hint = Hint::default();
+    let [inlet, belt] = [0.0, distance].map(|x| air.local(Vec3::new(x, 0.0, 0.0), &mut hint).velocity.x);
+    if belt > 0.0 { (inlet / belt).max(1.0) } else { 1.0 }
+}

@@ -1,0 +1,153 @@
+//! The filaments of a beam while they fly.
+
+use super::charge::BeamField;
+use super::neighbours::Neighbours;
+use super::pack::{self, BeltStretch, Pack, Reach};
+use super::{Beam, BeamControl, BeamFindings};
+use crate::air::motion::EddyField;
+use crate::fibre::line::Line;
+use crate::ground::error::{Error, Fault};
+use crate::ground::threads::{lock, unlock};
+use crate::simulation::observe::StretchedBalance;
+use crate::web::map::{Brush, Sheet, Window};
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex};
+
+/// Most filaments that may be lost, of all.
+const MOST_LOST: f64 = 0.02;
+
+/// The filaments of a beam, and how far they have come.
+pub(super) struct Flying<'a> {
+    beam: Beam<'a>,
+    line: Line,
+    numbers: Vec<Vec<usize>>,
+    packs: Vec<Mutex<Option<Pack>>>,
+    stretch: BeltStretch,
+    reach: Reach,
+    /// The electric field around them, if they are charged.
+    field: Option<BeamField>,
+    /// Steps that have been done.
+    pub(super) done: u64,
+}
+
+impl<'a> Flying<'a> {
+    /// Filaments that have not been started yet.
+    ///
+    /// # Errors
+    /// If the fibre of the case is not laid on a moving belt.
+    pub(super) fn new(beam: Beam<'a>, (sheet, window): (&Sheet, Window)) -> Result<Self, Error> {
+        let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
+        let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
+        let numbers = pack::side_by_side(beam.places);
+        let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
+        let stretch = BeltStretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
+        let field = BeamField::new(&beam);
+        Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
+    }
+
+    /// Number of packs.
+    pub(super) fn packs(&self) -> usize {
+        self.packs.len()
+    }
+
+    /// Starts a pack.
+    ///
+    /// * `keeps_all` – whether the curves of all filaments are kept
+    /// * `field` – the air of all filaments, if they share one
+    pub(super) fn start(
+        &self,
+        pack: usize,
+        keeps_all: bool,
+        field: Option<&Arc<EddyField>>,
+        by: BeamControl<'_>,
+    ) -> Result<(), Error> {
+        *lock(&self.packs[pack]) =
+            Some(Pack::new(&self.beam, (&self.numbers[pack], keeps_all), by.isa, field)?);
+        Ok(())
+    }
+
+    /// Advances a pack by some steps and lays what has come down; [`Flying::reached`] takes how far all packs reach.
+    pub(super) fn advance(
+        &self,
+        pack: usize,
+        steps: u64,
+        field: Option<&Arc<EddyField>>,
+        on: Option<&Brush<'_>>,
+        by: BeamControl<'_>,
+    ) -> Result<Reach, Error> {
+        if by.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        let mut pack = lock(&self.packs[pack]);
+        let Some(pack) = pack.as_mut() else { return Ok(self.reach) };
+        if let Some(field) = &self.field {
+            pack.charge(field);
+        }
+        let reach = pack.advance(steps, field, &self.stretch, on);
+        by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
+        Ok(reach)
+    }
+
+    /// Takes how far the packs reach after some more steps.
+    pub(super) fn reached(&mut self, steps: u64, packs: impl IntoIterator<Item = Reach>) {
+        let before = Reach { fed: f64::INFINITY, lost: 0, ..self.reach };
+        self.reach = packs.into_iter().fold(before, Reach::with);
+        self.done += steps;
+        if let Some(field) = &mut self.field {
+            field.begin(steps as f64 * self.beam.case.run.time_step);
+            self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
+            field.renew();
+        }
+        if !self.has_lost_too_many() {
+            self.stretch.settle(&self.reach);
+        }
+    }
+
+    /// Hands over where the filaments have come down since the last time.
+    pub(super) fn compare(&self, neighbours: &mut Neighbours) {
+        self.packs.iter().for_each(|pack| lock(pack).iter_mut().for_each(|pack| pack.compare(neighbours)));
+    }
+
+    pub(super) fn has_lost_too_many(&self) -> bool {
+        self.reach.lost as f64 > MOST_LOST * self.beam.places.len() as f64
+    }
+
+    /// The times at which the belt has passed on which all filaments lie as after their start, as far as they
+    /// have been flown [s].
+    pub(super) fn laid_during(&self) -> Option<Range<f64>> {
+        self.stretch.back()?;
+        let Reach { ahead, start, fed, .. } = self.reach;
+        let behind = ahead - self.line.belt_ratio() * fed;
+        Some(-start / self.line.belt_speed..-behind / self.line.belt_speed)
+    }
+
+    /// What the filaments have done.
+    ///
+    /// # Errors
+    /// If more than 2 % of them are lost.
+    pub(super) fn finish(self, mut flown: BeamFindings) -> Result<BeamFindings, Error> {
+        let has_lost_too_many = self.has_lost_too_many();
+        flown.charged = self.field.as_ref().map(BeamField::curtain);
+        flown.back = self.stretch.back().unwrap_or(f64::NAN);
+        flown.time = self.done as f64 * self.beam.case.run.time_step;
+        let mut balance = StretchedBalance::new(self.beam.case);
+        for pack in self.packs {
+            unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown, &mut balance));
+        }
+        flown.way = balance.way();
+        flown.sort();
+        if has_lost_too_many { Err(too_many_lost(flown, self.beam.places.len())) } else { Ok(flown) }
+    }
+}
+
+/// The error that is returned when so many filaments are lost that no usable web remains.
+fn too_many_lost(flown: BeamFindings, filaments: usize) -> Error {
+    let count = flown.lost.len();
+    match flown.lost.into_iter().next() {
+        Some((_, reason)) => Error::Flight(Fault::plain(format!(
+            "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
+        ))),
+        None => Error::no_fibre(),
+    }
+}

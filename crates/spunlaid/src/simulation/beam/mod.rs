@@ -1,0 +1,200 @@
+//! A beam: all filaments of a layer, flown together and laid on a sheet as they come down.
+//!
+//! ```text
+//! places → packs of eight neighbours → flights, which advance together by a block of time
+//!        → laid points → the canvas, at once; the curves of a few filaments are kept
+//! ```
+//!
+//! A sheet is not closed to a ring in machine direction, because the air at its two ends is not the same.
+//! Instead the filaments lay more belt than the sheet is long, and the sheet is the part on which every
+//! filament lies as it does after its start:
+//!
+//! ```text
+//! belt   |  laid by the start  |······ sheet ······|  some filaments are still to come  |      → the belt moves
+//!                              └ no point of the start lies behind here
+//! ```
+
+mod abreast;
+mod charge;
+mod flying;
+mod neighbours;
+mod pack;
+
+use crate::fibre::case::Case;
+use crate::fibre::flight::LaidPoint;
+use crate::fibre::load::WayPlace;
+use crate::ground::error::Error;
+use crate::ground::lanes::Isa;
+use crate::ground::place::Place;
+use crate::ground::sort::sort_by_key;
+use crate::web::map::{
+    Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand,
+    TimeSpent, Titres, Window,
+};
+use abreast::{SharedAir, Sink, fly};
+pub(crate) use abreast::{fly_abreast, memory_abreast};
+pub use charge::BeamCharge;
+use neighbours::Neighbours;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
+const KEPT: usize = 64;
+/// Time by which all flights advance before the next block, unless the air has one [s].
+const BLOCK: f64 = 4e-3;
+/// How far from its place a filament is reckoned to land before it is known, in ways from inlet to belt. Only
+/// the display of progress needs it.
+const SPREAD: f64 = 0.2;
+
+/// The filaments of a layer.
+#[derive(Clone, Copy, Debug)]
+pub struct Beam<'a> {
+    /// The case of each. The seed of its run is the key of the air.
+    pub case: &'a Case,
+    /// Where they are fed, in order across the web.
+    pub places: &'a [Place],
+    /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the
+    /// same air, however many of them there are and wherever in its depth they hang.
+    pub depth: f64,
+    /// The charge that they carry; None without one.
+    pub charge: Option<&'a BeamCharge>,
+}
+
+/// Threads and instruction set of the computation, its progress and its stop flag.
+#[derive(Clone, Copy, Debug)]
+pub struct BeamControl<'a> {
+    /// Number of threads. What is laid does not depend on it.
+    pub threads: usize,
+    /// Instruction set. What is laid does not depend on it.
+    pub isa: Isa,
+    /// Ends the flights when it is set.
+    pub stop: &'a AtomicBool,
+    /// Grows by the steps of each filament; [`Beam::steps`] says about how many there are.
+    pub steps: &'a AtomicU64,
+}
+
+/// What the filaments of a beam have done besides laying the sheet.
+#[derive(Debug, Default)]
+pub struct BeamFindings {
+    /// All points that some filaments have laid, from the start on, with their numbers across the web.
+    pub kept: Vec<(usize, Vec<LaidPoint>)>,
+    /// The parts of all filaments in the window of the sheet.
+    pub(crate) strands: Vec<Strand>,
+    /// How filaments come down together, over their distance.
+    pub neighbours: Vec<NeighbourCorrelation>,
+    /// The filaments that were lost, by their numbers across the web, each with the reason.
+    pub lost: Vec<(usize, Error)>,
+    /// What a filament does to its air on its way, in the mean.
+    pub way: Vec<WayPlace>,
+    /// Where the sheet begins on the belt, at its back [m].
+    pub back: f64,
+    /// Time that was flown [s].
+    pub time: f64,
+    /// What it took.
+    pub spent: TimeSpent,
+    /// How many times as fast the pattern of its air passes as that of the first beam beside it.
+    pub(crate) pace: f64,
+    /// What charge has made of them, if they are charged.
+    pub charged: Option<ChargedCurtain>,
+}
+
+impl<'a> Beam<'a> {
+    /// Filaments without charge at these places, in a slot that is as deep as they need.
+    pub fn new(case: &'a Case, places: &'a [Place]) -> Self {
+        let y = || places.iter().map(|place| place.y);
+        let depth = y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min);
+        Self { case, places, depth: depth.max(0.0), charge: None }
+    }
+}
+
+impl Beam<'_> {
+    /// About how many steps all filaments together take for a sheet.
+    pub fn steps(&self, sheet: &Sheet) -> u64 {
+        let Some(line) = self.case.line else { return 0 };
+        let fall = line.distance / line.feed_speed;
+        let stretch = sheet.length + 2.0 * SPREAD * line.distance;
+        let time = self.case.run.spin_up() + fall + stretch / line.belt_speed;
+        (time / self.case.run.time_step) as u64 * self.places.len() as u64
+    }
+
+    /// Flies all filaments and lays them on a sheet.
+    ///
+    /// * `window` – of the sheet, whose single fibres are kept
+    ///
+    /// # Errors
+    /// A filament that is not fed, one whose flight cannot be made, too many lost ones, an interruption, and
+    /// a cell that would hold more fibre than can be counted.
+    pub fn lay(
+        &self,
+        sheet: &Sheet,
+        window: Window,
+        by: BeamControl<'_>,
+    ) -> Result<(LaidWeb, BeamFindings), Error> {
+        let element = self.element_mass();
+        let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
+        let brush = Brush::new(&canvas, element, Titres::default());
+        let mut flown = self.fly((sheet, window), Some(&brush), by)?;
+        let shared_air = Some(flown.take_shared_air());
+        Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
+    }
+
+    /// Mass of an element of a filament [kg].
+    pub(crate) fn element_mass(&self) -> f64 {
+        self.case.fibre.element_mass()
+    }
+
+    /// Mass of all filaments over the area on which they are laid [kg/m²].
+    pub(crate) fn basis_weight(&self, sheet: &Sheet) -> f64 {
+        let fibre = &self.case.fibre;
+        let per_length = self.element_mass() / fibre.rest_length() * self.places.len() as f64;
+        self.case.line.map_or(0.0, |line| per_length / line.belt_ratio() / sheet.width)
+    }
+
+    /// Flies all filaments, and lays them on a canvas or keeps all their curves.
+    ///
+    /// * `window` – of the sheet, whose single fibres are kept
+    /// * `on` – what draws an element of fibre; None to keep the curves of all filaments in place of it
+    ///
+    /// # Errors
+    /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the
+    /// filaments are lost, or if it is stopped.
+    pub(crate) fn fly(
+        &self,
+        (sheet, window): (&Sheet, Window),
+        on: Option<&Brush<'_>>,
+        by: BeamControl<'_>,
+    ) -> Result<BeamFindings, Error> {
+        let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
+        let flown = fly(&[*self], (SharedAir::of_one(self, sheet), sheet), vec![sink], by)?;
+        flown.into_iter().next().ok_or_else(Error::no_fibre)?
+    }
+
+    /// Whether the curve of a filament is kept.
+    pub(crate) fn keeps(&self, filament: usize) -> bool {
+        let count = self.places.len();
+        count <= KEPT || filament * KEPT / count != (filament + 1) * KEPT / count
+    }
+}
+
+impl BeamFindings {
+    /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
+    pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
+        let Self { strands, neighbours, lost, time, spent, charged, .. } = self;
+        SharedAirFindings {
+            strands: std::mem::take(strands),
+            neighbours: neighbours.clone(),
+            few: Vec::new(),
+            charged: charged.take().into_iter().collect(),
+            lost: lost.len() as u64,
+            time: *time,
+            spent: *spent,
+        }
+    }
+
+    /// Puts what packs have given into the order across the web.
+    fn sort(&mut self) {
+        sort_by_key(&mut self.kept, |(filament, _)| *filament);
+        sort_by_key(&mut self.lost, |(filament, _)| *filament);
+        // A filament comes through the window in the order of its strands.
+        sort_by_key(&mut self.strands, |strand| strand.filament);
+    }
+}

@@ -1,0 +1,70 @@
+//! The charge of the filaments of a layer, and what is known of it before they fly.
+
+use super::few::FewPlan;
+use super::{LayerSpec, WebSpec};
+use crate::fibre::case::Case;
+use crate::fibre::charge::{Charge, ChargeEstimate};
+use crate::ground::place::Place;
+use crate::simulation::beam::BeamCharge;
+use crate::web::map::{Arrangement, Filaments, Sheet};
+
+/// Parts of a filament in which those are counted for which it stands.
+const PARTS: f64 = 1e3;
+
+impl LayerSpec {
+    /// Its charge; None of filaments without charge.
+    pub(crate) fn charged(&self) -> Option<Charge> {
+        let per_mass = self.charge.filter(|charge| *charge != 0.0)?;
+        Some(Charge { per_mass, walls: self.walls })
+    }
+
+    /// What its charge does at the edge of the curtain, before it has been flown; None of filaments without
+    /// charge, and of those that no case flies.
+    pub fn charge_estimate(&self, sheet: &Sheet) -> Option<ChargeEstimate> {
+        let (charge, case) = (self.charged()?, self.source.case()?);
+        let per_metre = self.filaments.count(sheet) as f64 / sheet.width;
+        let mass_per_height = per_metre * self.linear_density() * length_per_height(case)?;
+        Some(charge.estimate(mass_per_height, case.run.gravity))
+    }
+
+    /// Farthest that a filament is fed from the middle of the slot, along the machine direction [m].
+    pub(crate) fn farthest_inlet(&self) -> f64 {
+        match &self.filaments {
+            Filaments::Rows(rows) => rows.iter().map(|row| row.md.abs()).fold(0.0, f64::max),
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => 0.5 * self.filaments.depth(),
+        }
+    }
+}
+
+/// Length of filament for each length of the way to the belt, as a mean: where the air is slower than the
+/// feed, a filament that goes with it hangs in folds.
+fn length_per_height(case: &Case) -> Option<f64> {
+    let (air, _) = case.air.along_and_speed(case.along());
+    let slack = case.line?.feed_speed / air;
+    Some(if air > 0.0 { slack.max(1.0) } else { 1.0 })
+}
+
+impl WebSpec {
+    /// The charge of the filaments of a layer that fly.
+    ///
+    /// * `flown` – where they are fed, and for which filaments they stand if they are a few
+    pub(super) fn beam_charge(
+        &self,
+        layer: usize,
+        flown: (&[Place], Option<&FewPlan>),
+    ) -> Option<BeamCharge> {
+        let (places, few) = flown;
+        let spec = self.layers.get(layer)?;
+        let charge = spec.charged()?;
+        let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;
+        let weight = |place: &Place| match (&spec.filaments, few) {
+            (Filaments::Rows(rows), Some(FewPlan { arrangement: Arrangement::Rows, .. })) => {
+                let same = || rows.iter().filter(|row| row.md == place.y);
+                let all: u64 = same().map(|row| row.filaments).sum();
+                (PARTS * all as f64 / same().count().max(1) as f64).round() as u64
+            }
+            _ => 1,
+        };
+        Some(BeamCharge { charge, per_metre, weights: places.iter().map(weight).collect() })
+    }
+}

@@ -1,0 +1,280 @@
+//! Webs in the same air, of which a few filaments are flown side by side, to be compared.
+//!
+//! ```text
+//! webs → the filaments of a layer of each, on sheets of one width, at the same places
+//!      → flights; one for all webs that differ in the speed of a slow belt only
+//!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
+//! ```
+
+use super::few::Compared;
+use super::shared_air::{LayerBeam, beam_on};
+use super::{Flyer, WebSpec};
+use crate::fibre::flight::LaidPoint;
+use crate::fibre::line::{Contact, Line};
+use crate::ground::error::{Error, Fault};
+use crate::ground::lanes::Isa;
+use crate::ground::threads::each;
+use crate::ground::units::Dimension;
+use crate::simulation::beam::{Beam, BeamControl, BeamFindings, fly_abreast, memory_abreast};
+use crate::web::map::{Arrangement, LayerFew, Sheet, blocks_on};
+use std::ops::Range;
+use std::sync::atomic::AtomicU64;
+
+/// Shortest sheet that is compared, in parts of the one that was to be laid: eddies of half the length pass
+/// twice as fast, so half of it tells as much.
+const LEAST: f64 = 0.25;
+/// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
+const SLOW: f64 = 0.1;
+
+/// What a few filaments say about the layers of a web, or why they cannot be flown.
+pub type FewOfWeb = Result<Vec<LayerFew>, Error>;
+
+impl Flyer<'_> {
+    /// What a few filaments say about webs in the same air, without laying them; None if some of the first
+    /// one are not flown as a few for all.
+    ///
+    /// * `specs` – the web as it is, and changed ones
+    /// * `steps` – grows by the steps of all filaments
+    ///
+    /// # Errors
+    /// For each web as of [`Flyer::web`]; and if it is stopped.
+    pub fn few_in_same_air(
+        &self,
+        (specs, of_each): (&[&WebSpec], Compared),
+        steps: &AtomicU64,
+    ) -> Result<Option<Vec<FewOfWeb>>, Error> {
+        let Some(layers) = comparisons(specs, of_each)? else { return Ok(None) };
+        let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
+        for (number, layer) in layers.into_iter().enumerate() {
+            for (told, of_layer) in told.iter_mut().zip(self.compare((number, layer), steps)?) {
+                match (&mut *told, of_layer) {
+                    (Ok(told), Ok(few)) => told.push(few),
+                    (Ok(_), Err(error)) => *told = Err(error),
+                    (Err(_), _) => {}
+                }
+            }
+        }
+        Ok(Some(told))
+    }
+
+    /// Flies a layer of all webs and says what the filaments of each tell.
+    fn compare(
+        &self,
+        (number, layer): (usize, Comparison<'_>),
+        steps: &AtomicU64,
+    ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
+        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
+        layer.check_memory()?;
+        let flown = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
+        let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();
+        let of_web = |web: usize| {
+            let of_beam = layer.beams[web].as_ref().map_err(again)?;
+            let flight = flown.iter().find(|(flight, _)| Some(*flight) == layer.flight_of[web]);
+            let (flight, flown) = flight.ok_or_else(Error::no_fibre)?;
+            let above = layer.beams[*flight].as_ref().map_err(again)?;
+            Laid::new([&above.beam(), &of_beam.beam()], flown.as_ref().map_err(again)?)
+        };
+        let laid: Vec<Result<Laid<'_>, Error>> = (0..layer.beams.len()).map(of_web).collect();
+        let during = laid.iter().flatten().fold(f64::NEG_INFINITY..f64::INFINITY, |all, laid| {
+            all.start.max(laid.during.start)..all.end.min(laid.during.end)
+        });
+        let threads = self.threads.div_ceil(laid.len());
+        Ok(each(self.threads, laid.len(), |web| {
+            let (laid, of_beam) =
+                (laid[web].as_ref().map_err(again)?, layer.beams[web].as_ref().map_err(again)?);
+            let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
+            let (sheet, flown) = laid.sheet(&layer.sheet, &during)?;
+            let beam = of_beam.beam();
+            let curves = match few.arrangement {
+                Arrangement::Rows => Some(few.curves(&sheet, &beam, &flown)?),
+                // Alone it is told as the web as it is has been.
+                Arrangement::Slot | Arrangement::AtRandom if layer.beams.len() == 1 => {
+                    Some(few.curves(&sheet, &beam, &flown)?)
+                }
+                Arrangement::Slot | Arrangement::AtRandom => None,
+            };
+            let of_sheet = (number, &sheet, layer.blocks);
+            few.tell(of_sheet, (&beam, &flown), curves.as_ref(), (threads, self.stop))
+        }))
+    }
+}
+
+/// The same error once more, of which several webs tell.
+fn again(error: &Error) -> Error {
+    Error::Flight(Fault::plain(error.to_string()))
+}
+
+/// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of
+/// all webs but the first.
+pub(crate) fn steps_in_same_air(specs: &[&WebSpec], of_each: Compared) -> u64 {
+    let Some(layers) = comparisons(specs, of_each).ok().flatten() else {
+        let layers = |spec: &&'_ WebSpec| -> u64 {
+            let beams = (0..spec.layers.len()).filter_map(|number| beam_on(spec, number, None).ok());
+            beams.map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum()
+        };
+        return specs.iter().skip(1).map(layers).sum();
+    };
+    let of_layer = |layer: &Comparison<'_>| -> u64 {
+        layer.flights().map(|(_, of_beam)| of_beam.beam().steps(&layer.sheet)).sum()
+    };
+    layers.iter().map(of_layer).sum()
+}
+
+/// Whether the air in which webs fly beside each other takes no more memory than the first of them may take.
+pub(crate) fn fits_memory(specs: &[&WebSpec], of_each: Compared) -> bool {
+    let layers = comparisons(specs, of_each).ok().flatten().unwrap_or_default();
+    layers.iter().all(|layer| layer.check_memory().is_ok())
+}
+
+/// A layer of webs that are compared.
+struct Comparison<'a> {
+    /// The sheet of the web as it is.
+    sheet: Sheet,
+    /// Number of blocks of the sheet, across and along.
+    blocks: [usize; 2],
+    /// The filaments of each web.
+    beams: Vec<Result<LayerBeam<'a>, Error>>,
+    /// Most memory that their air may take [B].
+    memory_limit: f64,
+    /// Of each web, the one whose flight says what its filaments do.
+    flight_of: Vec<Option<usize>>,
+}
+
+/// The layers of webs that are compared; None if some of the first one are not flown as a few for all.
+fn comparisons<'a>(specs: &[&'a WebSpec], of_each: Compared) -> Result<Option<Vec<Comparison<'a>>>, Error> {
+    let Some((first, _)) = specs.split_first() else { return Ok(None) };
+    (0..first.layers.len()).map(|number| Comparison::new(specs, number, of_each)).collect()
+}
+
+impl<'a> Comparison<'a> {
+    fn new(specs: &[&'a WebSpec], number: usize, of_each: Compared) -> Result<Option<Self>, Error> {
+        let Some(on) = specs.first().and_then(|first| first.flown_sheet(number, Some(of_each))) else {
+            return Ok(None);
+        };
+        let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
+            Some(_) => Ok(of_beam.with_coarser_mesh()),
+            None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
+        };
+        let beams: Vec<Result<LayerBeam<'_>, Error>> =
+            specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
+        match specs.first().map(|first| first.few(number, &on)) {
+            Some(Some(_)) => {}
+            _ => return Ok(None),
+        }
+        let flight_of = (0..beams.len()).map(|web| {
+            let of_beam = beams[web].as_ref().ok()?;
+            let is_same = |other: &usize| beams[*other].as_ref().is_ok_and(|other| flies_as(of_beam, other));
+            Some((0..web).find(is_same).unwrap_or(web))
+        });
+        let flight_of = flight_of.collect();
+        let memory_limit = specs.first().map_or(f64::INFINITY, |first| first.memory_limit);
+        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, memory_limit, flight_of, beams }))
+    }
+
+    /// Refuses webs whose common air does not fit into the memory that it may take.
+    fn check_memory(&self) -> Result<(), Fault> {
+        let needed = memory_abreast(&self.flown_beams(), &self.sheet);
+        if needed <= self.memory_limit {
+            return Ok(());
+        }
+        let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
+        let message = format!(
+            "the field of eddies in which the changed webs fly beside each other takes {}, more than \
+            web.memory_limit = {}",
+            memory(needed),
+            memory(self.memory_limit)
+        );
+        let remedy = format!("write {} or more there if the machine has it", memory(1.05 * needed));
+        Err(Fault::new(message, remedy))
+    }
+
+    fn flown_beams(&self) -> Vec<Beam<'_>> {
+        self.flights().map(|(_, of_beam)| of_beam.beam()).collect()
+    }
+
+    /// The filaments that are flown, with the number of their web.
+    fn flights(&self) -> impl Iterator<Item = (usize, &LayerBeam<'a>)> {
+        let all = self.beams.iter().enumerate();
+        all.filter_map(|(web, of_beam)| Some((web, of_beam.as_ref().ok()?)))
+            .filter(|(web, _)| self.flight_of[*web] == Some(*web))
+    }
+}
+
+/// Whether filaments fly as others do: they differ in nothing but the speed of a belt that is too slow to
+/// pull at them.                                                                               theory.md (75)
+fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
+    let [own, other] = [of_beam, other].map(|of_beam| of_beam.beam());
+    let is_slow = |line: Line| line.belt_ratio() <= SLOW && line.contact == Contact::Stick;
+    let (Some(line), Some(of_other)) = (own.case.line, other.case.line) else { return false };
+    let mut case = own.case.clone();
+    case.line = Some(Line { belt_speed: of_other.belt_speed, ..line });
+    let is_same = case == *other.case
+        && own.places == other.places
+        && own.depth == other.depth
+        && own.charge == other.charge;
+    is_same && (line.belt_speed == of_other.belt_speed || (is_slow(line) && is_slow(of_other)))
+}
+
+/// What the filaments of a web have laid.
+struct Laid<'a> {
+    flight: &'a BeamFindings,
+    /// How much faster the belt is above which they have flown than that of the web [m/s].
+    faster: f64,
+    /// The times at which the belt has passed on which all filaments lie as after their start, counted in
+    /// what passes of the pattern of the air [s].
+    during: Range<f64>,
+    /// How far the belt moves in such a time [m/s].
+    belt_speed: f64,
+}
+
+impl<'a> Laid<'a> {
+    /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at
+    ///   the same time and place above both belts
+    fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
+        let [above, line] = beams.map(|beam| beam.case.line);
+        let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
+        let (start, faster) =
+            (line.feed_speed * beams[1].case.run.spin_up(), above.belt_speed - line.belt_speed);
+        let (mut front, mut ahead, mut fed) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
+        for (filament, points) in &flight.kept {
+            let y = beams[1].places[*filament].y;
+            for point in points {
+                let md = y + on_slower_belt(point, faster);
+                ahead = ahead.max(md + line.belt_ratio() * point.fed);
+                if point.fed < start {
+                    front = front.min(md);
+                }
+            }
+            fed = fed.min(points.last().map_or(0.0, |point| point.fed));
+        }
+        let belt_speed = line.belt_speed / flight.pace;
+        let [from, to] = [front, ahead - line.belt_ratio() * fed].map(|place| -place / belt_speed);
+        Ok(Self { flight, faster, during: from..to, belt_speed })
+    }
+
+    /// The stretch of belt that passes during some time, and what comes down on it; the filaments lie on it
+    /// from then on.
+    ///
+    /// # Errors
+    /// If hardly anything was laid during it.
+    fn sheet(&self, like: &Sheet, during: &Range<f64>) -> Result<(Sheet, BeamFindings), Error> {
+        let [front, behind] = [during.start, during.end].map(|time| -time * self.belt_speed);
+        let length = ((front - behind) / like.cell).floor() * like.cell;
+        if length < LEAST * like.length {
+            return Err(Fault::plain(
+                "what has been laid while the same air passed is too short to be compared",
+            )
+            .into());
+        }
+        let mut kept = self.flight.kept.clone();
+        let points = kept.iter_mut().flat_map(|(_, points)| points);
+        points.for_each(|point| point.md = on_slower_belt(point, self.faster));
+        let flown = BeamFindings { kept, back: front - length, ..BeamFindings::default() };
+        Ok((Sheet { length, ..like.clone() }, flown))
+    }
+}
+
+/// Where a point lies on a belt that is slower than the one above which it has flown [m].
+fn on_slower_belt(point: &LaidPoint, faster: f64) -> f64 {
+    point.md + faster * point.time
+}

@@ -1,0 +1,55 @@
+//! The fabric that a web becomes.
+
+use super::WebSpec;
+use crate::web::fabric::{Fabric, Filaments, Laid, StreakSource, tell};
+use crate::web::map::uniformity::Unevenness;
+use crate::web::map::{Defect, Findings, Layer, PatchFindings, Web, holes};
+
+impl WebSpec {
+    /// What a buyer wants to know of the fabric.
+    ///
+    /// * `web`, `found` – the web that was laid, and what was found of it
+    pub fn fabric(&self, web: &Web, found: &Findings, threads: usize) -> Fabric {
+        let sheet = &web.sheet;
+        let kinds = self.layers.iter().zip(&web.layers).map(|(layer, drawn)| Filaments {
+            diameter: layer.diameter,
+            density: layer.density,
+            basis_weight: drawn.basis_weight(sheet),
+        });
+        let laid = Laid {
+            map: &found.laid.map,
+            margins: found.margins,
+            reach: Some(found.reach),
+            filaments: kinds.collect(),
+            orientation: Some(&found.orientation),
+            patches: found.patches.iter().filter_map(with_whole_error).collect(),
+            defects: self.streak_sources(web),
+        };
+        tell(&laid, &self.fabric, threads)
+    }
+
+    /// What the defects of its layers take from the web.
+    fn streak_sources(&self, web: &Web) -> Vec<StreakSource> {
+        let of_layer = |(number, layer): (usize, &Layer)| {
+            let mass = layer.linear_density / layer.belt_ratio();
+            let source = |(i, defect): (usize, &Defect)| {
+                let holes = holes((&web.sheet, web.seed), (number, &layer.filaments), (i, defect));
+                let less = (1.0 - defect.titre) * mass;
+                let missing = holes.into_iter().map(|(_, place)| (place, less)).collect();
+                let until = defect.until(web.sheet.length, layer.belt_speed);
+                StreakSource { missing, spread: layer.fibres.sigma_cd(), until }
+            };
+            layer.defects.iter().enumerate().map(source).collect::<Vec<_>>()
+        };
+        let all = web.layers.iter().enumerate().flat_map(of_layer);
+        // Where chance chose no hole, there is no streak.
+        all.filter(|source| !source.missing.is_empty()).collect()
+    }
+}
+
+/// The CV of a web with its error by all causes, or by chance where another one is not known; None if it is not
+/// told.
+fn with_whole_error(patch: &PatchFindings) -> Option<Unevenness> {
+    let told = patch.told()?;
+    Some(Unevenness { standard_error: patch.whole_error().whole().or(told.standard_error), ..told })
+}

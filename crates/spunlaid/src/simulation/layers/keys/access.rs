@@ -1,0 +1,88 @@
+//! How keys read and change a web.
+
+use crate::fibre::case::keys::Key;
+use crate::fibre::case::keys::row::AccessTo;
+use crate::ground::error::Fault;
+use crate::simulation::layers::{LayerSpec, WebSpec};
+use crate::web::map::{Defect, Filaments, Row};
+
+/// A key of a web.
+pub type WebKey = Key<WebSpec>;
+/// Access to a web.
+pub(super) type Access = AccessTo<WebSpec>;
+
+/// Access to a known number of the surrogate.
+macro_rules! of_surrogate {
+    ($field:ident) => {
+        $crate::fibre::case::keys::row::within!(
+            |web| &layer(web)?.source,
+            &mut layer_mut(web)?.source,
+            LaydownSource::Surrogate(surrogate) => surrogate.$field,
+            flown()
+        )
+    };
+}
+
+pub(super) use of_surrogate;
+
+/// A number of a surrogate that follows from flights.
+pub(super) fn flown() -> Fault {
+    Fault::needs("laydown without a case", "leave it out, or leave this out")
+}
+
+/// The fault of a depth beside rows.
+pub(crate) fn in_rows() -> Fault {
+    Fault::excludes(
+        "line.rows",
+        "rows have places in machine direction of their own, rows.md; keep one of them",
+    )
+}
+
+/// The fault of plates beside filaments without charge.
+pub(super) fn uncharged() -> Fault {
+    Fault::needs("line.charge", "write the charge of the filaments, or leave it out")
+}
+
+/// Whether the case of flown fibres gives the value.
+pub(super) fn is_flown(web: &WebSpec) -> bool {
+    layer(web).is_some_and(|layer| layer.source.case().is_some())
+}
+
+pub(super) fn layer(web: &WebSpec) -> Option<&LayerSpec> {
+    web.layers.first()
+}
+
+pub(super) fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
+    web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
+}
+
+/// The first row of nozzles.
+pub(super) fn row(web: &WebSpec) -> Option<&Row> {
+    match &layer(web)?.filaments {
+        Filaments::Rows(rows) => rows.first(),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+    }
+}
+
+pub(super) fn row_mut(web: &mut WebSpec) -> Result<&mut Row, Fault> {
+    let row = match &mut layer_mut(web)?.filaments {
+        Filaments::Rows(rows) => rows.first_mut(),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
+    };
+    row.ok_or_else(|| Fault::needs("line.rows", "leave it out"))
+}
+
+/// The first defect of the first layer.
+pub(super) fn defect(web: &WebSpec) -> Option<&Defect> {
+    layer(web)?.defects.first()
+}
+
+pub(super) fn defect_mut(web: &mut WebSpec) -> Result<&mut Defect, Fault> {
+    let defect = layer_mut(web)?.defects.first_mut();
+    defect.ok_or_else(|| Fault::needs("line.defects", "write a list of defects"))
+}
+
+/// Diameter of a filament of this linear density [kg/m] and density [kg/m³].
+pub(super) fn diameter(linear_density: f64, density: f64) -> f64 {
+    (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
+}

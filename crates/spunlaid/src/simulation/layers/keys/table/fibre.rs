@@ -1,0 +1,113 @@
+//! The keys of the tables `[layer]`, `[fibre]` and `[laydown]`.
+
+use super::super::access::{Access, WebKey, diameter, flown, is_flown, layer, layer_mut, of_surrogate};
+use super::{EITHER, positive};
+use crate::fibre::case::keys::row::{at, key, number};
+use crate::fibre::case::keys::{Condition, Kind, Value};
+use crate::ground::units::Dimension;
+use crate::simulation::layers::{LaydownSource, WebSpec};
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("fibre.diameter", Dimension::Length)
+        .access(Access {
+            get: |web| layer(web).filter(|layer| layer.titre.is_none()).map(|layer| layer.diameter.into()),
+            set: |web, value| {
+                let layer = layer_mut(web)?;
+                (layer.diameter, layer.titre) = (number(value)?, None);
+                Ok(())
+            },
+        })
+        .derived(is_flown)
+        .required("18 µm")
+        .meaning(
+            "Diameter of the round filaments. With `laydown.case` it is that of the case, and \
+             where a filament flies it is the key of its case.",
+        )
+        .label("Fibre diameter *d*"),
+    positive("fibre.density", Dimension::Density)
+        .access(at!(layer, layer_mut, density))
+        .derived(is_flown)
+        .required("910 kg/m³")
+        .meaning("Density of the polymer. With `laydown.case` it is that of the case.")
+        .label("Fibre density"),
+    positive("fibre.linear_density", Dimension::LinearDensity)
+        .access(Access {
+            get: |web| layer(web)?.titre.map(Value::Number),
+            set: |web, value| {
+                let (titre, layer) = (number(value)?, layer_mut(web)?);
+                (layer.diameter, layer.titre) = (diameter(titre, layer.density), Some(titre));
+                Ok(())
+            },
+        })
+        .alternative_to(&["fibre.diameter"], EITHER)
+        .in_other_words(|web| Some(layer(web)?.linear_density().into()))
+        .follows("diameter and density give it")
+        .meaning(
+            "Mass per length of a filament, which may be written instead of `fibre.diameter`; the diameter \
+             follows with the density.",
+        )
+        .label("Linear density"),
+];
+
+/// In the order of the file.
+pub(super) const LAYER: &[WebKey] = &[key("layer.name", Kind::Text("first beam"))
+    .access(at!(layer, layer_mut, name))
+    .follows("the layer's number")
+    .meaning(
+        "Name of a layer. A web of several layers has a `[[layer]]` for each beam, with its own \
+             `[layer.line]`, `[layer.laydown]` and `[layer.fibre]` in place of the three tables below; \
+             their basis weights add up. Tables of a filament that stand above the layers are those of all.",
+    )];
+
+/// The numbers of a surrogate.
+pub(crate) const NUMBERS: [&str; 3] = ["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"];
+/// Filaments of which these numbers are known, so that none are flown.
+const KNOWN: &Condition<WebSpec> = &Condition {
+    words: "without a case",
+    holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
+};
+/// Where the numbers of a surrogate come from if they are left out.
+const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
+
+/// Why a layer names one source of its fibres.
+pub(crate) const ONE_SOURCE: &str =
+    "keep one of a filament to fly and the numbers sigma_md, sigma_cd and noise";
+
+/// In the order of the file.
+pub(super) const LAYDOWN: &[WebKey] = &[
+    key("laydown.case", Kind::Text("spunbond.toml"))
+        // What stands there is written into the file of the web.
+        .told(|_: &WebSpec| None)
+        .follows("the tables of a case in this file, or the three numbers")
+        .meaning(
+            "Path of the case of a fed fibre, relative to this file, which several webs may share. It is \
+             flown, and the web is laid of what it lays. Keys of it that stand in this file too, as \
+             `air.velocity`, take the place of those there.",
+        ),
+    positive("laydown.sigma_md", Dimension::Length)
+        .access(of_surrogate!(sigma_md))
+        .needed_if(KNOWN, "18.4 mm")
+        .follows(IDENTIFIED)
+        .meaning(
+            "Spread of a laid filament in machine direction: the σ₁ of the surrogate. Known numbers do not \
+             say how neighbours come down together, so the CV of such a web is a lower bound; a case in place \
+             of them (`laydown.case`) is flown in one air, as in a line.",
+        )
+        .label("Spread in machine direction")
+        .usual(1e-5, 1.0),
+    positive("laydown.sigma_cd", Dimension::Length)
+        .access(of_surrogate!(sigma_cd))
+        .needed_if(KNOWN, "18.3 mm")
+        .follows(IDENTIFIED)
+        .meaning("Spread of a laid filament in cross direction: the σ₂ of the surrogate.")
+        .label("Spread in cross direction")
+        .usual(1e-5, 1.0),
+    positive("laydown.noise", Dimension::Noise)
+        .access(of_surrogate!(noise))
+        .needed_if(KNOWN, "12.4 m^-0.5")
+        .follows(IDENTIFIED)
+        .meaning("Strength A of the noise in the direction of the surrogate.")
+        .label("Noise of the direction *A*")
+        .usual(0.1, 1e4),
+];

@@ -1,0 +1,294 @@
+//! The keys of the table `[line]`, with the defects of a line, `line.defects`.
+
+use super::super::access::{
+    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut, uncharged,
+};
+use super::{EITHER, MOST_FILAMENTS, positive};
+use crate::fibre::case::keys::row::{at, key, number, quantity, whole};
+use crate::fibre::case::keys::{EVEN, Kind, Sign, Value};
+use crate::ground::units::Dimension;
+use crate::web::map::Filaments;
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("line.feed_speed", Dimension::Velocity)
+        .access(Access {
+            get: |web| {
+                layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into())
+            },
+            set: |web, value| {
+                let layer = layer_mut(web)?;
+                (layer.feed_speed, layer.throughput) = (number(value)?, None);
+                Ok(())
+            },
+        })
+        .derived(is_flown)
+        .same_in_case("feed.speed")
+        .gives_case(&["feed.speed"])
+        .required("50 m/s")
+        .meaning(
+            "Speed at which each filament is fed: the spinning speed. Of a filament that flies it is \
+             `feed.speed`, in whose place it may be written.",
+        )
+        .label("Feed speed"),
+    positive("line.throughput", Dimension::MassFlow)
+        .access(Access {
+            get: |web| layer(web)?.throughput.map(Value::Number),
+            set: |web, value| {
+                let (throughput, layer) = (number(value)?, layer_mut(web)?);
+                (layer.feed_speed, layer.throughput) =
+                    (throughput / layer.linear_density(), Some(throughput));
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.feed_speed"], EITHER)
+        .in_other_words(|web| layer(web).map(|layer| (layer.linear_density() * layer.feed_speed).into()))
+        .gives_case(&["feed.speed", "spinline.throughput"])
+        .read_last()
+        .follows("`feed_speed` and the filament give it")
+        .usual(1e-8, 1e-3)
+        .meaning(
+            "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the \
+             throughput over the linear density. Of a filament that flies it gives `feed.speed`, or \
+             `spinline.throughput`.",
+        )
+        .synonyms(&["output per hole", "mass flow", "grams per minute"])
+        .label("Throughput of a hole"),
+    positive("line.belt_speed", Dimension::Velocity)
+        .access(Access {
+            get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
+            set: |web, value| {
+                let belt_speed = number(value)?;
+                layer_mut(web)?;
+                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.basis_weight = None;
+                Ok(())
+            },
+        })
+        .derived(is_flown)
+        .same_in_case("belt.speed")
+        .gives_case(&["belt.speed"])
+        .of_all_layers()
+        .required("3 m/s")
+        .meaning(
+            "Speed of the belt. It is written once, in any of the layers, because all lie on one belt. \
+             Of a filament that flies it is `belt.speed`, in whose place it may be written.",
+        )
+        .label("Belt speed"),
+    positive("line.basis_weight", Dimension::BasisWeight)
+        .access(Access {
+            get: |web| layer(web).and(web.basis_weight).map(Value::Number),
+            set: |web, value| {
+                let basis_weight = number(value)?;
+                let belt_speed = web.belt_speed_for(basis_weight);
+                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.basis_weight = Some(basis_weight);
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.belt_speed"], EITHER)
+        .gives_case(&["belt.speed"])
+        .read_last()
+        .of_all_layers()
+        .follows("`belt_speed` and the filaments give it")
+        .usual(1e-3, 2.0)
+        .meaning(
+            "Mass of the web per area, that of all layers together, which may be written instead of \
+             `line.belt_speed`, in any of the layers: the belt is as fast as it takes to lay it, and filaments \
+             fly above this belt.",
+        )
+        .synonyms(&["grammage", "mass per area", "surface weight"])
+        .label("Basis weight"),
+    key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| match layer(web)?.filaments {
+                Filaments::AtRandom { per_metre } | Filaments::Slot { per_metre, .. } => {
+                    Some(Value::Whole(per_metre.round() as u64))
+                }
+                Filaments::Rows(_) => None,
+            },
+            set: |web, value| {
+                let filaments = &mut layer_mut(web)?.filaments;
+                let per_metre = whole(value)? as f64;
+                *filaments = match *filaments {
+                    Filaments::Slot { depth, .. } => Filaments::Slot { per_metre, depth },
+                    _ => Filaments::AtRandom { per_metre },
+                };
+                Ok(())
+            },
+        })
+        .alternative_to(&["line.rows"], "filaments come down at random places or in rows; keep one")
+        .follows("`rows`")
+        .varies()
+        .meaning(
+            "Number of filaments per metre of width, which come down at random places, or with `depth` at \
+             an even pitch. The nearest whole number is laid.",
+        )
+        .synonyms(&["holes per metre", "capillaries per metre"])
+        .label("Filaments per metre"),
+    quantity("line.depth", Dimension::Length, Sign::NotNegative)
+        .access(Access {
+            get: |web| match layer(web)?.filaments {
+                Filaments::Slot { depth, .. } => Some(depth.into()),
+                _ => None,
+            },
+            set: |web, value| {
+                let filaments = &mut layer_mut(web)?.filaments;
+                *filaments = match *filaments {
+                    Filaments::Slot { per_metre, .. } | Filaments::AtRandom { per_metre } => {
+                        Filaments::Slot { per_metre, depth: number(value)? }
+                    }
+                    Filaments::Rows(_) => return Err(in_rows()),
+                };
+                Ok(())
+            },
+        })
+        .follows("places at random in cross direction, all in the middle of the slot")
+        .label("Depth of the slot")
+        .meaning(
+            "Size in machine direction of the slot through which the filaments come, with \
+             `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
+             the depth. It changes a web of a case, for filaments that \
+             are deeper in the slot hang in other eddies; elsewhere only the even pitch counts. The air \
+             comes through the same slot, and what filaments do to it is told by its size.",
+        )
+        .label("Depth of the slot")
+        .usual(1e-4, 1.0),
+    quantity("line.charge", Dimension::SpecificCharge, Sign::Any)
+        .access(at!(layer, layer_mut, charge))
+        .follows("none")
+        .usual(1e-5, 1e-2)
+        .meaning(
+            "Charge per mass of the filaments, as a charging bar leaves it on them: they drive each other \
+             apart along the machine direction while they come down. Only filaments of a \
+             case, which fly, have one. The sign does not matter. No measured charge of a spunbond line is known to \
+             us.",
+        )
+        .synonyms(&["charging", "electrostatic", "corona", "electret"])
+        .label("Charge of the filaments"),
+    positive("line.walls", Dimension::Length)
+        .access(Access {
+            get: |web| layer(web)?.walls.map(Value::Number),
+            set: |web, value| {
+                let layer = layer_mut(web)?;
+                if layer.charge.is_none() {
+                    return Err(uncharged());
+                }
+                layer.walls = Some(number(value)?);
+                Ok(())
+            },
+        })
+        .follows("no plates")
+        .usual(1e-3, 1.0)
+        .meaning(
+            "With `line.charge`: distance of two earthed plates from the middle of the slot, one on each \
+             side along the machine direction, from inlet to belt. A curtain in the middle does not feel \
+             them; one that is off it is pulled to the nearer plate. They stop no filament.",
+        )
+        .synonyms(&["plates", "images"])
+        .label("Distance of earthed plates"),
+    quantity("line.rows.offset", Dimension::Length, Sign::Any)
+        .access(at!(row, row_mut, offset))
+        .value("0 mm")
+        .meaning(
+            "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", \
+             filaments = 5000 }, …]`, the rows of nozzles of the beam. The offset is the place of a row's \
+             first nozzle, from the edge of the web.",
+        )
+        .label("Place of the first nozzle")
+        .usual(1e-6, 30.0),
+    positive("line.rows.pitch", Dimension::Length)
+        .access(Access {
+            get: |web| row(web).map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() }),
+            set: |web, value| {
+                let (width, row) = (web.sheet.width, row_mut(web)?);
+                row.is_even = matches!(value, Value::Text(word) if word == EVEN);
+                row.pitch = if row.is_even { width / row.filaments as f64 } else { number(value)? };
+                Ok(())
+            },
+        })
+        .required("0.2 mm")
+        .or_words(&[EVEN])
+        .meaning(
+            "Distance from nozzle to nozzle in a row, or `\"even\"` for the width of the web over the \
+             number of filaments. With periodic edges, pitch times filaments is the width of the web.",
+        )
+        .label("Distance of the nozzles")
+        .usual(1e-6, 1.0),
+    key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| Some(row(web)?.filaments.into()),
+            set: |web, value| {
+                let (width, row) = (web.sheet.width, row_mut(web)?);
+                row.filaments = whole(value)?;
+                if row.is_even {
+                    row.pitch = width / row.filaments as f64;
+                }
+                Ok(())
+            },
+        })
+        .required("5000")
+        .varies()
+        .meaning("Number of nozzles in a row.")
+        .synonyms(&["holes", "nozzles", "capillaries"])
+        .label("Nozzles of a row"),
+    quantity("line.rows.md", Dimension::Length, Sign::Any)
+        .access(at!(row, row_mut, md))
+        .value("0 mm")
+        .meaning(
+            "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a \
+             web of a case.",
+        )
+        .label("Place of the row in machine direction")
+        .usual(1e-5, 1.0),
+];
+
+/// The keys of a defect.
+pub(super) const DEFECTS: &[WebKey] = &[
+    quantity("line.defects.from", Dimension::Length, Sign::NotNegative)
+        .access(at!(defect, defect_mut, from))
+        .follows("from the edge of the web on")
+        .meaning(
+            "Holes that feed more or less than the others: `defects = [{ from = \"0.5 m\" }, …]`, with where \
+             they begin, from the edge of the web. `from` alone is the one hole that is nearest to it, by default a \
+             blocked one; with `to`, all holes between.",
+        )
+        .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak"])
+        .label("Place where a defect begins")
+        .usual(1e-6, 30.0),
+    quantity("line.defects.to", Dimension::Length, Sign::NotNegative)
+        .access(at!(defect, defect_mut, to))
+        .follows("the one hole that is nearest to `from`; without `from`, all across the web")
+        .meaning("Where the holes with the defect end, from the edge of the web.")
+        .label("Place where a defect ends")
+        .usual(1e-6, 30.0),
+    key("line.defects.row", Kind::Whole(1, MOST_FILAMENTS))
+        .access(at!(defect, defect_mut, row))
+        .follows("all rows")
+        .meaning("Number of the row of nozzles of `rows` that has the defect, from 1.")
+        .label("Row with a defect"),
+    quantity("line.defects.share", Dimension::Ratio, Sign::Share)
+        .access(at!(defect, defect_mut, share))
+        .value("1")
+        .meaning("Each of these holes has the defect with this probability, chosen by the seed of the web.")
+        .label("Share of the holes with a defect")
+        .usual(1e-4, 1.0),
+    quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative)
+        .access(at!(defect, defect_mut, titre))
+        .value("0")
+        .meaning(
+            "Mass per length of the filaments from these holes over that of the others, up to 2; 0 of \
+            blocked holes. The filaments are taken to lie as the others do.",
+        )
+        .label("Titre of filaments with a defect")
+        .usual(0.05, 2.0),
+    quantity("line.defects.after", Dimension::Time, Sign::NotNegative)
+        .access(at!(defect, defect_mut, after))
+        .value("0 s")
+        .meaning(
+            "Time from which on it is so, after the sheet began to be laid: a filament that broke, a hole that was \
+             blocked then.",
+        )
+        .label("Time of a defect")
+        .usual(1e-6, 1e4),
+];

@@ -1,0 +1,220 @@
+//! The keys of the tables `[web]` and `[fabric]`.
+
+use super::super::access::{Access, WebKey};
+use super::{MOST_FILAMENTS, positive};
+use crate::fibre::case::keys::row::{at, choose, key, named, quantity, text, whole};
+use crate::fibre::case::keys::{Kind, Sign, Value};
+use crate::ground::units::Dimension;
+use crate::simulation::layers::Flown;
+use crate::web::map::Edges;
+
+/// How many filaments are flown: as many as it takes, or all.
+const AUTO: &str = "auto";
+const ALL: &str = "all";
+/// No number is a guess.
+const NONE: &str = "none";
+/// What becomes of fibre beyond the edges.
+const EDGES: [&str; 2] = ["periodic", "cut"];
+
+/// In the order of the file.
+pub(super) const KEYS: &[WebKey] = &[
+    positive("web.width", Dimension::Length)
+        .access(at!(sheet.width))
+        .required("1 m")
+        .meaning("Size of the web in cross direction, a whole number of cells.")
+        .synonyms(&["working width"])
+        .label("Width of the web")
+        .usual(1e-3, 30.0),
+    positive("web.length", Dimension::Length)
+        .access(at!(sheet.length))
+        .required("1 m")
+        .meaning(
+            "Size of the web in machine direction, a whole number of cells. It is a stretch of an endless \
+             web, closed to a ring.",
+        )
+        .label("Length of the web")
+        .usual(1e-3, 300.0),
+    key("web.patches", Kind::Lengths)
+        .access(at!(sheet.patches))
+        .follows("those of 1, 2, 5, 10, 20 and 50 mm that fit")
+        .meaning(
+            "Sides of the square patches over which the basis weight is compared, each a whole number of \
+             cells and at most half as large as the web.",
+        )
+        .usual(1e-5, 10.0),
+    positive("web.cell", Dimension::Length)
+        .access(at!(sheet.cell))
+        .follows(
+            "the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the \
+             web",
+        )
+        .meaning("Side of the square cells of the map of the basis weight.")
+        .synonyms(&["test area"])
+        .label("Cell of the map")
+        .usual(1e-6, 0.1),
+    key("web.seed", Kind::Whole(0, u64::MAX))
+        .access(at!(seed))
+        .value("1")
+        .varies()
+        .meaning("Seed of all random numbers of the web. Equal files with equal seeds give the same bits.")
+        .label("Seed of the web"),
+    choose("web.edges", || EDGES.to_vec())
+        .access(Access {
+            get: |web| Some(EDGES[usize::from(web.sheet.edges == Edges::Cut)].into()),
+            set: |web, value| {
+                web.sheet.edges =
+                    named(value, &[Edges::Periodic, Edges::Cut], |edges| EDGES[edges as usize])?;
+                Ok(())
+            },
+        })
+        .value("periodic")
+        .meaning(
+            "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at the \
+             other edge, as in a web that is wide everywhere; `cut`, it is cut off, and the strips where \
+             the web is thinner for it, up to 3 σ_CD inwards of the outermost filament, are left out of \
+             the unevenness.",
+        )
+        .label("Edges"),
+    key("web.flown", Kind::Whole(1, MOST_FILAMENTS))
+        .access(Access {
+            get: |web| match web.flown {
+                Flown::Auto => None,
+                Flown::All => Some(ALL.into()),
+                Flown::PerMetre(number) => Some(Value::Whole(number)),
+            },
+            set: |web, value| {
+                web.flown = match value {
+                    Value::Text(word) if word == ALL => Flown::All,
+                    Value::Text(_) => Flown::Auto,
+                    value => Flown::PerMetre(whole(value)?),
+                };
+                Ok(())
+            },
+        })
+        .or_words(&[AUTO, ALL])
+        .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
+        .meaning(
+            "Filaments per metre of width that are flown for all others in a web of cases: they hang in one air and \
+             neighbours come down almost alike, so a few of them carry the unevenness of all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
+             asks for, and twice or four times as many where these do not tell what all do.",
+        )
+        .label("Filaments per metre that are flown"),
+    positive("web.memory_limit", Dimension::Memory)
+        .access(at!(memory_limit))
+        .value("4 GB")
+        .fixed()
+        .meaning(
+            "Most memory that the field of eddies of a web in one air may take. A web that needs more is \
+             refused before it is flown.",
+        )
+        .label("Memory limit")
+        .usual(1e7, 1e13),
+    key("web.guessed", Kind::Text("line.depth, air.length_factor"))
+        .access(Access {
+            get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
+            set: |web, value| {
+                let names = text(value)?;
+                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
+                web.guessed = names.map(ToOwned::to_owned).collect();
+                Ok(())
+            },
+        })
+        .or_words(&[NONE])
+        .follows("`none`: every number counts as known")
+        .meaning(
+            "Keys of the web and of its cases whose numbers are guesses, with commas between them. \
+             `spunlaid web` also tells the CV for half and for twice of each, from a few filaments. Take out \
+             each whose number has been measured.",
+        )
+        .synonyms(&["assumed", "uncertain", "made up"])
+        .label("Guessed numbers"),
+    positive("web.window", Dimension::Length)
+        .access(at!(window))
+        .follows("20 mm, at most the web's smaller side")
+        .meaning(
+            "Side of the square in the middle of the web whose single fibres are written to a file of \
+             polylines.",
+        )
+        .label("Window")
+        .usual(1e-5, 10.0),
+];
+
+/// In the order of the file.
+pub(super) const FABRIC: &[WebKey] = &[
+    positive("fabric.thickness", Dimension::Length)
+        .access(at!(fabric.thickness))
+        .follows("no air permeability is told")
+        .meaning(
+            "Thickness of the finished fabric, between its bonds. The program does not know it: it follows \
+             from the calender.",
+        )
+        .synonyms(&["caliper", "gauge", "loft"])
+        .label("Thickness")
+        .usual(1e-5, 0.1),
+    positive("fabric.saleable_width", Dimension::Length)
+        .access(at!(fabric.saleable_width))
+        .follows("all of the web between its edges")
+        .meaning(
+            "Width in the middle of the web that is sold; what lies beside it is trimmed. What is told of \
+             the fabric is that of this width.",
+        )
+        .synonyms(&["trim", "slit width", "net width"])
+        .label("Saleable width")
+        .usual(1e-2, 30.0),
+    quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
+        .access(at!(fabric.tolerance))
+        .value("5 %")
+        .meaning(
+            "How far the weight may be from that of the middle half of the web to be sold, with \
+             `web.edges = \"cut\"`: the width that is within it is told, and its trim.",
+        )
+        .label("Tolerance of the weight")
+        .usual(1e-3, 0.5),
+    positive("fabric.strip_width", Dimension::Length)
+        .access(at!(fabric.strip.width))
+        .value("50 mm")
+        .meaning("Width of a strip of the tensile test, as in ISO 9073-3.")
+        .synonyms(&["tensile", "specimen"])
+        .label("Width of a strip")
+        .usual(1e-3, 1.0),
+    positive("fabric.strip_length", Dimension::Length)
+        .access(at!(fabric.strip.length))
+        .value("200 mm")
+        .meaning("Length of a strip between the jaws of the tensile test, as in ISO 9073-3.")
+        .synonyms(&["tensile", "gauge length"])
+        .label("Length of a strip")
+        .usual(1e-2, 10.0),
+    positive("fabric.section", Dimension::Length)
+        .access(at!(fabric.strip.section))
+        .value("5 mm")
+        .meaning(
+            "Length of a section of a strip. Of each strip the lightest section is looked for, where it \
+             would tear if its strength were that of its fibres.",
+        )
+        .synonyms(&["tensile", "weakest link"])
+        .label("Section of a strip")
+        .usual(1e-4, 0.1),
+    positive("fabric.pressure", Dimension::Pressure)
+        .access(at!(fabric.pressure))
+        .value("200 Pa")
+        .meaning("Pressure that drives air through the fabric in the test, as in ISO 9073-15.")
+        .synonyms(&["air permeability", "porosity"])
+        .label("Pressure of the air")
+        .usual(1.0, 1e4),
+    quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
+        .access(at!(fabric.measured_opacity))
+        .follows("no opacity is told")
+        .meaning(
+            "Opacity (ISO 2471) that was measured of a fabric of the same filaments. Pigment and titre are \
+             in it; the program adds what the basis weight and its clouds do.",
+        )
+        .synonyms(&["cover", "whiteness"])
+        .label("Measured opacity")
+        .usual(0.01, 0.99),
+    positive("fabric.opacity_weight", Dimension::BasisWeight)
+        .access(at!(fabric.opacity_weight))
+        .follows("that of this web")
+        .meaning("Basis weight of the fabric whose opacity was measured.")
+        .label("Basis weight of the measured opacity")
+        .usual(1e-3, 1.0),
+];

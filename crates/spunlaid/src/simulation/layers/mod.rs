@@ -1,0 +1,345 @@
+//! The layers of a web: what is to be laid, as a file says it, and the fibres of which it is laid.
+//!
+//! ```text
+//! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or known → Web, which `web` lays
+//! ```
+
+mod charge;
+mod comparison;
+mod fabric;
+mod few;
+mod flown_curtain;
+mod flyer;
+pub(crate) mod full_names;
+pub(crate) mod keys;
+mod shared_air;
+
+use crate::fibre::case::Case;
+use crate::fibre::case::keys::{self as case_keys, Value};
+use crate::ground::error::{Error, Fault, Finding, Place, Problem};
+use crate::ground::units::Dimension;
+use crate::simulation::ensemble::Curtain;
+use crate::web::fabric::FabricKeys;
+use crate::web::map::{Defect, Edges, Fibres, Filaments, Layer, Sheet, Titres, Web, Window, inlets};
+use crate::web::surrogate::Surrogate;
+pub use comparison::FewOfWeb;
+pub(crate) use comparison::{fits_memory, steps_in_same_air};
+pub use few::Compared;
+pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres, ProgressDisplay};
+pub use full_names::{place_in_web, web_key};
+pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
+pub use shared_air::PlannedFlight;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Fewest standard deviations of a filament's place that a closed side of the web is long.
+const LEAST_SPREADS: f64 = 8.0;
+
+/// Relative difference up to which two numbers are the same.
+pub(crate) const SAME: f64 = 1e-9;
+
+/// A web before its fibres have been flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WebSpec {
+    /// The sheet.
+    pub sheet: Sheet,
+    /// What lies on it.
+    pub layers: Vec<LayerSpec>,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// How many filaments of a web in one air are flown.
+    pub flown: Flown,
+    /// Side of the square in the middle of the sheet whose single fibres are written out [m].
+    pub window: f64,
+    /// Most memory that the air of a web in one air may take [B].
+    pub memory_limit: f64,
+    /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
+    pub basis_weight: Option<f64>,
+    /// What is given of the fabric and of its tests.
+    pub fabric: FabricKeys,
+    /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
+    pub guessed: Vec<String>,
+}
+
+/// How many filaments of a web in one air are flown for all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flown {
+    /// As many as the length scale of the air asks for.
+    Auto,
+    /// All of them.
+    All,
+    /// So many per metre of width.
+    PerMetre(u64),
+}
+
+/// A layer before its fibres have been flown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerSpec {
+    /// Its name, if it has one.
+    pub name: Option<String>,
+    /// Diameter of a filament [m].
+    pub diameter: f64,
+    /// Mass per length of a filament, if it is given in place of the diameter, which follows from it [kg/m].
+    pub titre: Option<f64>,
+    /// Density of the polymer [kg/m³].
+    pub density: f64,
+    /// How the filaments lie, or what tells it.
+    pub source: LaydownSource,
+    /// Speed at which each filament is fed [m/s].
+    pub feed_speed: f64,
+    /// Mass flow of a hole, if it is given in place of the feed speed, which follows from it [kg/s].
+    pub throughput: Option<f64>,
+    /// Speed of the belt [m/s].
+    pub belt_speed: f64,
+    /// Where the filaments come down.
+    pub filaments: Filaments,
+    /// Holes that feed more or less than the others.
+    pub defects: Vec<Defect>,
+    /// Charge per mass of the filaments, if they are charged [C/kg].
+    pub charge: Option<f64>,
+    /// Distance of grounded plates from the middle of the slot, if there are any [m].
+    pub walls: Option<f64>,
+}
+
+/// What tells how a filament lies.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LaydownSource {
+    /// A case that is to be flown.
+    Case {
+        /// Its file.
+        path: PathBuf,
+        /// What is in it.
+        case: Arc<Case>,
+    },
+    /// Known numbers.
+    Surrogate(Surrogate),
+}
+
+impl LaydownSource {
+    /// Numbers of a surrogate that are not known yet.
+    pub(crate) const UNKNOWN: Self =
+        Self::Surrogate(Surrogate { sigma_md: f64::NAN, sigma_cd: f64::NAN, noise: f64::NAN });
+
+    /// The case of the flown fibres, if there is one.
+    pub fn case(&self) -> Option<&Case> {
+        match self {
+            Self::Case { case, .. } => Some(case),
+            Self::Surrogate(_) => None,
+        }
+    }
+
+    /// The path of the case, for messages.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Case { path, .. } => path,
+            Self::Surrogate(_) => Path::new(""),
+        }
+    }
+}
+
+impl LayerSpec {
+    /// A layer whose keys are set one after another.
+    pub(crate) fn unknown(source: LaydownSource) -> Self {
+        let nan = f64::NAN;
+        Self {
+            name: None,
+            diameter: nan,
+            titre: None,
+            density: nan,
+            source,
+            feed_speed: nan,
+            throughput: None,
+            belt_speed: nan,
+            filaments: Filaments::AtRandom { per_metre: nan },
+            defects: Vec::new(),
+            charge: None,
+            walls: None,
+        }
+    }
+
+    /// Takes the size and the speeds with which its fibres are flown, if they are.
+    pub(crate) fn take_flown(&mut self) {
+        let Some(case) = self.source.case() else { return };
+        let (fibre, line) = (case.fibre, case.line);
+        (self.diameter, self.density) = (fibre.diameter, fibre.density);
+        if let Some(line) = line {
+            (self.feed_speed, self.belt_speed) = (line.feed_speed, line.belt_speed);
+        }
+    }
+
+    /// Mass per length of a filament [kg/m].
+    pub fn linear_density(&self) -> f64 {
+        0.25 * PI * self.diameter * self.diameter * self.density
+    }
+
+    /// The layer, once its fibres are known.
+    pub fn layer(&self, fibres: Fibres) -> Layer {
+        Layer {
+            linear_density: self.linear_density(),
+            feed_speed: self.feed_speed,
+            belt_speed: self.belt_speed,
+            filaments: self.filaments.clone(),
+            defects: self.defects.clone(),
+            fibres,
+        }
+    }
+}
+
+impl WebSpec {
+    /// A web without layers, whose keys are set one after another.
+    pub(crate) const fn unknown() -> Self {
+        let nan = f64::NAN;
+        Self {
+            sheet: Sheet::new(nan, nan, nan),
+            layers: Vec::new(),
+            seed: 0,
+            flown: Flown::Auto,
+            window: nan,
+            memory_limit: nan,
+            basis_weight: None,
+            fabric: FabricKeys::USUAL,
+            guessed: Vec::new(),
+        }
+    }
+
+    /// Whether its filaments are flown: those of cases hang in one air and lay the web as they come down. Those
+    /// of known numbers are independent paths of the surrogate.
+    pub fn flies(&self) -> bool {
+        self.layers.iter().any(|layer| layer.source.case().is_some())
+    }
+
+    /// What the defects of a layer make of its filaments.
+    pub(crate) fn titres(&self, number: usize) -> Titres {
+        let of = |layer: &LayerSpec| {
+            let LayerSpec { filaments, defects, belt_speed, .. } = layer;
+            Titres::new((&self.sheet, self.seed), (number, filaments), (defects, *belt_speed))
+        };
+        self.layers.get(number).map(of).unwrap_or_default()
+    }
+
+    /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
+    pub fn mass_flow(&self) -> f64 {
+        let flow = |layer: &LayerSpec| {
+            layer.linear_density() * layer.feed_speed * layer.filaments.count(&self.sheet) as f64
+        };
+        self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
+    }
+
+    /// The speed of a belt on which all layers together have this mass per area [m/s].
+    pub fn belt_speed_for(&self, basis_weight: f64) -> f64 {
+        self.mass_flow() / basis_weight
+    }
+
+    /// Puts all layers on a belt of this speed, above which the cases are flown.
+    ///
+    /// * `belt` – its speed [m/s]
+    ///
+    /// # Errors
+    /// If a case cannot have it.
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) -> Result<(), Fault> {
+        for layer in &mut self.layers {
+            if let LaydownSource::Case { case, .. } = &mut layer.source
+                && (layer.belt_speed / belt - 1.0).abs() > SAME
+            {
+                let speed = case_keys::find("belt.speed");
+                speed.map_or(Ok(()), |speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)))?;
+            }
+            layer.belt_speed = belt;
+        }
+        Ok(())
+    }
+
+    /// The web of one of its layers alone.
+    pub fn alone(&self, layer: usize) -> Self {
+        Self { layers: self.layers.get(layer).cloned().into_iter().collect(), ..self.clone() }
+    }
+
+    /// The square in the middle of the sheet whose single fibres are shown.
+    pub fn window(&self) -> Window {
+        let corner = [self.sheet.width, self.sheet.length].map(|size| 0.5 * (size - self.window));
+        Window { corner, sides: [self.window; 2] }
+    }
+
+    /// The web, once the fibres of each layer are known, in their order.
+    pub fn web(&self, fibres: impl IntoIterator<Item = Fibres>) -> Web {
+        let layers = self.layers.iter().zip(fibres).map(|(layer, fibres)| layer.layer(fibres)).collect();
+        Web { sheet: self.sheet.clone(), layers, seed: self.seed }
+    }
+
+    /// Says whether the sheet is large enough for filaments that spread so far. One that leaves it at one end
+    /// comes in at the other, and must not meet itself there.
+    ///
+    /// * `spreads` – standard deviations of a filament's place in machine and in cross direction [m]
+    ///
+    /// # Errors
+    /// If a side that is closed to a ring is shorter than eight standard deviations.
+    pub fn check_spreads(&self, spreads: [f64; 2]) -> Result<(), Error> {
+        let problems: Vec<Problem> = too_small(&self.sheet, spreads)
+            .map(|(key, side, what)| {
+                let value = Some(Dimension::Length.pretty(side));
+                Finding { place: Place::Code, key: key.to_owned(), value, what }
+            })
+            .collect();
+        if problems.is_empty() { Ok(()) } else { Err(problems.into()) }
+    }
+}
+
+/// The sides of a sheet that are too short for filaments that spread so far: key, size [m] and what is wrong.
+pub(crate) fn too_small(
+    sheet: &Sheet,
+    spreads: [f64; 2],
+) -> impl Iterator<Item = (&'static str, f64, Fault)> {
+    let closed = [true, sheet.edges == Edges::Periodic];
+    let sides =
+        [("web.length", sheet.length, "laydown.sigma_md"), ("web.width", sheet.width, "laydown.sigma_cd")];
+    let patch = move |(((key, side, sigma), spread), closed)| {
+        let is_short = closed && side < LEAST_SPREADS * spread;
+        let [spread, least] = [spread, LEAST_SPREADS * spread].map(|size| Dimension::Length.pretty(size));
+        let fault = || {
+            Fault::new(
+                format!(
+                    "is shorter than {LEAST_SPREADS} times {sigma} = {spread}, and a filament that leaves \
+                    the web at one end comes in at the other and would meet itself"
+                ),
+                format!("write {least} or more"),
+            )
+        };
+        is_short.then(|| (key, side, fault()))
+    };
+    sides.into_iter().zip(spreads).zip(closed).filter_map(patch)
+}
+
+impl WebSpec {
+    /// The filaments of a layer per metre of width, and where they are fed; None if there is no such layer.
+    pub fn curtain(&self, layer: usize) -> Option<Curtain> {
+        let filaments = &self.layers.get(layer)?.filaments;
+        let places = inlets(&self.sheet, self.seed, layer, filaments);
+        let mut inlets: Vec<f64> = places.into_iter().map(|[_, md]| md).collect();
+        inlets.sort_unstable_by(f64::total_cmp);
+        Some(Curtain { filaments_per_metre: filaments.count(&self.sheet) as f64 / self.sheet.width, inlets })
+    }
+}
+
+impl WebSpec {
+    /// The files from which the cases that it flies were read, each with the parts that it names, relative to
+    /// its folder.
+    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        let flown = self.layers.iter().filter_map(|layer| match &layer.source {
+            LaydownSource::Case { case, .. } => Some(case),
+            _ => None,
+        });
+        flown.flat_map(|case| case.files()).collect()
+    }
+
+    /// The same web with these files at other paths.
+    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        let mut web = self.clone();
+        for layer in &mut web.layers {
+            if let LaydownSource::Case { case, .. } = &mut layer.source {
+                *case = Arc::new(case.with_files_at(&place));
+            }
+        }
+        web
+    }
+}

@@ -1,0 +1,279 @@
+//! The motion of the free end: amplitude, frequency and mean position from every step after the spin-up, its distance
+//! from the axis of the flow, and the circle in which it stays.
+
+use super::{
+    Declaration, Figure, HERTZ, Kind, MILLIMETRES, Measure, Observation, Observer,
+    SQUARE_MILLIMETRES_PER_HERTZ, Value, figure, fixed,
+};
+use crate::fibre::case::Run;
+use crate::fibre::flight::Flight;
+use crate::ground::lanes::WIDTH;
+use crate::ground::statistics::{EvenSample, Welch, Window, quantile};
+
+pub(super) const MOTION: Declaration = Declaration {
+    measures: &[
+        AMPLITUDE.observed("amplitude_y", "amplitude_y_m", "Amplitude in y").series("*y*"),
+        AMPLITUDE.observed("amplitude_z", "amplitude_z_m", "Amplitude in z").series("*z*"),
+        FREQUENCY.observed("frequency_y", "frequency_y_hz", "Frequency in y").series("*y*"),
+        FREQUENCY.observed("frequency_z", "frequency_z_hz", "Frequency in z").series("*z*"),
+        MEAN_X,
+    ],
+    applies: fixed,
+    observer: |_| Box::new(EndNode),
+};
+
+const AMPLITUDE: Measure = Measure {
+    is_main: true,
+    meaning: "standard deviation over time of the free end’s position",
+    unit: MILLIMETRES,
+    figure: &figure("amplitude", "Amplitude", "amplitude"),
+    ..Measure::NUMBER
+};
+
+const FREQUENCY: Measure = Measure {
+    is_main: true,
+    meaning: "half the number of sign changes per second of the free end’s position",
+    unit: HERTZ,
+    figure: &figure("frequency", "Frequency", "frequency"),
+    ..Measure::NUMBER
+};
+
+const MEAN_X: Measure = Measure {
+    name: "mean_x",
+    is_main: true,
+    column: "mean_x_m",
+    label: "Mean position along the flow",
+    meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the \
+        fibre is bent",
+    unit: MILLIMETRES,
+    figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
+    series: "*x*",
+    ..Measure::NUMBER
+};
+
+/// The flight itself takes the statistics of the free ends at every step.
+#[derive(Debug)]
+struct EndNode;
+
+impl Observer for EndNode {
+    fn see(&mut self, _: &Observation<'_>) {}
+
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        // Time over which the statistics are taken [s].
+        let observed = flight.case(lane).map_or(f64::NAN, |case| case.run.duration() - case.run.spin_up());
+        let motion = flight.end_node().motion(lane, observed);
+        [motion.amplitude_y, motion.amplitude_z, motion.frequency_y, motion.frequency_z, motion.mean.x]
+            .map(Value::Number)
+            .to_vec()
+    }
+}
+
+pub(super) const DEFLECTIONS: Declaration = Declaration {
+    measures: &[
+        DEFLECTION
+            .observed("deflection_99", "deflection_99_m", "Deflection, 99 % of the time")
+            .meaning(
+                "distance from the axis through the root that the free end does not exceed at 99 % of \
+                the recorded instants",
+            )
+            .series("99 %"),
+        DEFLECTION
+            .observed("largest_deflection", "largest_deflection_m", "Largest deflection")
+            .meaning(
+                "largest distance of the free end from the axis through the root at the recorded \
+                instants; it grows with the duration",
+            )
+            .series("largest"),
+    ],
+    applies: fixed,
+    observer: |_| Box::new(Deflection::default()),
+};
+
+const DEFLECTION: Measure = Measure {
+    unit: MILLIMETRES,
+    figure: &figure("deflection", "Deflection of the free end", "deflection"),
+    ..Measure::NUMBER
+};
+
+/// Distances of the free ends from the axis at the recorded instants after the spin-up, and the largest ones [m].
+#[derive(Debug)]
+struct Deflection {
+    distances: [EvenSample<f64>; WIDTH],
+    largest: [f64; WIDTH],
+}
+
+impl Default for Deflection {
+    fn default() -> Self {
+        Self { distances: Default::default(), largest: [f64::NAN; WIDTH] }
+    }
+}
+
+impl Deflection {
+    fn add(&mut self, lane: usize, distance: f64) {
+        self.distances[lane].push(distance);
+        self.largest[lane] = self.largest[lane].max(distance);
+    }
+
+    /// The distance that is not exceeded at 99 % of the instants, and the largest one [m].
+    fn known(&self, lane: usize) -> [f64; 2] {
+        [quantile(self.distances[lane].values(), 0.99), self.largest[lane]]
+    }
+}
+
+impl Observer for Deflection {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
+            for lane in 0..WIDTH {
+                let (y, z) = (end.y.0[lane], end.z.0[lane]);
+                self.add(lane, (y * y + z * z).sqrt());
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        self.known(lane).map(Value::Number).to_vec()
+    }
+}
+
+pub(super) const RESIDENCE: Declaration = Declaration {
+    measures: &[Measure {
+        name: "residence_radius",
+        column: "residence_radius_m",
+        label: "Circle of 90 % of the time",
+        meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which \
+            the free end is at 90 % of the recorded instants",
+        unit: MILLIMETRES,
+        figure: &figure("residence", "Circle of 90 % of the time", "circle of 90 % of the time"),
+        series: "radius",
+        ..Measure::NUMBER
+    }],
+    applies: fixed,
+    observer: |_| Box::new(Residence::default()),
+};
+
+/// Share of the time that the free end is in the circle.
+const SHARE: f64 = 0.9;
+
+/// y and z of the free ends at the recorded instants after the spin-up [m].
+#[derive(Debug, Default)]
+struct Residence([EvenSample<(f64, f64)>; WIDTH]);
+
+impl Observer for Residence {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
+            for (lane, places) in self.0.iter_mut().enumerate() {
+                places.push((end.y.0[lane], end.z.0[lane]));
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        vec![Value::Number(radius(self.0[lane].values()))]
+    }
+}
+
+fn radius(places: &[(f64, f64)]) -> f64 {
+    let n = places.len() as f64;
+    let (y, z) = places.iter().fold((0.0, 0.0), |sum, place| (sum.0 + place.0 / n, sum.1 + place.1 / n));
+    let distances: Vec<f64> =
+        places.iter().map(|place| ((place.0 - y).powi(2) + (place.1 - z).powi(2)).sqrt()).collect();
+    quantile(&distances, SHARE)
+}
+
+pub(super) const SPECTRA: Declaration = Declaration {
+    measures: &[
+        SPECTRUM.observed("spectrum_y", "spectrum_y_m2_hz", "Spectrum of y").series("*y*"),
+        SPECTRUM.observed("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z").series("*z*"),
+    ],
+    applies: fixed,
+    observer: |flight| Box::new(EndPositions::new(flight)),
+};
+
+const SPECTRUM: Measure = Measure {
+    meaning: "one-sided power spectral density of the free end’s position at the recorded instants (Welch’s method)",
+    unit: SQUARE_MILLIMETRES_PER_HERTZ,
+    kind: Kind::Spectrum,
+    figure: &Figure {
+        logarithmic: true,
+        from_zero: false,
+        caption: "Power spectral density of the free end’s position, averaged over all replicates \
+                  (Welch’s method). The area under a curve is the square of the amplitude.",
+        ..figure("motion_spectrum", "Spectrum of the motion", "spectrum of the motion")
+    },
+    ..Measure::NUMBER
+};
+
+/// Most instants in a segment. A longer run has more segments, so that its spectrum is smoother.
+const SEGMENT: usize = 1 << 12;
+
+/// Spectra of y and z of the free ends at the recorded instants after the spin-up, of each fibre.
+#[derive(Debug)]
+struct EndPositions(Vec<[Welch; 2]>);
+
+impl EndPositions {
+    fn new(flight: &Flight) -> Self {
+        let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
+        // The fibres of a flight have one clock, and its window and factors take long to compute.
+        let welch = flight.case(0).map(|case| welch(&case.run));
+        Self(welch.iter().cycle().zip(cases).map(|(welch, _)| [welch.clone(), welch.clone()]).collect())
+    }
+}
+
+/// Welch's method for a run, before any record.
+fn welch(run: &Run) -> Welch {
+    let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
+    let segment = Welch::segment_length(samples).min(SEGMENT);
+    Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
+}
+
+impl Observer for EndPositions {
+    fn see(&mut self, observation: &Observation<'_>) {
+        if let (true, Some(end)) = (observation.settled, observation.snapshot.position.last()) {
+            for (lane, [y, z]) in self.0.iter_mut().enumerate() {
+                y.push(end.y.0[lane], None);
+                z.push(end.z.0[lane], None);
+            }
+        }
+    }
+
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let density = |record: &Welch| {
+            let mut welch = record.clone();
+            welch.end_record(None);
+            let (frequency, density) = welch.finish().points().unzip();
+            Value::Curve(frequency, density)
+        };
+        self.0[lane].iter().map(density).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_quantile_and_largest_of_known_distances() {
+        let mut observer = Deflection::default();
+        assert_eq!(observer.known(2).map(f64::is_nan), [true; 2]);
+        (0..=1000).for_each(|i| observer.add(2, f64::from(i) * 1e-3));
+        let [most_of_the_time, largest] = observer.known(2);
+        assert!((most_of_the_time - 0.99).abs() < 1e-12);
+        assert_eq!(largest, 1.0);
+    }
+}
+
+#[cfg(test)]
+mod residence_tests {
+    use super::radius;
+
+    #[test]
+    fn analytic_circle_of_a_uniform_disc() {
+        // In a disc of radius R, 90 % of the area is within R √0.9.
+        let spiral = |i: u32| {
+            let (r, angle) = ((f64::from(i) / 20_000.0).sqrt(), 2.399_963 * f64::from(i));
+            (5.0 + r * angle.cos(), -2.0 + r * angle.sin())
+        };
+        let places: Vec<_> = (0..20_000).map(spiral).collect();
+        assert!((radius(&places) - 0.9f64.sqrt()).abs() < 1e-3);
+    }
+}

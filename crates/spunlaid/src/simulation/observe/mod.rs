@@ -1,0 +1,194 @@
+//! What is measured of the fibres: each measure is declared once, with its name, unit, meaning and figure.
+//!
+//! ```text
+//! Flight → recorded instants → observers → values of each fibre → statistics over replicates
+//! ```
+//!
+//! A new measure of fibres is a [`Declaration`] beside those of the same part of the fibre, and a line in
+//! [`DECLARED`]. The summary, the tables, the report with its figures and CSV files, and the studies loop over the
+//! declarations.
+//!
+//! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and
+//! [`OF_PATCHES`], [`OF_SCANS`] and [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it,
+//! [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`], [`OF_LOADS`] and [`OF_LOAD_PLACES`].
+
+mod along_fibre;
+mod along_way;
+mod end_node;
+mod energy;
+mod fabric;
+mod laydown;
+mod measure;
+mod momentum;
+mod record;
+mod sample;
+mod scan;
+mod spinline;
+mod strain;
+mod web;
+
+use crate::fibre::case::Case;
+use crate::fibre::flight::{Flight, LaidPoint, Snapshot};
+use crate::ground::lanes::WIDTH;
+pub use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
+pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+pub use laydown::{LAYDOWN, SURROGATE};
+use measure::figure;
+pub use measure::{
+    Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
+    METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
+    PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value, measured, with_errors,
+};
+pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
+pub use record::{OF_COMPONENTS, OF_RECORDS};
+pub use sample::Sample;
+pub use scan::{OF_SCANNED_PATCHES, OF_SCANS};
+pub use spinline::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
+pub use web::{OF_PATCHES, OF_WEBS};
+
+/// Everything that is measured, in the order of the tables.
+pub const DECLARED: &[&Declaration] = &[
+    &end_node::MOTION,
+    &end_node::DEFLECTIONS,
+    &end_node::RESIDENCE,
+    &along_fibre::DECLARATION,
+    &along_fibre::CURVATURE,
+    &end_node::SPECTRA,
+    &laydown::DECLARATION,
+    &along_way::DECLARATION,
+    &along_way::FORCES,
+    &strain::ROOT_TENSION,
+    &strain::USUAL,
+    &strain::LARGEST,
+    &strain::OUTSIDE_FLOW,
+    &energy::WORK,
+    &energy::BALANCE,
+    &energy::DISSIPATION,
+];
+
+/// Some measures, and the observer that takes all of them.
+#[derive(Debug)]
+pub struct Declaration {
+    /// The measures, in the order of the observer's values.
+    pub measures: &'static [Measure],
+    /// Whether they have a meaning for a case.
+    pub applies: fn(&Case) -> bool,
+    /// The observer of the fibres of a flight. Their cases may differ, so it takes what it needs of each lane's own,
+    /// [`Flight::case`].
+    pub observer: fn(&Flight) -> Box<dyn Observer>,
+}
+
+/// The state of the fibres at a recorded instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Observation<'a> {
+    /// The fibres.
+    pub snapshot: &'a Snapshot,
+    /// The sample of each of the eight fibres.
+    pub samples: &'a [Sample],
+    /// Whether the spin-up is over.
+    pub settled: bool,
+    /// What each of the eight fibres has laid since the last recorded instant.
+    pub laid: &'a [Vec<LaidPoint>],
+}
+
+/// Looks at up to eight fibres while they fly.
+pub trait Observer: std::fmt::Debug + Send {
+    /// Receives a recorded instant. The instants come in order and begin with the start.
+    fn see(&mut self, observation: &Observation<'_>);
+
+    /// The values of one fibre at the end of the flight, one for each declared measure.
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value>;
+}
+
+/// The observers of a flight.
+#[derive(Debug)]
+pub struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
+
+impl Observers {
+    /// The observers of all measures that apply to a fibre of a flight.
+    ///
+    /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
+    ///   out.
+    /// * `way` – whether to measure what fed fibres do to their air, even without the other curves
+    pub fn new(flight: &Flight, curves: bool, way: bool) -> Self {
+        let has = |d: &Declaration, wanted: fn(&Measure) -> bool| d.measures.iter().any(wanted);
+        let wanted = |d: &&Declaration| {
+            curves || has(d, |m| m.kind == Kind::Number) || way && has(d, |m| m.name == FORCE_ON_AIR)
+        };
+        let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
+        let declared = DECLARED.iter().copied().filter(wanted).filter(any);
+        Self(declared.map(|declared| (declared, (declared.observer)(flight))).collect())
+    }
+
+    /// Passes a recorded instant to all observers.
+    pub fn see(&mut self, observation: &Observation<'_>) {
+        self.0.iter_mut().for_each(|(_, observer)| observer.see(observation));
+    }
+
+    /// The measures that apply to one fibre, in the order of their declarations.
+    pub fn finish(&self, lane: usize, flight: &Flight) -> impl Iterator<Item = (&'static Measure, Value)> {
+        let of_lane = self.0.iter().filter(move |(declared, _)| applies(declared, flight, lane));
+        of_lane
+            .flat_map(move |(declared, observer)| declared.measures.iter().zip(observer.finish(lane, flight)))
+    }
+}
+
+/// The number of measures that are numbers.
+pub const NUMBERS: usize = {
+    let (mut count, mut i) = (0, 0);
+    while i < DECLARED.len() {
+        let (measures, mut j) = (DECLARED[i].measures, 0);
+        while j < measures.len() {
+            count += matches!(measures[j].kind, Kind::Number) as usize;
+            j += 1;
+        }
+        i += 1;
+    }
+    count
+};
+
+/// All measures that are numbers, whether they apply to a case or not. A study stores these for each fibre.
+pub const MEASURES: [&Measure; NUMBERS] = {
+    let mut all = [&DECLARED[0].measures[0]; NUMBERS];
+    let (mut count, mut i) = (0, 0);
+    while i < DECLARED.len() {
+        let (measures, mut j) = (DECLARED[i].measures, 0);
+        while j < measures.len() {
+            if matches!(measures[j].kind, Kind::Number) {
+                all[count] = &measures[j];
+                count += 1;
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    all
+};
+
+/// Whether measures have a meaning for the fibre in a lane.
+fn applies(declared: &Declaration, flight: &Flight, lane: usize) -> bool {
+    flight.case(lane).is_some_and(declared.applies)
+}
+
+/// A number of the case in each lane; NaN in unused lanes.
+fn number_of_each(flight: &Flight, number: impl Fn(&Case) -> f64) -> [f64; WIDTH] {
+    std::array::from_fn(|lane| flight.case(lane).map_or(f64::NAN, &number))
+}
+
+/// Applies to fibres of fixed length.
+fn fixed(case: &Case) -> bool {
+    case.line.is_none()
+}
+
+/// Applies to fed fibres.
+fn fed(case: &Case) -> bool {
+    case.line.is_some()
+}
+
+/// Applies to every case.
+fn always(_: &Case) -> bool {
+    true
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,139 @@
+//! Every measure has names, a label, a meaning and a unit, and stands in `docs/measures.md`.
+
+use super::*;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Fails unless a name of a column ends with the unit of its values, `_m2_hz`.
+fn check_unit(column: &str, unit: Unit) {
+    let unit = unit.of_values();
+    let ending = match unit.as_str() {
+        "1" => return,
+        "degC" => "c".to_owned(),
+        "degree" => "degrees".to_owned(),
+        // A power that is no whole number has words.
+        "m-0.5" => "per_sqrt_m".to_owned(),
+        "1/m" => "per_m".to_owned(),
+        "1/m2" => "per_m2".to_owned(),
+        // Not a moment.
+        "N/m" => "n_per_m".to_owned(),
+        "W/m" => "w_per_m".to_owned(),
+        "1/s" => "per_s".to_owned(),
+        "(m/s)2/Hz" => "m2_s2_per_hz".to_owned(),
+        unit => unit.to_lowercase().replace('/', "_"),
+    };
+    assert!(column == ending || column.ends_with(&format!("_{ending}")), "{column} in {unit}");
+}
+
+/// Fails unless names that are not empty are unique.
+fn check_names(names: impl Iterator<Item = &'static str>) {
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{names:?}");
+}
+
+/// Fails unless measures have names of their own, which end with the unit, and a meaning; those that studies
+/// keep a label too.
+fn check<T: 'static>(measures: impl Iterator<Item = &'static Measure<T>>) {
+    let all: Vec<&Measure<T>> = measures.collect();
+    check_names(all.iter().map(|measure| measure.name));
+    check_names(all.iter().map(|measure| measure.column));
+    check_names(all.iter().map(|measure| measure.entry()));
+    for measure in all {
+        let (column, entry) = (measure.column, measure.entry());
+        assert!(!column.is_empty() && !measure.meaning.is_empty(), "{column}");
+        assert!(measure.name.is_empty() || !measure.label.is_empty(), "{column}");
+        check_unit(if entry.is_empty() { column } else { entry }, measure.unit);
+        check_unit(column, if entry == column || measure.zero == 0.0 { measure.unit } else { KELVIN });
+    }
+}
+
+/// Fails unless this holds for measures with formulas and for their errors. Studies keep an error only beside
+/// its measure.
+fn check_list<T>(measures: &'static [Measure<T>]) {
+    check(with_errors(measures));
+    check_names(measures.iter().map(|measure| measure.label));
+    assert!(with_errors(measures).all(|measure| !matches!(measure.formula, Formula::Observed)));
+    let left_out = measures.iter().filter(|measure| measure.name.is_empty());
+    let mut errors = left_out.flat_map(|measure| measure.errors);
+    assert!(errors.all(|error| error.name.is_empty()));
+}
+
+#[test]
+fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
+    let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
+    check(observed());
+    assert!(observed().all(|measure| measure.column.starts_with(measure.name) && !measure.label.is_empty()));
+    assert!(MEASURES.iter().all(|measure| measure.kind == Kind::Number));
+    check_list(OF_PATCHES);
+    check_list(OF_WEBS);
+    check_list(OF_SCANS);
+    check_list(OF_SCANNED_PATCHES);
+    check_list(OF_RECORDS);
+    check_list(OF_COMPONENTS);
+    check_list(OF_SPINLINES);
+    check_list(OF_LOADS);
+    check_list(OF_LOAD_PLACES);
+    check_list(OF_FABRICS);
+    check_list(OF_FABRIC_PATCHES);
+    check_list(OF_STRIPS);
+}
+
+/// A table of measures for `docs/measures.md`.
+fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item = &'static Measure<T>>) {
+    let part = [("Strips", "md"), ("Holes", "50")].into_iter().find(|(of, _)| title.starts_with(of));
+    let part = part.map_or("10", |(_, part)| part);
+    let _ = write!(text, "\n## {title}\n\n| name | in studies | unit | meaning |\n|---|---|---|---|\n");
+    for measure in measures {
+        let name = if measure.entry().is_empty() { measure.column } else { measure.entry() };
+        let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
+        let kept = match measure.column.replace('#', part) {
+            column if is_kept && column != name => format!("`{column}`"),
+            _ => (if is_kept { "yes" } else { "" }).to_owned(),
+        };
+        let unit = match measure.unit.of_values().as_str() {
+            "1" => String::new(),
+            unit => unit.replace("degC", "°C").replace("percent", "%"),
+        };
+        let _ = writeln!(text, "| `{name}` | {kept} | {unit} | {} |", measure.meaning.replace('|', "\\|"));
+    }
+}
+
+/// With `SPUNLAID_RENEW=1` it writes the page.
+#[test]
+fn every_measure_stands_in_the_docs() {
+    let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
+        (`crates/spunlaid/src/simulation/observe/`). Names are those of `summary.json`, of a velocity record those of \
+        `analysis.json`. Studies keep some of them, under the same name or under that of the second column, \
+        which is here of patches of 10 mm and of strips along MD. [results.md](results.md) says where they stand.\n"
+        .to_owned();
+    let mut groups: Vec<Group> = Vec::new();
+    let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
+    for measure in observed() {
+        if !groups.contains(&measure.group) {
+            groups.push(measure.group);
+        }
+    }
+    for group in groups {
+        table(&mut text, group.title, observed().filter(|measure| measure.group == group));
+    }
+    table(&mut text, "The patches of a web", with_errors(OF_PATCHES));
+    table(&mut text, "A web", with_errors(OF_WEBS));
+    table(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
+    table(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
+    table(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
+    table(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
+    table(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
+    table(&mut text, "A scan", with_errors(OF_SCANS));
+    table(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
+    table(&mut text, "A velocity record", with_errors(OF_RECORDS));
+    table(&mut text, "A component of a velocity record", with_errors(OF_COMPONENTS));
+    table(&mut text, "A spinline", with_errors(OF_SPINLINES));
+    table(&mut text, "The load of the filaments on their air", with_errors(OF_LOADS));
+    table(&mut text, "The load between the inlet and a place", with_errors(OF_LOAD_PLACES));
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
+    if std::env::var_os("SPUNLAID_RENEW").is_some() {
+        std::fs::write(&path, &text).unwrap();
+    }
+    let page = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(page == text, "docs/measures.md is not up to date: the test writes it with SPUNLAID_RENEW=1");
+}

@@ -1,0 +1,151 @@
+//! What is measured of a web. `summary.json`, the tables of the terminal and of the report, Python and the
+//! studies follow from it.
+
+use super::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit, figure};
+use crate::web::map::{Findings, PatchFindings};
+use ErrorRole::{Further, OfOne};
+use Formula::{Known, Mean, Number};
+
+/// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
+/// first, of the tables and of studies.
+pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
+    share("cv", "CV over patches of # mm", |patch| Some(patch.told()?.cv))
+        .meaning("coefficient of variation of the basis weight of the map over square patches")
+        .kept("cv_#_mm", "cv_#_mm")
+        .main()
+        .figure(&figure("cv", "Unevenness of the web, CV", "CV of the web"))
+        .errors(&[
+            share("cv_standard_error", "Error of the CV by chance", |patch| patch.map.standard_error)
+                .meaning("standard error of the CV: another piece of the same web would have another CV")
+                .kept("cv_#_mm_chance", "cv_#_mm_chance")
+                .role(OfOne),
+            Measure::<PatchFindings>::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
+                .meaning("degrees of freedom of the error by chance"),
+            share("cv_flight_error", "Error of the CV by the few fibres", |patch| patch.whole_error().flight)
+                .meaning("standard error of the CV because only a few fibres were flown")
+                .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
+                .short("few fibres")
+                .digits(2)
+                .shown_if(|patch| patch.few.is_some())
+                .role(Further),
+            share("cv_whole_error", "", |patch| patch.whole_error().whole())
+                .meaning("error of the CV by all causes together"),
+        ]),
+    share("cv_of_map", "", |patch| patch.filled)
+        .meaning("CV of the map itself, in which filaments are filled in"),
+    Measure::<PatchFindings>::new(
+        "own_share",
+        "",
+        RATIO,
+        Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
+    )
+    .meaning("part of CV² that each filament of a web in one air makes for itself"),
+    share("cv_independent", "CV of the same filaments in airs of their own", PatchFindings::independent)
+        .meaning(
+            "CV that the filaments of a web in one air would give in airs of their own, by their surrogate",
+        )
+        .kept("cv_#_mm_independent", "cv_#_mm_independent")
+        .figure(&figure(
+            "cv_independent",
+            "CV of the same filaments in airs of their own",
+            "CV in airs of their own",
+        ))
+        .short("airs of their own")
+        .shown_if(|patch| patch.in_one_air),
+    share("cv_one_fibre", "CV expected from single fibres", |patch| Some(of_known(patch)?.0))
+        .meaning("CV that is expected of independent filaments of known numbers, from single fibres")
+        .kept("cv_#_mm_one_fibre", "cv_#_mm_one_fibre")
+        .figure(&figure("cv_one_fibre", "CV expected from single fibres", "expected CV"))
+        .short("single fibres")
+        .shown_if(|patch| !patch.in_one_air)
+        .errors(&[share("cv_one_fibre_standard_error", "", |patch| Some(of_known(patch)?.1))
+            .meaning("its standard error")
+            .role(OfOne)]),
+    share("cv_straight_fibres", "CV of straight fibres", |patch| Some(patch.straight_fibres))
+        .meaning("CV of straight fibres in all directions of the same mass")
+        .kept("cv_#_mm_straight_fibres", "cv_#_mm_straight_fibres")
+        .figure(&figure("cv_straight_fibres", "CV of straight fibres", "CV of straight fibres"))
+        .short("straight fibres")
+        .digits(3),
+];
+
+/// The measures of a whole web, in the order of `summary.json` and of studies.
+pub const OF_WEBS: &[Measure<Findings>] = &[
+    Measure::<Findings>::new(
+        "basis_weight_kg_m2",
+        "Basis weight",
+        Unit { shown: "g/m²", per_si: 1e3 },
+        Number(|found| found.laid.map.basis_weight()),
+    )
+    .meaning("mean mass of the web per area")
+    .named("basis_weight")
+    .main()
+    .elsewhere()
+    .figure(&figure("basis_weight", "Basis weight", "basis weight")),
+    Measure::<Findings>::new(
+        "fibre_length_m",
+        "Length of fibre",
+        Unit { shown: "km", per_si: 1e-3 },
+        Number(|found| found.fibre_length),
+    )
+    .meaning("length of all filaments on the web")
+    .named("fibre_length")
+    .elsewhere(),
+    Measure::<Findings>::new(
+        "orientation_md",
+        "Orientation along MD",
+        RATIO,
+        Mean(|found| {
+            let cos_squared = &found.orientation.cos_squared;
+            (cos_squared.mean, cos_squared.standard_error)
+        }),
+    )
+    .meaning("mean cos² of the angle between the pieces of the fibres and the machine direction: 0.5 without orientation")
+    .named("orientation_md"),
+    Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Mean(|found| found.orientation.md_cd_ratio()))
+        .meaning("length of fibre along the machine direction over that along the cross direction")
+        .named("md_cd_ratio")
+        .main()
+        .figure(&figure("md_cd_ratio", "Ratio of fibre along MD and CD", "MD/CD ratio")),
+    Measure::<Findings>::new(
+        "sigma_md_m",
+        "Spread in MD",
+        MILLIMETRES,
+        Known(|found| Some(found.surrogate?.sigma_md)),
+    )
+    .meaning("spread σ of a filament in machine direction, of the surrogate of the first layer")
+    .named("sigma_md")
+    .elsewhere(),
+    Measure::<Findings>::new(
+        "sigma_cd_m",
+        "Spread in CD",
+        MILLIMETRES,
+        Known(|found| Some(found.surrogate?.sigma_cd)),
+    )
+    .meaning("spread σ of a filament in cross direction, of the surrogate of the first layer")
+    .named("sigma_cd")
+    .elsewhere(),
+    Measure::<Findings>::new(
+        "noise_per_sqrt_m",
+        "Noise of the direction",
+        Unit { shown: "m^-½", per_si: 1.0 },
+        Known(|found| Some(found.surrogate?.noise)),
+    )
+    .meaning("strength A of the noise in the direction, of the surrogate of the first layer")
+    .named("noise")
+    .elsewhere(),
+];
+
+/// A share of the patches of one size, which is shown in per cent.
+const fn share(
+    column: &'static str,
+    label: &'static str,
+    number: fn(&PatchFindings) -> Option<f64>,
+) -> Measure<PatchFindings> {
+    Measure { series: "# mm", ..Measure::new(column, label, PERCENT, Known(number)) }
+}
+
+/// What is expected of filaments of known numbers, with its error.
+fn of_known(patch: &PatchFindings) -> Option<(f64, f64)> {
+    patch.single_fibres.filter(|_| !patch.in_one_air)
+}

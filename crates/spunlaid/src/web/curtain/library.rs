@@ -1,0 +1,222 @@
+//! The curves of a curtain on a lattice of places, from which sheets of any size are made.
+
+use super::filling::Covariances;
+use super::flown_curves::farthest;
+use super::{Curtain, FlownCurves};
+use crate::ground::error::Fault;
+use crate::ground::place::Place;
+
+/// Most places along the machine direction that are rows; more are a slot.
+const ROWS: usize = 8;
+/// Levels on which a slot is filled.
+const LEVELS: usize = 6;
+/// Distance of the lattice across, in mean distances of flown filaments: between those the curves are smooth.
+const COLUMN: f64 = 0.5;
+/// Half lags in a piece, in a fade from piece to piece, and in the shortest library.
+const PIECE: f64 = 20.0;
+const FADE: f64 = 2.0;
+const SHORTEST: f64 = 12.0;
+/// Half distances in a fade across, and fades in the narrowest library.
+const FADE_ACROSS: f64 = 2.0;
+const NARROWEST: f64 = 3.0;
+
+/// All that a flight tells of a curtain: its curves on a lattice, without their mean.
+#[derive(Clone, Debug)]
+pub struct Library {
+    /// Of a level, for each column; then of the next level.
+    curves: Vec<[Vec<f32>; 2]>,
+    columns: usize,
+    pub(super) levels: Levels,
+    pub(super) turn: f64,
+    pub(super) spacing: f64,
+    pub(super) belt_ratio: f64,
+    pub(super) points: usize,
+    /// Points of a piece and of the fade to the next one.
+    pub(super) piece: usize,
+    pub(super) fade: usize,
+    /// Width of a fade [m].
+    pub(super) fade_across: f64,
+    missing: [f64; 2],
+    reach: [f64; 2],
+    /// No filament of the curtain is farther from its mean in machine direction [m].
+    farthest: f64,
+}
+
+/// The places of the lattice along the machine direction, and the mean deviation at each.
+#[derive(Clone, Debug)]
+pub(super) struct Levels {
+    y: Vec<f64>,
+    means: Vec<[f64; 2]>,
+    /// Whether filaments hang anywhere between them.
+    is_slot: bool,
+}
+
+impl Levels {
+    fn of(flown: &FlownCurves) -> Self {
+        let mut y: Vec<f64> = flown.places().iter().map(|place| place.y).collect();
+        y.sort_by(f64::total_cmp);
+        y.dedup();
+        let is_slot = y.len() > ROWS;
+        if is_slot {
+            let (first, depth) = (y[0], flown.depth());
+            y = (0..LEVELS).map(|i| first + depth * i as f64 / (LEVELS - 1) as f64).collect();
+        }
+        let means = y.iter().map(|y| [0, 1].map(|d| flown.mean(d, *y))).collect();
+        Self { y, means, is_slot }
+    }
+
+    /// The levels that a filament follows from, with their weights; None where a row was not flown.
+    pub(super) fn around(&self, y: f64) -> Option<Vec<(usize, f64)>> {
+        if self.is_slot {
+            let step = (self.y[LEVELS - 1] - self.y[0]) / (LEVELS - 1) as f64;
+            let at = ((y - self.y[0]) / step).clamp(0.0, (LEVELS - 1) as f64);
+            let first = (at.floor() as usize).saturating_sub(1).min(LEVELS - 4);
+            return Some((first..).zip(cubic(at - first as f64 - 1.0)).collect());
+        }
+        let row = self.y.iter().position(|row| (row - y).abs() <= 1e-9)?;
+        Some(vec![(row, 1.0)])
+    }
+
+    /// Mean deviation, in machine and in cross direction [m].
+    pub(super) fn mean(&self, around: &[(usize, f64)]) -> [f64; 2] {
+        [0, 1].map(|d| around.iter().map(|(level, weight)| weight * self.means[*level][d]).sum())
+    }
+}
+
+impl Library {
+    /// # Errors
+    /// If the edges of the flown curtain are not periodic, or if it is too narrow or too short for pieces
+    /// that know nothing of each other.
+    pub fn new(flown: &FlownCurves, threads: usize) -> Result<Self, Fault> {
+        let Some(turn) = flown.turn() else {
+            return Err(Fault::new(
+                "a sheet of tiles is made from filaments with periodic edges, and these end at edges that cut",
+                "fly the filaments with web.edges = \"periodic\"",
+            ));
+        };
+        let half_lag = half_lag(flown);
+        let points = flown.points();
+        if (points as f64) < SHORTEST * half_lag {
+            let spacing = flown.spacing();
+            return Err(Fault::new(
+                format!(
+                    "the flown curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
+                    them would know each other",
+                    points as f64 * spacing,
+                    half_lag * spacing
+                ),
+                format!("fly {:.2} m of fibre or more", SHORTEST * half_lag * spacing),
+            ));
+        }
+        let covariances = Covariances::fit(flown, threads);
+        let half = covariances.smooth.each_ref().map(|covariance| covariance.half_distance(0.5 * turn));
+        let fade_across = FADE_ACROSS * half[0].max(half[1]);
+        if turn < NARROWEST * fade_across {
+            return Err(Fault::new(
+                format!(
+                    "the flown curtain is {:.0} mm wide, and filaments know each other half over {:.0} mm; \
+                    tiles of it would know each other",
+                    turn * 1e3,
+                    half[0].max(half[1]) * 1e3
+                ),
+                format!("fly a width of {:.0} mm or more", NARROWEST * fade_across * 1e3),
+            ));
+        }
+        let columns = (turn / (COLUMN * flown.mean_distance())).ceil() as usize;
+        let levels = Levels::of(flown);
+        let place = |y: f64, column: usize| Place { y, z: column as f64 * turn / columns as f64 };
+        let lattice = levels.y.iter().flat_map(|y| (0..columns).map(|column| place(*y, column)));
+        let filling = flown.fill_by(&covariances, lattice.collect(), threads);
+        let mut curves = filling.compute(threads);
+        for (number, curve) in curves.iter_mut().enumerate() {
+            for (values, mean) in curve.iter_mut().zip(levels.means[number / columns]) {
+                values.iter_mut().for_each(|value| *value -= mean as f32);
+            }
+        }
+        let farthest = MOST_WITHIN * MOST * farthest(&curves);
+        let longest = PIECE * half_lag;
+        Ok(Self {
+            curves,
+            columns,
+            levels,
+            turn,
+            spacing: flown.spacing(),
+            belt_ratio: flown.belt_ratio(),
+            points,
+            piece: (longest as usize).min(points / 2),
+            fade: (FADE * half_lag).ceil() as usize,
+            fade_across,
+            missing: filling.missing(),
+            reach: flown.reach(),
+            farthest,
+        })
+    }
+
+    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction.
+    pub fn missing(&self) -> [f64; 2] {
+        self.missing
+    }
+
+    /// The smallest and the largest deviation in machine direction, each counted from the middle of the slot [m].
+    pub(super) fn reach(&self) -> [f64; 2] {
+        self.reach
+    }
+
+    /// No deviation of a filament from the mean at its place is larger in machine direction [m].
+    pub(super) fn farthest(&self) -> f64 {
+        self.farthest
+    }
+
+    /// The curves of the lattice that a filament follows from, with their weights.
+    ///
+    /// * `around` – levels with their weights
+    pub(super) fn near(&self, z: f64, around: &[(usize, f64)]) -> Vec<(&[Vec<f32>; 2], f32)> {
+        let at = z.rem_euclid(self.turn) / self.turn * self.columns as f64;
+        let first = at.floor();
+        let across = cubic(at - first);
+        let of_level = |(level, weight): &(usize, f64)| {
+            let (level, weight) = (*level, *weight);
+            across.into_iter().enumerate().map(move |(i, share)| {
+                let column = (first as usize + self.columns + i - 1) % self.columns;
+                (&self.curves[level * self.columns + column], (weight * share) as f32)
+            })
+        };
+        around.iter().flat_map(of_level).collect()
+    }
+}
+
+/// Largest sum of the sizes of the weights of a cubic: between its inner two values, where filaments across
+/// lie, and between any two, where those of a slot do.
+const MOST_WITHIN: f64 = 1.25;
+const MOST: f64 = 1.64;
+
+/// Weights of four values at −1, 0, 1 and 2 for the cubic through them.
+fn cubic(at: f64) -> [f64; 4] {
+    let [before, next, last] = [at + 1.0, at - 1.0, at - 2.0];
+    [-at * next * last / 6.0, before * next * last / 2.0, -before * at * last / 2.0, before * at * next / 6.0]
+}
+
+/// Points after which half of the correlation along the curves is left, in the direction that remembers
+/// longer; at most as many as the curves have.
+fn half_lag(flown: &FlownCurves) -> f64 {
+    let [md, cd] = [0, 1].map(|d| {
+        let product = |lag: usize| {
+            let of = |(filament, place): (usize, &Place)| {
+                let (values, mean) = (flown.deviations(filament, d), flown.mean(d, place.y));
+                let pairs = values.iter().zip(&values[lag..]);
+                pairs.map(|(a, b)| (f64::from(*a) - mean) * (f64::from(*b) - mean)).sum::<f64>()
+            };
+            flown.places().iter().enumerate().map(of).sum::<f64>() / (flown.points() - lag) as f64
+        };
+        let (whole, mut before) = (product(0), 1.0);
+        for lag in 1..flown.points() {
+            let now = product(lag) / whole;
+            if now <= 0.5 {
+                return lag as f64 - (0.5 - now) / (before - now);
+            }
+            before = now;
+        }
+        flown.points() as f64
+    });
+    md.max(cd)
+}

@@ -1,0 +1,103 @@
+//! How opaque the fabric is.
+
+use super::Known;
+use super::patches::weights;
+use crate::web::map::uniformity::Unevenness;
+use crate::web::map::{Map, straight_fibres};
+
+/// Reflectance of the white behind the sheet when its opacity is measured.
+const WHITE: f64 = 0.89;
+
+/// Opacity of a sheet that scatters and does not absorb.                         theory.md (109)
+///
+/// * `scattering` – coefficient of scattering times basis weight
+///
+/// Source: P. Kubelka, F. Munk, Z. Techn. Physik 12 (1931) 593–601; opacity as in ISO 2471.
+pub fn opacity(scattering: f64) -> f64 {
+    let black = scattering / (1.0 + scattering);
+    black / (black + (1.0 - black).powi(2) * WHITE / (1.0 - WHITE * black))
+}
+
+/// The coefficient of scattering times basis weight of a sheet of this opacity.
+///
+/// * `measured` – from above 0 to below 1
+pub fn scattering(measured: f64) -> f64 {
+    // The opacity grows with the scattering.
+    let (mut low, mut high) = (0.0, 1.0);
+    while opacity(high) < measured && high < 1e9 {
+        high *= 2.0;
+    }
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if opacity(middle) < measured { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// Side of the patches over which the weight is local [m].
+pub(super) const LOCAL: f64 = 2e-3;
+
+/// The weight about each place over the mean. Patches of straight fibres at random differ by chance, which
+/// formulas for fibres at random know already; so the deviations from the mean are lowered until they vary by
+/// as much as the web varies more than straight fibres do.                                    theory.md (111)
+///
+/// * `length` – of fibre per area of the sheet [1/m]
+/// * `found` – the unevenness over patches of 2 mm
+pub fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
+    let weights = weights(map, found.patch);
+    let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
+    let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);
+    let lower = if variance > 0.0 { (of_clouds / variance).sqrt() } else { 0.0 };
+    weights.into_iter().map(|weight| (1.0 + lower * (weight - 1.0)).max(0.0)).collect()
+}
+
+/// The share of the sheet that no fibre covers, `⟨exp(−τd)⟩`, where τ is the length of fibre per area about a
+/// place, as it was fed: what round fibres leave bare that lie independently of each other within 2 mm.
+///                                                                                            theory.md (110)
+///
+/// * `local` – of [`local_weights`]
+/// * `length` – of fibre per area of the sheet [1/m]
+/// * `diameter` – of the fibres, the mean over their length [m]
+/// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share
+pub fn bare_area(local: &[f64], length: f64, diameter: f64, found: &Unevenness) -> Known {
+    let covered = length * diameter;
+    let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
+    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV.                     theory.md (113)
+    let error = found.standard_error.map(|error| libm::exp(-covered) * covered * covered * found.cv * error);
+    Known::Value(share, error)
+}
+
+/// The formation number: CV² over that of straight fibres at random of the same mass, which have 1.   theory.md (102)
+///
+/// Source: C. T. J. Dodson, J. R. Stat. Soc. B 33 (1971) 88–94, as W. W. Sampson, Modelling Stochastic
+/// Fibrous Materials (2009), uses it for paper.
+pub fn formation(found: &Unevenness, straight_fibres: f64) -> Known {
+    let number = (found.cv / straight_fibres).powi(2);
+    Known::Value(number, found.standard_error.map(|error| 2.0 * number * error / found.cv))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_opacity_and_scattering_are_inverses() {
+        for measured in [0.05, 0.3, 0.6, 0.9, 0.99] {
+            let found = opacity(scattering(measured));
+            assert!((found - measured).abs() < 1e-12, "{measured}: {found}");
+        }
+        assert!(opacity(0.0).abs() < 1e-15);
+    }
+
+    /// Over a black and over a white ground: with the light that goes forth and back between sheet and ground
+    /// summed bounce by bounce.
+    #[test]
+    fn analytic_opacity_from_the_bounces_of_the_light() {
+        for scattering in [0.1, 1.0, 5.0] {
+            let (back, through): (f64, f64) = (scattering / (1.0 + scattering), 1.0 / (1.0 + scattering));
+            let bounces: f64 = (0..2000).map(|n| through * WHITE * (back * WHITE).powi(n) * through).sum();
+            let expected = back / (back + bounces);
+            assert!((opacity(scattering) - expected).abs() < 1e-12, "{scattering}");
+        }
+    }
+}

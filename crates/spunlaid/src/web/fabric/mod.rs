@@ -1,0 +1,197 @@
+//! The fabric in the words of those who buy it: how even it looks, where it is thin, what it lets through.
+//!
+//! Everything follows from the map of the basis weight, from the directions of the fibres, and from a few
+//! given numbers. Bonds and finishes of the fabric are not known here.
+//!
+//! ```text
+//! map ─────────────────→ formation, thin places, strips, bare area ┐
+//! directions ──────────→ ratio of stiffness                        ├→ Fabric
+//! map, thickness ──────→ air permeability                          │
+//! map, measured opacity → opacity                                  ┘
+//! ```
+
+mod air_through;
+mod light;
+mod marks;
+mod patches;
+mod streaks;
+mod strips;
+mod tell;
+#[cfg(test)]
+mod tests;
+mod usable;
+
+use crate::ground::statistics::Estimate;
+pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
+pub use light::{bare_area, formation, local_weights, opacity, scattering};
+pub use marks::Marks;
+pub(crate) use patches::NONE_FOUND;
+pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+pub use streaks::{Streak, StreakSource, streaks};
+pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
+pub(crate) use tell::{ABOUT, PATCHES};
+pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, of_scan, tell};
+pub use usable::{Usable, usable};
+
+/// What is given of the fabric and of its tests.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FabricKeys {
+    /// Thickness of the finished fabric [m]; without it no air permeability is told.
+    pub thickness: Option<f64>,
+    /// Width in the middle of the web that is sold [m]; all of it between the edges if it is not given.
+    pub saleable_width: Option<f64>,
+    /// How far the weight may be from that of the middle, as a share, to be sold.
+    pub tolerance: f64,
+    /// Strips that are pulled, and the sections of which the lightest is looked for.
+    pub strip: StripSize,
+    /// Pressure that drives air through the fabric [Pa].
+    pub pressure: f64,
+    /// Opacity that was measured of a fabric of the same filaments, and its basis weight if that was another
+    /// one [kg/m²].
+    pub measured_opacity: Option<f64>,
+    /// See `measured_opacity`.
+    pub opacity_weight: Option<f64>,
+}
+
+impl FabricKeys {
+    /// What is usual: strips as in ISO 9073-3, and the pressure of ISO 9073-15.
+    pub const USUAL: Self = Self {
+        thickness: None,
+        saleable_width: None,
+        tolerance: 0.05,
+        strip: StripSize { width: 50e-3, length: 200e-3, section: 5e-3 },
+        pressure: 200.0,
+        measured_opacity: None,
+        opacity_weight: None,
+    };
+}
+
+/// A number of a fabric, with what is known of it. There is none that stands alone as if it were exact, but
+/// for counts and for what follows from given numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Known {
+    /// It is just this.
+    Exact(f64),
+    /// A value and its standard error; none if the sheet is too small to say.
+    Value(f64, Option<f64>),
+    /// It is at least this.
+    AtLeast(f64),
+    /// It is at most this.
+    AtMost(f64),
+    /// It lies between these.
+    Between([f64; 2]),
+}
+
+impl Known {
+    /// A mean with its standard error.
+    const fn of(estimate: &Estimate) -> Self {
+        Self::Value(estimate.mean, estimate.standard_error)
+    }
+
+    /// The value, the bound, or the middle of the range.
+    pub const fn value(self) -> f64 {
+        match self {
+            Self::Exact(value) | Self::Value(value, _) | Self::AtLeast(value) | Self::AtMost(value) => value,
+            Self::Between([low, high]) => 0.5 * (low + high),
+        }
+    }
+
+    /// The value alone.
+    #[must_use]
+    const fn without_error(self) -> Self {
+        match self {
+            Self::Value(value, _) => Self::Value(value, None),
+            other => other,
+        }
+    }
+
+    /// In another unit, or as a multiple of something.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Exact(value) => Self::Exact(value * factor),
+            Self::Value(value, error) => Self::Value(value * factor, error.map(|error| error * factor.abs())),
+            Self::AtLeast(value) => Self::AtLeast(value * factor),
+            Self::AtMost(value) => Self::AtMost(value * factor),
+            Self::Between(ends) => Self::Between(ends.map(|end| end * factor)),
+        }
+    }
+}
+
+impl Serialize for Known {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let entries = match self {
+            Self::Exact(value) => return serializer.serialize_f64(*value),
+            Self::Value(value, error) => [Some(("value", Some(*value))), Some(("standard_error", *error))],
+            Self::AtLeast(least) => [Some(("at_least", Some(*least))), None],
+            Self::AtMost(most) => [Some(("at_most", Some(*most))), None],
+            Self::Between([low, high]) => [Some(("low", Some(*low))), Some(("high", Some(*high)))],
+        };
+        let mut map = serializer.serialize_map(None)?;
+        for (name, value) in entries.into_iter().flatten() {
+            map.serialize_entry(name, &value)?;
+        }
+        map.end()
+    }
+}
+
+/// Words, and what there is for them.
+const WORDS: &[(&[&str], &str)] = &[
+    (
+        &["formation", "cloudiness", "evenness", "uniformity"],
+        "Formation and cloudiness are results, not keys: `spunlaid web` tells the CV over patches, the \
+        cloudiness and the formation number, 1 for straight fibres at random (docs/fabric.md).",
+    ),
+    (
+        &["pinhole", "pin hole", "hole", "pore", "bare", "hydrohead", "hydrostatic head"],
+        "Holes and hydrohead are not told, because bonds and the calender make them: `spunlaid web` tells the bare \
+        area and thin places (docs/fabric.md).",
+    ),
+    (
+        &["thin spot", "thin place", "thick place", "thick spot"],
+        "Thin and thick places are results, not keys: `spunlaid web` tells patches per square metre that are \
+        lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
+    ),
+    (
+        &["strength", "tensile", "tenacity", "elongation", "tear"],
+        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` tells the \
+        weakest section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
+    ),
+    (
+        &["permeability", "porosity", "breathability"],
+        "The air permeability is a range that needs the thickness of the fabric (fabric.thickness); trust \
+        the ratio of two webs, not the number (docs/fabric.md).",
+    ),
+    (
+        &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
+        "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
+        program knows nothing.",
+    ),
+];
+
+/// What there is for a word of those who buy fabric; None for any other word.
+pub fn about(word: &str) -> Option<&'static str> {
+    let word = word.trim().to_lowercase().replace('-', " ");
+    let singular = word.strip_suffix('s').unwrap_or(&word);
+    let is_named = |words: &&[&str]| words.iter().any(|one| *one == word || *one == singular);
+    WORDS.iter().find(|(words, _)| is_named(words)).map(|(_, sentence)| *sentence)
+}
+
+/// A rectangle of the sheet with its weight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Marked {
+    /// Its corner in cross and in machine direction [m].
+    pub corner: [f64; 2],
+    /// Its sides [m].
+    pub sides: [f64; 2],
+    /// Its weight over the mean.
+    pub weight: f64,
+}
+
+impl Marked {
+    /// Its middle in cross and in machine direction [m].
+    pub fn middle(&self) -> [f64; 2] {
+        [0, 1].map(|axis| self.corner[axis] + 0.5 * self.sides[axis])
+    }
+}

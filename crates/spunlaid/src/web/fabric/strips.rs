@@ -1,0 +1,163 @@
+//! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its
+//! lightest section.
+
+use super::Known;
+use super::Marked;
+use crate::ground::statistics::{Estimate, quantile};
+use crate::web::map::Map;
+
+/// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
+pub const WEAK: f64 = 0.05;
+const FEWEST: f64 = 20.0;
+
+/// Sizes of a strip and of a section of it [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StripSize {
+    /// Across the strip.
+    pub width: f64,
+    /// Between the jaws.
+    pub length: f64,
+    /// Length of a section.
+    pub section: f64,
+}
+
+/// The strips of one direction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strips {
+    /// Their sizes, in whole cells [m].
+    pub size: StripSize,
+    /// Number of strips side by side and one behind the other on the sheet.
+    pub count: usize,
+    /// Weight of the lightest section of a strip over the mean of its sections, over all strips.
+    pub weakest: Known,
+    /// Standard deviation of that over strips, over its mean.
+    pub scatter: Option<Known>,
+    /// What 5 % of the strips are below; none of fewer than 20.
+    pub low: Option<Known>,
+    /// Standard deviation of a section about the mean of its strip, over that mean.
+    pub sections: Known,
+}
+
+/// All strips of the sheet along MD and along CD, side by side without overlap; none where no strip of two
+/// sections fits.                                                                             theory.md (104)
+pub fn strips(map: &Map, size: StripSize) -> [Option<Strips>; 2] {
+    [true, false].map(|is_along_md| along(map, size, is_along_md))
+}
+
+/// Where a strip lies, and its weakest section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StripPlace {
+    /// Its corner in cross and in machine direction [m].
+    pub corner: [f64; 2],
+    /// Its sides [m].
+    pub sides: [f64; 2],
+    /// The lightest section, with its weight over the mean of the strip.
+    pub weakest: Marked,
+}
+
+/// The strips of the sheet along MD and along CD; see [`strips`].
+pub(super) fn places(map: &Map, size: StripSize) -> [Vec<StripPlace>; 2] {
+    [true, false].map(|is_along_md| {
+        let Some(cut) = cut(map, size, is_along_md) else { return Vec::new() };
+        let turned = |[across, along]: [f64; 2]| if is_along_md { [across, along] } else { [along, across] };
+        let StripSize { width, section, .. } = cut.size;
+        let sides = turned([width, section * cut.in_strip as f64]);
+        let mut all = Vec::new();
+        for (column, sums) in cut.sums.iter().enumerate() {
+            for (row, strip) in sums.chunks_exact(cut.in_strip).enumerate() {
+                let mean = strip.iter().sum::<u64>() as f64 / cut.in_strip as f64;
+                let lightest = strip.iter().enumerate().min_by_key(|(_, sum)| **sum);
+                let Some((number, sum)) = lightest.filter(|_| mean > 0.0) else { continue };
+                let at = [column as f64 * width, (row * cut.in_strip) as f64 * section];
+                let weakest = Marked {
+                    corner: turned([at[0], at[1] + number as f64 * section]),
+                    sides: turned([width, section]),
+                    weight: *sum as f64 / mean,
+                };
+                all.push(StripPlace { corner: turned(at), sides, weakest });
+            }
+        }
+        all
+    })
+}
+
+/// A sheet that is cut into strips of one direction.
+struct Cut {
+    /// Weights of the sections of each strip and of those behind it.
+    sums: Vec<Vec<u64>>,
+    /// Sections of a strip.
+    in_strip: usize,
+    size: StripSize,
+}
+
+/// Cuts the sheet; none where no strip of two sections fits.
+fn cut(map: &Map, size: StripSize, is_along_md: bool) -> Option<Cut> {
+    let cells = |length: f64| (length / map.cell).round() as usize;
+    let (width, section) = (cells(size.width), cells(size.section));
+    let (across, deep) = if is_along_md { (map.columns, map.rows) } else { (map.rows, map.columns) };
+    if width == 0 || section == 0 {
+        return None;
+    }
+    let in_strip = cells(size.length) / section;
+    let (side_by_side, sections) = (across / width, deep / section);
+    if in_strip < 2 || side_by_side == 0 || sections < in_strip {
+        return None;
+    }
+    let mut sums = vec![vec![0u64; sections]; side_by_side];
+    for row in 0..map.rows {
+        // Across the row lie strips, or the sections of one.
+        let (part, number) = if is_along_md { (width, row / section) } else { (section, row / width) };
+        for (i, cells) in map.row(row).chunks_exact(part).enumerate() {
+            let (strip, section) = if is_along_md { (i, number) } else { (number, i) };
+            if let Some(sum) = sums.get_mut(strip).and_then(|sections| sections.get_mut(section)) {
+                *sum += cells.iter().map(|cell| u64::from(*cell)).sum::<u64>();
+            }
+        }
+    }
+    let length = |cells: usize| cells as f64 * map.cell;
+    let size =
+        StripSize { width: length(width), length: length(in_strip * section), section: length(section) };
+    Some(Cut { sums, in_strip, size })
+}
+
+fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
+    let Cut { sums, in_strip, size } = cut(map, size, is_along_md)?;
+    let (mut weakest, mut squares) = (Vec::new(), Vec::new());
+    for strip in sums.iter().flat_map(|sections| sections.chunks_exact(in_strip)) {
+        let mean = strip.iter().sum::<u64>() as f64 / in_strip as f64;
+        if mean > 0.0 {
+            let share = |sum: &u64| *sum as f64 / mean;
+            weakest.push(strip.iter().map(share).fold(f64::INFINITY, f64::min));
+            let square: f64 = strip.iter().map(|sum| (share(sum) - 1.0).powi(2)).sum();
+            squares.push(square / (in_strip as f64 - 1.0));
+        }
+    }
+    let count = weakest.len();
+    (count > 0).then(|| {
+        let low = low(&weakest);
+        let (weakest, squares) = (Estimate::new(weakest), Estimate::new(squares));
+        let scatter = weakest.standard_error.map(|error| {
+            let deviation = error * (count as f64).sqrt() / weakest.mean;
+            Known::Value(deviation, Some(deviation / (2.0 * (count as f64 - 1.0)).sqrt()))
+        });
+        let deviation = squares.mean.sqrt();
+        let of_deviation = |error: f64| if deviation > 0.0 { 0.5 * error / deviation } else { 0.0 };
+        Strips {
+            size,
+            count,
+            weakest: Known::of(&weakest),
+            scatter,
+            low,
+            sections: Known::Value(deviation, squares.standard_error.map(of_deviation)),
+        }
+    })
+}
+
+/// The 5 % quantile, with the error of its place in the order of the strips, a binomial number.
+fn low(weakest: &[f64]) -> Option<Known> {
+    let count = weakest.len() as f64;
+    let off = (WEAK * (1.0 - WEAK) / count).sqrt();
+    let ends = [WEAK - off, WEAK + off].map(|share| quantile(weakest, share));
+    let value = Known::Value(quantile(weakest, WEAK), Some(0.5 * (ends[1] - ends[0])));
+    (count >= FEWEST).then_some(value)
+}

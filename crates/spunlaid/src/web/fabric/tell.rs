@@ -1,0 +1,310 @@
+//! Everything that is told of a fabric.
+
+use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
+use super::light::{LOCAL, bare_area, formation as formation_number, local_weights};
+use super::marks::Marks;
+use super::patches::{ThinPlaces, thin_places, weights};
+use super::streaks::{Streak, StreakSource, streaks};
+use super::strips::{Strips, strips};
+use super::usable::{Usable, usable};
+use super::{FabricKeys, Known, light};
+use crate::ground::statistics::Estimate;
+use crate::ground::threads::each;
+use crate::ground::units::Dimension;
+use crate::web::map::uniformity::{Unevenness, unevenness};
+use crate::web::map::{Map, Orientation, straight_fibres};
+use crate::web::scan::{Findings, PatchFindings};
+use std::borrow::Cow;
+use std::f64::consts::PI;
+
+/// Sides of the patches of which thin places are told [m].
+pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
+/// Area of a test of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity
+/// varies [m].
+const AIR_AREA: f64 = 20e-4;
+const OPACITY_PATCH: f64 = 2e-3;
+/// A patch may be so much larger or smaller than it is called, to be one of whole cells.
+pub(crate) const ABOUT: f64 = 0.05;
+/// Fewest areas whose spread is told.
+const FEWEST: usize = 12;
+
+/// What was laid.
+#[derive(Clone, Debug)]
+pub struct Laid<'a> {
+    /// The map of the sheet.
+    pub map: &'a Map,
+    /// Widths of the strips at its edges that are left out [m].
+    pub margins: [f64; 2],
+    /// Where the web begins and ends across the sheet [m]; None of a scan.
+    pub reach: Option<[f64; 2]>,
+    /// Its filaments; none of a scan, of which they are not known.
+    pub filaments: Vec<Filaments>,
+    /// Directions of the fibres, if they are known.
+    pub orientation: Option<&'a Orientation>,
+    /// Its unevenness over patches of some sides.
+    pub patches: Vec<Unevenness>,
+    /// Defects of the line.
+    pub defects: Vec<StreakSource>,
+}
+
+/// A fabric in the words of those who buy it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fabric {
+    /// Width of the part of the sheet of which all else is told [m].
+    pub width: f64,
+    /// What is cut off of the web at both edges together [m]; None unless a saleable width is given.
+    pub trim: Option<f64>,
+    /// The width whose weight is within the tolerance; None of a web that goes on at its edges, and of a scan.
+    pub usable: Option<Usable>,
+    /// Patches of each side.
+    pub patches: Vec<FabricPatch>,
+    /// Strips along MD and along CD.
+    pub strips: [Option<Strips>; 2],
+    /// Places that are worth a look.
+    pub marks: Marks,
+    /// The streaks that defects of the line leave.
+    pub streaks: Vec<Streak>,
+    /// Stiffness along MD over that along CD, of the directions alone.
+    pub stiffness_ratio: Option<Known>,
+    /// Share of the area that no fibre covers.
+    pub bare: Option<Known>,
+    /// Air that is blown through.
+    pub air: Option<AirThrough>,
+    /// Opacity.
+    pub opacity: Option<Opacity>,
+    /// Whether nothing is known but the map, as of a scan.
+    pub is_of_map_alone: bool,
+    /// What is not told, and why.
+    pub notes: Vec<String>,
+}
+
+/// Patches of one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FabricPatch {
+    /// Thin and thick places.
+    pub thin: ThinPlaces,
+    /// CV over that of straight fibres at random, squared; None where no CV is known, or not the filaments.
+    pub formation: Option<Known>,
+}
+
+/// Air that is blown through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirThrough {
+    /// Share of the volume that is fibre.
+    pub solid: f64,
+    /// Speed of the air [m/s].
+    pub permeability: Known,
+    /// Its coefficient of variation over areas of a test; None of a small sheet.
+    pub spread: Option<Known>,
+}
+
+/// Opacity of the fabric.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// Mean of all patches.
+    pub mean: Known,
+    /// Standard deviation over patches.
+    pub spread: Known,
+}
+
+/// Tells everything that is known of a fabric.
+pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
+    let (first, map) = part(laid, keys);
+    let map = map.as_ref();
+    let corner = first as f64 * map.cell;
+    let mut notes = Vec::new();
+    let filaments = of_this_weight(&laid.filaments, map.basis_weight());
+    let (length, diameter) = lengths(&filaments);
+    let whole = |patch: f64| {
+        let side = (patch / map.cell).round();
+        ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
+    };
+    let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
+    let uneven = |side: usize| match keys.saleable_width {
+        Some(_) => unevenness(map, side),
+        None => {
+            let same = |found: &&Unevenness| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
+            laid.patches.iter().find(same).copied()
+        }
+    };
+    let patches = each(threads, sides.len(), |i| {
+        let thin = thin_places(map, sides[i])?;
+        let formation = uneven(sides[i]).filter(|_| length > 0.0);
+        let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
+        Some(FabricPatch { thin, formation })
+    });
+    let local = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
+        let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
+        let found = uneven(side).or_else(|| unevenness(map, side))?;
+        Some((local_weights(map, length, &found), found))
+    });
+    let air = (!laid.filaments.is_empty()).then(|| {
+        let given = keys.thickness.map(|thickness| (thickness, keys.pressure)).zip(local.as_ref());
+        let found = given.and_then(|(by, (local, _))| air(map, &filaments, local, by));
+        notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
+        found
+    });
+    let air = air.flatten();
+    let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
+    notes.extend(usable.is_some().then(unknown_neck_in));
+    notes.extend(laid.orientation.map(directions_of));
+    Fabric {
+        width: map.columns as f64 * map.cell,
+        trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
+        usable,
+        patches: patches.into_iter().flatten().collect(),
+        strips: strips(map, keys.strip),
+        marks: Marks::new(map, corner, keys.strip),
+        streaks: streaks(map, corner, &laid.defects),
+        stiffness_ratio: laid.orientation.map(|of| Known::Value(of.stiffness_ratio.0, of.stiffness_ratio.1)),
+        bare: local.map(|(local, found)| bare_area(&local, length, diameter, &found)),
+        air,
+        opacity: keys.measured_opacity.and_then(|measured| {
+            let scattering = light::scattering(measured);
+            let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
+            opacity(map, scattering * heavier)
+        }),
+        is_of_map_alone: laid.orientation.is_none(),
+        notes,
+    }
+}
+
+/// Why no air permeability is told.
+fn no_permeability(filaments: &[Filaments], thickness: Option<f64>) -> String {
+    match thickness {
+        None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
+            .to_owned(),
+        Some(thickness) => format!(
+            "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of the \
+            fabric, and the formulas hold up to 30 %",
+            (thickness * 1e6).round(),
+            (100.0 * solid_fraction(filaments, thickness)).round()
+        ),
+    }
+}
+
+/// Of which directions the stiffness is.
+fn directions_of(orientation: &Orientation) -> String {
+    format!(
+        "the stiffness MD/CD is that of pieces of {} of fibre as they were laid, each straight; curls within a \
+        piece, which bring it nearer to 1, are not in it",
+        Dimension::Length.pretty_to(orientation.piece, 2)
+    )
+}
+
+fn unknown_neck_in() -> String {
+    "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, about the \
+    places at which they are fed"
+        .to_owned()
+}
+
+/// The part of the map that is told of, and its first column: what is sold, or all but the edges.
+fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
+    let map = laid.map;
+    let cells = |width: f64| (width / map.cell).round().max(0.0) as usize;
+    let [first, last] = laid.margins.map(cells);
+    let all = first..map.columns - last;
+    let within = match keys.saleable_width {
+        None => all,
+        Some(width) => {
+            let [from, to] = laid.reach.unwrap_or([0.0, map.columns as f64 * map.cell]);
+            let middle = 0.5 * (from + to);
+            let columns = cells(middle - 0.5 * width)..cells(middle + 0.5 * width).min(map.columns);
+            if columns.is_empty() { all } else { columns }
+        }
+    };
+    (within.start, map.between(within))
+}
+
+/// The same filaments with the basis weight of a part of the sheet.
+fn of_this_weight(filaments: &[Filaments], basis_weight: f64) -> Vec<Filaments> {
+    let whole: f64 = filaments.iter().map(|of| of.basis_weight).sum();
+    let share = |of: &Filaments| Filaments { basis_weight: of.basis_weight * basis_weight / whole, ..*of };
+    filaments.iter().map(share).collect()
+}
+
+/// Length of fibre per area [1/m], and the mean of the diameter over it [m].
+fn lengths(filaments: &[Filaments]) -> (f64, f64) {
+    let length = |of: &Filaments| of.basis_weight / (0.25 * PI * of.diameter * of.diameter * of.density);
+    let whole: f64 = filaments.iter().map(length).sum();
+    (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
+}
+
+fn air(map: &Map, filaments: &[Filaments], local: &[f64], by: (f64, f64)) -> Option<AirThrough> {
+    let permeability = air_permeability(filaments, local, by)?;
+    let spread =
+        spread(&weights(map, AIR_AREA.sqrt())).map(|cv| cv.times(sensitivity(filaments, by.0, by.1).abs()));
+    Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread })
+}
+
+fn opacity(map: &Map, scattering: f64) -> Option<Opacity> {
+    let opacities = weights(map, OPACITY_PATCH).into_iter().map(|weight| light::opacity(scattering * weight));
+    let opacities: Vec<f64> = opacities.collect();
+    let spread = spread(&opacities)?;
+    let mean = Known::of(&Estimate::new(opacities));
+    Some(Opacity { mean, spread: spread.times(mean.value()) })
+}
+
+/// Standard deviation over the mean.
+fn spread(values: &[f64]) -> Option<Known> {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+    let deviation = (squares / (count - 1.0)).sqrt() / mean;
+    (values.len() >= FEWEST).then(|| Known::Value(deviation, Some(deviation / (2.0 * (count - 1.0)).sqrt())))
+}
+
+/// Any density, of which only the length of fibre is made, which depends on the titre alone.
+const DENSITY: f64 = 1000.0;
+
+/// What a scan tells of the fabric: thin places, weights and strips, and the formation number where basis
+/// weight and titre are known.
+pub fn of_scan(findings: &Findings) -> Fabric {
+    let titre = findings.titre.filter(|_| findings.mean_known);
+    let filaments = titre.map(|titre| Filaments {
+        diameter: (4.0 * titre / (PI * DENSITY)).sqrt(),
+        density: DENSITY,
+        basis_weight: findings.map.basis_weight(),
+    });
+    let laid = Laid {
+        map: &findings.map,
+        margins: [0.0; 2],
+        reach: None,
+        filaments: filaments.into_iter().collect(),
+        orientation: None,
+        patches: findings.patches.iter().map(|patch| patch.unevenness).collect(),
+        defects: Vec::new(),
+    };
+    let mut fabric = tell(&laid, &FabricKeys::USUAL, 1);
+    let formation = match titre {
+        Some(_) => "",
+        None => {
+            ", and the formation number: that needs the mean basis weight and the titre of the filaments \
+            (weight, titre)"
+        }
+    };
+    // What else is not told needs the fibres, and that is said once.
+    fabric.notes = vec![format!(
+        "a scan does not tell what needs its fibres: stiffness, bare area, air \
+        permeability{formation}"
+    )];
+    // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.
+    for patch in &mut fabric.patches {
+        let thin = &mut patch.thin;
+        let is_same = |found: &&PatchFindings| (found.unevenness.patch / thin.patch - 1.0).abs() < 1e-6;
+        let same = findings.patches.iter().find(is_same);
+        if findings.guess.is_some() || same.is_some_and(|found| found.interval.is_err()) {
+            let numbers = thin.lighter.iter_mut().chain([&mut thin.heavier]).chain(&mut thin.quantiles);
+            numbers.for_each(|number| *number = number.without_error());
+        }
+    }
+    if let Some(guess) = findings.guess {
+        fabric.notes.push(format!("thin places and strips have no errors, because {guess}"));
+        for strips in fabric.strips.iter_mut().flatten() {
+            let numbers = [Some(&mut strips.weakest), strips.scatter.as_mut(), strips.low.as_mut()];
+            let numbers = numbers.into_iter().flatten().chain([&mut strips.sections]);
+            numbers.for_each(|number| *number = number.without_error());
+        }
+    }
+    fabric
+}

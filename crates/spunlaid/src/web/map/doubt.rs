@@ -1,0 +1,230 @@
+//! What must be known of the numbers of a web before they are believed, and how it is said.
+
+use super::few_findings::FewDoubt;
+use crate::fibre::charge::BREAKDOWN;
+use crate::ground::units::Dimension;
+use std::fmt::{Display, Formatter, Result};
+
+/// A reason to doubt numbers of a web, or to read them with care. It is shown as a sentence without a full stop.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Filaments were lost in flight, of so many.
+    Lost {
+        /// Number of lost ones.
+        filaments: u64,
+        /// Number of all that were flown.
+        of: u64,
+    },
+    /// Too few filaments were flown to tell what all do.
+    FewFilaments {
+        /// Sides of the patches whose CV they do not tell [m].
+        sides: Vec<f64>,
+        /// The strongest reason.
+        why: FewDoubt,
+        /// Distance of the flown ones [m].
+        pitch: f64,
+        /// Least number for each metre of a row that flies where the file leaves it open; None if all have to fly.
+        enough: Option<f64>,
+    },
+    /// The field of charged filaments is near to that in which air breaks down.
+    StrongField {
+        /// The strongest field [V/m].
+        field: f64,
+    },
+    /// The map is not as uneven as the CV that is told, because filaments between the flown ones are not known well.
+    FilledIn {
+        /// Part of their variance that is not known.
+        missing: f64,
+        /// Sides of the patches over which the map has another CV [m].
+        sides: Vec<f64>,
+        /// The CV of the map over the told one, less one, where they differ most.
+        apart: f64,
+    },
+    /// The sheet that was flown is too small for these patches.
+    SmallSheet {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+    },
+    /// No fibre was flown beside the surrogate.
+    NothingFlown,
+    /// Fibre lies beyond the edges of the sheet.
+    CutOff {
+        /// As a share of all fibre.
+        share: f64,
+    },
+    /// The web is thinner at its edges, and these strips are left out.
+    ThinEdges {
+        /// Widths of the strips [m].
+        margins: [f64; 2],
+    },
+    /// The sheet is too small for an error of the CV.
+    NoError {
+        /// Sides of the patches [m].
+        sides: Vec<f64>,
+    },
+}
+
+impl Display for Doubt {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Lost { filaments, of } => write!(
+                f,
+                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the web \
+                is lighter by that, and a little more uneven",
+                if *filaments == 1 { "was" } else { "were" }
+            ),
+            Self::FewFilaments { sides, why, pitch, enough } => write!(
+                f,
+                "the CV over patches of {} is not known, because {}: too few filaments were flown to tell \
+                what all do. The map, the picture and all that follows from them are no better. Fly {}",
+                millimetres(sides),
+                reason(*why, *pitch),
+                match enough {
+                    Some(enough) => format!(
+                        "as many as are found to tell it: leave web.flown out, which flies {enough} or more for \
+                        each metre"
+                    ),
+                    None => "all of them, web.flown = \"all\"".to_owned(),
+                }
+            ),
+            Self::StrongField { field } => write!(
+                f,
+                "the charge of the filaments gives a field of {} at the edge of the curtain, and air breaks down at {}, at edges \
+                of metal long before: a line would lose a part of this charge (line.charge)",
+                Dimension::ElectricField.pretty_to(*field, 2),
+                Dimension::ElectricField.pretty(BREAKDOWN)
+            ),
+            Self::FilledIn { missing, sides, apart } => write!(
+                f,
+                "filaments between the flown ones are known but for {} % of their variance, so the map, \
+                and what follows from it (picture, thin places, strips, light), {}; the CV that is told is \
+                not. Fly more filaments for the map (web.flown)",
+                per_cent(*missing, 2),
+                match sides.is_empty() {
+                    true => "is too uneven over small patches".to_owned(),
+                    false => format!(
+                        "is too {} over patches of {}, by up to {} % of the CV",
+                        if *apart > 0.0 { "uneven" } else { "even" },
+                        listed(sides),
+                        per_cent(apart.abs(), 2)
+                    ),
+                }
+            ),
+            Self::SmallSheet { sides } => write!(
+                f,
+                "the sheet that was flown is too small for patches of {}: their CV is that of the map, which \
+                is made of pieces of that sheet, and it has no error",
+                millimetres(sides)
+            ),
+            Self::NothingFlown => write!(
+                f,
+                "no fibre was flown for every layer of this web, so the errors are by chance only, and it is \
+                not known how far a surrogate with these numbers is from real fibres. Compared with flown \
+                curves, its CV was up to 20 % wrong (docs/web.md)"
+            ),
+            Self::CutOff { share } => write!(
+                f,
+                "{} % of the fibre lies beyond the edges of the sheet and is cut off",
+                per_cent(*share, 2)
+            ),
+            Self::ThinEdges { margins } => {
+                let [first, last] = margins.map(|margin| digits(1e3 * margin, 3));
+                write!(
+                    f,
+                    "the first {first} mm and the last {last} mm across the web are left out of CV, clouds \
+                    and autocorrelation, because the web is thinner at its edges, which reach 3 σ_CD inwards \
+                    from the outermost filament (web.edges = \"cut\")"
+                )
+            }
+            Self::NoError { sides } => write!(
+                f,
+                "the CV over patches of {} has no error: the sheet holds too few independent clouds or \
+                streaks for one; make it larger, or lay several webs with other seeds",
+                millimetres(sides)
+            ),
+        }
+    }
+}
+
+/// Why a few filaments do not tell what all do.
+fn reason(why: FewDoubt, pitch: f64) -> String {
+    match why {
+        FewDoubt::Halves(patch, off) => format!(
+            "every second one of the flown filaments would tell a CV over patches of {} that is {} % {}",
+            millimetres(&[patch]),
+            per_cent(off.abs(), 2),
+            if off > 0.0 { "higher" } else { "lower" }
+        ),
+        FewDoubt::Own(patch) => format!(
+            "over patches of {} what each flown filament makes for itself is nearly all of the unevenness, \
+            and what is left for all is not told from none",
+            millimetres(&[patch])
+        ),
+        FewDoubt::Neighbours(correlation) => format!(
+            "the flown filaments are {} mm apart, and the places where such neighbours come down have a \
+            correlation of {}",
+            digits(1e3 * pitch, 3),
+            digits(correlation, 2)
+        ),
+    }
+}
+
+/// `2, 5, 10 mm`.
+fn millimetres(sides: &[f64]) -> String {
+    let sides: Vec<String> = sides.iter().map(|side| digits(1e3 * side, 3)).collect();
+    format!("{} mm", sides.join(", "))
+}
+
+/// `2, 5 and 10 mm`.
+fn listed(sides: &[f64]) -> String {
+    match sides {
+        [first @ .., last] if !first.is_empty() => {
+            format!("{} and {}", millimetres(first).trim_end_matches(" mm"), millimetres(&[*last]))
+        }
+        sides => millimetres(sides),
+    }
+}
+
+fn per_cent(share: f64, count: usize) -> String {
+    digits(100.0 * share, count)
+}
+
+/// A number with so many digits, and without zeros at its end.
+fn digits(value: f64, count: usize) -> String {
+    let decimals = count - 1;
+    let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
+    format!("{rounded}").replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn doubts_are_sentences_with_their_numbers() {
+        let few = |enough: Option<f64>| {
+            let (sides, why) = (vec![0.01, 0.02], FewDoubt::Halves(0.02, -0.08));
+            Doubt::FewFilaments { sides, why, pitch: 0.002, enough }.to_string()
+        };
+        let said = few(Some(1000.0));
+        assert!(
+            said.starts_with("the CV over patches of 10, 20 mm is not known, because every second one"),
+            "{said}"
+        );
+        assert!(
+            said.contains("over patches of 20 mm that is 8 % lower")
+                && said.ends_with("leave web.flown out, which flies 1000 or more for each metre"),
+            "{said}"
+        );
+        assert!(few(None).ends_with("Fly all of them, web.flown = \"all\""), "{}", few(None));
+        let filled = |sides: Vec<f64>| Doubt::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
+        let said = filled(vec![0.01, 0.02]);
+        assert!(
+            said.contains("is too uneven over patches of 10 and 20 mm, by up to 13 % of the CV"),
+            "{said}"
+        );
+        assert!(filled(Vec::new()).contains("is too uneven over small patches; the CV"));
+        assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));
+    }
+}

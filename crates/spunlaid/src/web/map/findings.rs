@@ -1,0 +1,352 @@
+//! Everything that is found out about a web.
+
+use super::clouds::{Clouds, autocorrelation};
+use super::doubt::Doubt;
+use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
+use super::few_findings::{FewDoubt, FewFilamentsCv};
+use super::laid_web::LayControl;
+use super::laid_web::{LaidWeb, SharedAirFindings};
+use super::lay::lay;
+use super::map::Map;
+use super::one_fibre::{OneFibre, straight_fibres};
+use super::orientation::{Orientation, orientation};
+use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};
+use super::waves::Places;
+use super::{Layer, Web};
+use crate::fibre::charge::STRONG;
+use crate::ground::error::{Error, Fault};
+use crate::ground::threads::try_each;
+use crate::ground::units::Dimension;
+use crate::web::surrogate::Surrogate;
+use std::borrow::Cow;
+use std::sync::atomic::AtomicU64;
+
+/// A web, laid and looked at.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// The map of the basis weight, and what was cut off at the edges.
+    pub laid: LaidWeb,
+    /// Widths of the strips at the two edges in cross direction [m]. The web is thinner there, and the fields
+    /// below leave these strips out. They reach 3 σ_CD inwards of the outermost place of a filament; a web
+    /// with periodic edges has none.
+    pub margins: [f64; 2],
+    /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at
+    /// the edges of the sheet, which cut it or where it goes on [m].
+    pub reach: [f64; 2],
+    /// How uneven it is, patch by patch.
+    pub patches: Vec<PatchFindings>,
+    /// Directions of the fibres.
+    pub orientation: Orientation,
+    /// Sizes of the clouds; none for a sheet of a few cells.
+    pub clouds: Option<Clouds>,
+    /// Autocorrelation coefficients of the basis weight in cross and in machine direction, cell by cell from lag zero.
+    pub autocorrelation: [Vec<f64>; 2],
+    /// Length of all filaments [m].
+    pub fibre_length: f64,
+    /// The surrogate of the first layer, if it has one.
+    pub surrogate: Option<Surrogate>,
+}
+
+impl Findings {
+    /// The map without the edges.
+    pub fn within(&self) -> Cow<'_, Map> {
+        let map = &self.laid.map;
+        let [first, last] = self.margins.map(|margin| (margin / map.cell).round() as usize);
+        map.between(first..map.columns - last)
+    }
+
+    /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web
+    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring.
+    pub fn basis_weight(&self) -> (f64, Option<f64>) {
+        let map = self.within();
+        let seen = nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch));
+        let side = seen.map_or(1, |seen| (self.patches[seen].map.patch / map.cell).round() as usize);
+        let weight = map.basis_weight();
+        (weight, error_of_mean(&map, side).map(|error| error * weight))
+    }
+}
+
+/// The unevenness over patches of one size, in several ways.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchFindings {
+    /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]),
+    /// and on the map again, without an error, where they do not tell it ([`PatchFindings::doubt`]).
+    pub map: Unevenness,
+    /// The expected one of independent filaments at the places of the layers, from single paths of the
+    /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
+    pub single_fibres: Option<(f64, f64)>,
+    /// Of straight fibres in all directions of the same mass.
+    pub straight_fibres: f64,
+    /// Whether the filaments were flown in one air: in airs of their own they would give
+    /// [`PatchFindings::independent`].
+    pub in_one_air: bool,
+    /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
+    /// the sheet that they laid.
+    pub few: Option<FewFilamentsCv>,
+    /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
+    /// were flown.
+    pub doubt: Option<FewDoubt>,
+    /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown
+    /// or nothing.
+    pub filled: Option<f64>,
+}
+
+impl PatchFindings {
+    /// The CV of the web; None if a few filaments were flown and do not tell it.
+    pub fn told(&self) -> Option<Unevenness> {
+        self.doubt.is_none().then_some(self.map)
+    }
+
+    /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
+    /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
+    pub fn independent(&self) -> Option<f64> {
+        self.single_fibres.filter(|_| self.in_one_air).map(|(cv, _)| cv)
+    }
+
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
+    /// a few filaments do not tell it. Which filaments were flown for all is chance too.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        if !self.in_one_air {
+            return self.map.interval();
+        }
+        let by_pitch = self.few.map_or(0.0, |few| few.by_pitch);
+        let standard_error = self.map.standard_error.map(|error| error.hypot(by_pitch));
+        Unevenness { standard_error, ..self.map }.interval_of_few()
+    }
+}
+
+/// Longest lag of the autocorrelation [m], and most lags.
+const LAG: f64 = 0.1;
+const LAGS: usize = 257;
+
+/// Lays a web and looks at it.
+///
+/// # Errors
+/// If the web cannot be laid, or if it is stopped.
+pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
+    find_laid(web, None, by)
+}
+
+/// [`find`] of a web that has been laid already, if it is given.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
+    let sheet = &web.sheet;
+    let SheetPosition { reach, columns } = across(web);
+    let sides = sides(sheet, &columns);
+    let margins = [columns.start, sheet.cells()[0] - columns.end].map(|cells| cells as f64 * sheet.cell);
+    if columns.is_empty() || (sides.is_empty() && !sheet.patches.is_empty()) {
+        let smallest = sheet.patches.iter().copied().fold(f64::INFINITY, f64::min);
+        let [left, right, width, smallest] =
+            [margins[0], margins[1], sheet.width, smallest].map(|size| Dimension::Length.pretty(size));
+        let message = format!(
+            "the edges of the web, where it is thin, take {left} and {right} of its width of {width} (3 σ_CD \
+            inwards of the outermost filament), and no two patches of {smallest} fit between them"
+        );
+        return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
+    }
+    let laid = laid.map_or_else(|| lay(web, by), Ok)?;
+    let is_shared = laid.shared_air.is_some();
+    // The progress is that of the web; what comes after it is short.
+    let aside = AtomicU64::new(0);
+    let by = LayControl { laid: &aside, ..by };
+    let map = laid.map.between(columns.clone());
+    let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
+    let alone = match paths(web) {
+        Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
+        None => None,
+    };
+    // The air displaces neighbours together, so their streaks are chance.
+    let places = if is_shared { Places::Unknown } else { web.places(columns.len() as f64 * sheet.cell) };
+    let mut patches = Vec::new();
+    let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
+    for (i, map) in uneven.into_iter().enumerate() {
+        let Some(map) = map else { continue };
+        let single_fibres = alone.as_ref().map(|alone| alone[i].cv);
+        let straight_fibres =
+            alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
+        let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
+        let of_map = map.cv;
+        // A map of pieces of another sheet says nothing of chance.
+        let is_of_few = laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+        let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
+        let doubt = laid.shared_air.as_ref().and_then(|together| together.doubt_over(map.patch));
+        let told = few.filter(|_| doubt.is_none());
+        let map = told.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
+        patches.push(PatchFindings {
+            few,
+            doubt,
+            filled: few.map(|_| of_map),
+            map,
+            single_fibres,
+            straight_fibres,
+            in_one_air: is_shared,
+        });
+    }
+    let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
+    let clouds = Clouds::at(&map, &places, by.threads);
+    let autocorrelation = autocorrelation(&map, lags, by.threads);
+    let orientation = orientation(web, by)?;
+    drop(map);
+    let surrogate = web.layers.first().and_then(|layer| layer.fibres.surrogate());
+    Ok(Findings {
+        fibre_length: web.fibre_length(),
+        surrogate,
+        orientation,
+        clouds,
+        autocorrelation,
+        patches,
+        margins,
+        reach,
+        laid,
+    })
+}
+
+/// The CV of straight fibres in all directions in place of the layers.
+fn straight(web: &Web, patch: f64) -> f64 {
+    let squares = web.layers.iter().map(|layer| {
+        let weight = layer.basis_weight(&web.sheet);
+        (weight / web.basis_weight() * straight_fibres(weight / layer.linear_density, patch)).powi(2)
+    });
+    squares.sum::<f64>().sqrt()
+}
+
+/// What the few filaments of all layers say together: their airs are independent of each other, so the
+/// variances add up.
+fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Option<FewFilamentsCv> {
+    let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
+    let whole = weights.iter().sum::<f64>();
+    let layers = weights.iter().enumerate().map(|(number, weight)| {
+        let few = together.few.iter().find(|few| few.layer == number)?;
+        let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
+        Some((weight / whole, *cv))
+    });
+    let layers: Vec<(f64, FewFilamentsCv)> = layers.collect::<Option<_>>()?;
+    let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {
+        layers.iter().map(|(share, few)| (share.powi(2) * of(few)).powi(power)).sum::<f64>()
+    };
+    let cv = sum(&|few| few.cv * few.cv, 1).sqrt();
+    // The error of a sum of squares, as one of its root.
+    let error = |of: &dyn Fn(&FewFilamentsCv) -> f64| sum(&|few| few.cv * of(few), 2).sqrt() / cv;
+    let by_chance = error(&|few| few.by_chance.unwrap_or(f64::NAN));
+    Some(FewFilamentsCv {
+        patch: map.patch,
+        cv,
+        by_chance: by_chance.is_finite().then_some(by_chance),
+        by_pitch: error(&|few| few.by_pitch),
+        of_halves: sum(&|few| few.cv * few.cv * few.of_halves, 1) / (cv * cv),
+        own: sum(&|few| few.own, 1),
+        few: sum(&|few| few.few * few.few, 1).sqrt(),
+    })
+}
+
+/// The standard error of the CV of a map, by its causes [as the CV].
+///
+/// What the flight itself leaves out (its mesh, its time step, its drag law) is not in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WholeError {
+    /// By chance: another piece of the same web has another CV. None if the sheet is too small to say.
+    pub chance: Option<f64>,
+    /// By the filaments that were flown, which are few. None if nothing was flown, or if they do not tell it.
+    pub flight: Option<f64>,
+}
+
+impl WholeError {
+    /// All causes together; None if one of them is not known.
+    ///
+    /// The square of a difference and the square of its standard error together are what the square of the
+    /// true difference is on average, so the squares add up.
+    pub fn whole(&self) -> Option<f64> {
+        Some(self.chance?.hypot(self.flight?))
+    }
+}
+
+impl PatchFindings {
+    /// The error of the CV of the map, by its causes.
+    pub fn whole_error(&self) -> WholeError {
+        // Unless a few stand for all, every filament of the sheet has been flown.
+        let flight = self.few.map_or(0.0, |few| few.by_pitch);
+        let is_known = self.in_one_air && self.doubt.is_none();
+        WholeError { chance: self.map.standard_error, flight: is_known.then_some(flight) }
+    }
+}
+
+/// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
+const MISSING: f64 = 0.1;
+/// A map whose CV is farther from the told one, as a share of it, is another one.
+const OF_MAP: f64 = 0.05;
+
+impl Findings {
+    /// What must be known of these numbers before they are believed.
+    pub fn doubts(&self, web: &Web) -> Vec<Doubt> {
+        let mut doubts = match &self.laid.shared_air {
+            Some(together) => {
+                [lost(web, together), few_filaments(self, together), charged(together)].concat()
+            }
+            None if self.patches.is_empty() => Vec::new(),
+            None => vec![Doubt::NothingFlown],
+        };
+        let map = &self.laid.map;
+        if self.laid.cut > 0.0 {
+            let whole = map.total() as f64 * map.quantum + self.laid.cut;
+            doubts.push(Doubt::CutOff { share: self.laid.cut / whole });
+        }
+        if self.margins != [0.0; 2] {
+            doubts.push(Doubt::ThinEdges { margins: self.margins });
+        }
+        let unsure = self.patches.iter().filter_map(PatchFindings::told);
+        let unsure = unsure.filter(|map| map.standard_error.is_none());
+        doubts.extend(of_sides(unsure.map(|map| map.patch), |sides| Doubt::NoError { sides }));
+        doubts
+    }
+}
+
+/// A doubt about patches of these sides [m]; none if there are none.
+fn of_sides(sides: impl Iterator<Item = f64>, doubt: impl FnOnce(Vec<f64>) -> Doubt) -> Option<Doubt> {
+    let sides: Vec<f64> = sides.collect();
+    (!sides.is_empty()).then(|| doubt(sides))
+}
+
+/// Filaments of a web in one air that were lost.
+fn lost(web: &Web, together: &SharedAirFindings) -> Vec<Doubt> {
+    let count = |(number, layer): (usize, &Layer)| {
+        let few = together.few.iter().find(|few| few.layer == number);
+        few.map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
+    };
+    let of = web.layers.iter().enumerate().map(count).sum();
+    let lost = Some(together.lost).filter(|lost| *lost > 0);
+    lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
+}
+
+/// Whether charged filaments would keep their charge.
+fn charged(together: &SharedAirFindings) -> Vec<Doubt> {
+    let field = together.charged.iter().map(|charged| charged.edge_field).fold(0.0, f64::max);
+    (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
+}
+
+/// Whether the few filaments that were flown are enough for what is told of all.
+fn few_filaments(findings: &Findings, together: &SharedAirFindings) -> Vec<Doubt> {
+    let too_few = together.few.iter().filter_map(|few| {
+        let why = few.doubt()?;
+        let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
+        let (pitch, enough) = (few.pitch, few.enough_per_metre());
+        Some(Doubt::FewFilaments { sides: sides.collect(), why, pitch, enough })
+    });
+    let mut doubts: Vec<Doubt> = too_few.collect();
+    let missing = together.few.iter().flat_map(|few| few.missing).fold(0.0, f64::max);
+    let apart = |patch: &PatchFindings| {
+        let told = patch.few.and_then(|_| patch.told())?;
+        Some((told.patch, patch.filled? / told.cv - 1.0))
+    };
+    let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
+    let off: Vec<(f64, f64)> = apart.into_iter().filter(|(_, apart)| apart.abs() > OF_MAP).collect();
+    if missing > MISSING || !off.is_empty() {
+        let most = off.iter().map(|(_, apart)| *apart).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let sides = off.iter().map(|(side, _)| *side).collect();
+        doubts.push(Doubt::FilledIn { missing, sides, apart: most.unwrap_or(0.0) });
+    }
+    let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && !together.few.is_empty());
+    doubts.extend(of_sides(larger.map(|patch| patch.map.patch), |sides| Doubt::SmallSheet { sides }));
+    doubts
+}

@@ -1,0 +1,235 @@
+//! What has been laid.
+
+use super::few_findings::{FewDoubt, LayerFew};
+use super::map::Map;
+use super::window::Strand;
+use crate::fibre::charge::SheetHeight;
+use crate::ground::error::Fault;
+use crate::ground::lanes::Isa;
+use crate::ground::statistics::student_t_95_at;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::time::Duration;
+
+/// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
+pub(super) const HIGHEST: f64 = 4.0;
+
+/// Threads and instruction set of the computation, its progress and its stop flag.
+#[derive(Clone, Copy, Debug)]
+pub struct LayControl<'a> {
+    /// Number of threads. The map does not depend on it.
+    pub threads: usize,
+    /// Instruction set. The map does not depend on it.
+    pub isa: Isa,
+    /// Ends the laying when it is set.
+    pub stop: &'a AtomicBool,
+    /// Grows by the pieces of filaments that have been laid; [`pieces`](super::pieces) says how many there are.
+    pub laid: &'a AtomicU64,
+}
+
+/// Time that a computation took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TimeSpent {
+    /// All of it.
+    pub whole: Duration,
+    /// The parts that are shared among threads.
+    pub in_parallel: Duration,
+}
+
+/// What has been laid.
+#[derive(Clone, Debug)]
+pub struct LaidWeb {
+    /// The basis weight.
+    pub map: Map,
+    /// Mass beyond edges that cut it off [kg].
+    pub cut: f64,
+    /// What is known of filaments that were flown together and laid as they came down; None of a web of
+    /// independent filaments.
+    pub shared_air: Option<SharedAirFindings>,
+}
+
+/// What is known of filaments that were flown together, in one air.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SharedAirFindings {
+    /// Single fibres of a window.
+    pub strands: Vec<Strand>,
+    /// How filaments of each layer come down together, over their distance.
+    pub neighbours: Vec<NeighbourCorrelation>,
+    /// What a few filaments say about the web of all, of each layer of which only a few were flown.
+    pub few: Vec<LayerFew>,
+    /// What charge has made of the filaments of each layer that carry some.
+    pub charged: Vec<ChargedCurtain>,
+    /// Filaments that were lost: they are missing on the web from then on.
+    pub lost: u64,
+    /// Length of time that was flown, of the layer that took the longest [s].
+    pub time: f64,
+    /// What the flights took.
+    pub spent: TimeSpent,
+}
+
+impl SharedAirFindings {
+    /// Why the few filaments of a layer do not tell the CV of all over patches of a side; None if they do.
+    pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+        self.few.iter().find_map(|few| few.doubt_over(patch))
+    }
+
+    /// Adds what is known of another layer.
+    pub(crate) fn add(&mut self, layer: usize, other: Self) {
+        self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
+        let neighbours = other.neighbours.into_iter();
+        self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
+        self.few.extend(other.few.into_iter().map(|few| LayerFew { layer, ..few }));
+        self.charged.extend(other.charged.into_iter().map(|charged| ChargedCurtain { layer, ..charged }));
+        self.lost += other.lost;
+        self.time = self.time.max(other.time);
+        self.spent.whole += other.spent.whole;
+        self.spent.in_parallel += other.spent.in_parallel;
+    }
+}
+
+/// The fault of a cell that holds more fibre than can be counted.
+pub(super) fn too_full(cell: f64) -> Fault {
+    let message = format!(
+        "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
+    );
+    Fault::new(message, "choose smaller cells (web.cell)")
+}
+
+/// The charged filaments of a layer, as they hung at the end of their flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChargedCurtain {
+    /// Index of the layer.
+    pub layer: usize,
+    /// The strongest field beside them, at any height [V/m].
+    pub edge_field: f64,
+    /// Where they hung, from the inlet to the belt.
+    pub heights: Vec<SheetHeight>,
+}
+
+/// The correlation of the places where two filaments of a layer come down, at equal fed length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NeighbourCorrelation {
+    /// Index of the layer.
+    pub layer: usize,
+    /// Distance of their inlets in cross direction [m].
+    pub distance: f64,
+    /// Of the places in machine direction.
+    pub md: Correlation,
+    /// Of the places in cross direction.
+    pub cd: Correlation,
+}
+
+/// A correlation coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Its value.
+    pub value: f64,
+    /// Its standard error; None if too little was laid to know it.
+    pub standard_error: Option<f64>,
+    /// Degrees of freedom of the error; NaN without one.
+    pub degrees: f64,
+}
+
+impl Correlation {
+    /// The 95 % confidence interval, by Student's t; None if too little was laid to know it.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        let half = student_t_95_at(self.degrees) * self.standard_error?;
+        Some([self.value - half, self.value + half])
+    }
+}
+
+/// Laid curves of one line, seen from their straight traces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    spacing: f64,
+    belt_ratio: f64,
+    /// Of each curve the points (ξ₁, ξ₂) [m].
+    curves: Vec<Vec<[f64; 2]>>,
+    /// How far they hang together, if they were flown in one air.
+    one_air: Option<OneAir>,
+}
+
+/// How far curves that were flown in one air hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OneAir {
+    /// Number of the group of neighbours of each curve. Groups are so wide that one hardly knows of another.
+    pub(crate) groups: Vec<usize>,
+    /// Length of fed fibre after which gusts are forgotten [m].
+    pub(crate) memory: f64,
+}
+
+impl Curves {
+    /// Fewest pieces of a curve.
+    const FEWEST: usize = 16;
+
+    /// Curves from their points on the belt.
+    ///
+    /// * `spacing` – fed length from point to point [m]
+    /// * `belt_ratio` – speed of the belt over speed of the feed
+    /// * `curves` – of each fibre the places (md, cd) of its points on the belt [m], in the order of feed
+    ///
+    /// # Errors
+    /// If there is no curve, or one of less than 16 pieces or with a point that is not finite.
+    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, Fault> {
+        let usable = |curve: &Vec<[f64; 2]>| {
+            curve.len() > Self::FEWEST && curve.iter().flatten().all(|x| x.is_finite())
+        };
+        let known = spacing > 0.0 && spacing.is_finite() && belt_ratio > 0.0 && belt_ratio.is_finite();
+        if !known || curves.is_empty() || !curves.iter().all(usable) {
+            return Err(no_curves());
+        }
+        for curve in &mut curves {
+            for (i, point) in curve.iter_mut().enumerate() {
+                point[0] += belt_ratio * spacing * i as f64;
+            }
+            let middle = [0, 1].map(|axis| curve.iter().map(|p| p[axis]).sum::<f64>() / curve.len() as f64);
+            for point in curve.iter_mut() {
+                // The place under the nozzle is where the curve is on average.
+                *point = [point[0] - middle[0], point[1] - middle[1]];
+            }
+        }
+        Ok(Self { spacing, belt_ratio, curves, one_air: None })
+    }
+
+    /// The same curves, known to hang together.
+    pub(crate) fn in_one_air(self, one_air: OneAir) -> Self {
+        Self { one_air: Some(one_air), ..self }
+    }
+
+    pub(super) const fn one_air(&self) -> Option<&OneAir> {
+        self.one_air.as_ref()
+    }
+
+    /// Fed length from point to point [m].
+    pub const fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Speed of the belt over speed of the feed.
+    pub const fn belt_ratio(&self) -> f64 {
+        self.belt_ratio
+    }
+
+    /// The points (ξ₁, ξ₂) of each curve [m].
+    pub(super) fn curves(&self) -> &[Vec<[f64; 2]>] {
+        &self.curves
+    }
+
+    /// Fed length of the shortest curve [m].
+    pub(super) fn length(&self) -> f64 {
+        self.curves.iter().map(|curve| curve.len() - 1).min().unwrap_or(0) as f64 * self.spacing
+    }
+
+    /// Spread about the straight trace in cross direction [m].
+    pub(super) fn sigma_cd(&self) -> f64 {
+        let points = self.curves.iter().map(Vec::len).sum::<usize>() as f64;
+        (self.curves.iter().flatten().map(|p| p[1] * p[1]).sum::<f64>() / points).sqrt()
+    }
+}
+
+/// The fault of curves that cannot be laid.
+fn no_curves() -> Fault {
+    Fault::new(
+        "there are no laid curves, or they are too short: each needs more than 16 points at a spacing above zero",
+        "fly the case for longer (run.duration)",
+    )
+}

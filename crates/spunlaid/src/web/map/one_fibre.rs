@@ -1,0 +1,249 @@
+//! What one fibre alone says about the unevenness of a web of many.
+
+use super::laid_web::LayControl;
+use super::lay::lay;
+use super::uniformity::boxes;
+use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
+use crate::ground::error::Error;
+use crate::ground::statistics::Estimate;
+use crate::ground::threads::try_each;
+use crate::web::surrogate::Surrogate;
+
+/// How the unevenness is found from single fibres.
+#[derive(Clone, Copy, Debug)]
+pub struct OneFibre {
+    /// Side of a cell [m].
+    pub cell: f64,
+    /// Number of fibres; each is laid alone.
+    pub fibres: u64,
+    /// Seed of the curves.
+    pub seed: u64,
+}
+
+/// Cells that fibres laid at the same time may take, and the shortest belt that a fibre is laid on [spreads].
+const CELLS: usize = 1 << 21;
+const SHORTEST: usize = 5;
+/// Fibres laid at the same time.
+const ABREAST: usize = 8;
+
+/// What single fibres say about patches of one side.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SingleFibres {
+    /// `CV²·τ` of filaments at random places [1/m]: the value of each fibre, and their mean.
+    pub at_random: Estimate,
+    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of
+    /// [`SingleFibres::profile`].
+    pub at_places: Estimate,
+    /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
+    /// column `trace`.
+    pub profile: Vec<f64>,
+    /// Column of the trace.
+    pub trace: usize,
+}
+
+/// `CV²·τ` of a web of independent filaments, over patches of some sides.
+///
+/// A patch of side x holds of one filament the length m. Over all patches, `CV² τ = Σ m²/(L x²)` with the
+/// filament's length L and the length of all filaments per area, τ = basis weight/line density. The patches
+/// are taken at every place on the lattice of cells. A fibre is laid on a ring of belt; what its ends leave
+/// out is less than a part in a hundred. If the places are fixed, the mean of m at each distance from the
+/// trace is known, and only `m² − ⟨m⟩²` is left to chance.
+///
+/// * `sides` – of the patches [cells]
+///
+/// Returns what is found for each side.
+///
+/// # Errors
+/// If the filaments cannot be laid, or if it is stopped.
+pub fn one_fibre(
+    layer: &Layer,
+    sides: &[usize],
+    sample: OneFibre,
+    by: LayControl<'_>,
+) -> Result<Vec<SingleFibres>, Error> {
+    let largest = sides.iter().copied().max().unwrap_or(1);
+    // So far apart that no patch meets two fibres.
+    let reach = (layer.fibres.reach() / sample.cell).ceil() as usize + 4;
+    let apart = 2 * reach + largest;
+    // The first patch that meets a fibre begins in the fibre's own columns.
+    let trace = reach + largest;
+    let least = (SHORTEST * reach).max(4 * largest);
+    let mut found = vec![FibreSums::default(); sides.len()];
+    let rows = (CELLS / (ABREAST * apart)).max(least);
+    let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
+    let fibres = sample.fibres.max(1);
+    for (seed, first) in (sample.seed..).zip((0..fibres).step_by(abreast as usize)) {
+        let fibres = abreast.min(fibres - first);
+        add(layer, sides, OneFibre { fibres, seed, ..sample }, [apart, trace, rows], by, &mut found)?;
+    }
+    let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));
+    Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
+}
+
+/// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
+fn add(
+    layer: &Layer,
+    sides: &[usize],
+    sample: OneFibre,
+    [apart, trace, rows]: [usize; 3],
+    by: LayControl<'_>,
+    found: &mut [FibreSums],
+) -> Result<(), Error> {
+    let pitch = apart as f64 * sample.cell;
+    let row = Row::new((trace as f64 + 0.5) * sample.cell, pitch, sample.fibres);
+    let web = Web {
+        sheet: Sheet::new(pitch * sample.fibres as f64, rows as f64 * sample.cell, sample.cell),
+        layers: vec![Layer { filaments: Filaments::Rows(vec![row]), defects: Vec::new(), ..layer.clone() }],
+        seed: sample.seed,
+    };
+    let map = lay(&web, by)?.map;
+    let metres = map.quantum / layer.linear_density;
+    let length = layer.fed_length(&web.sheet);
+    let share = metres / (rows as f64);
+    let of_sides = try_each(by.threads, sides.len(), |i| {
+        let mut fibres = vec![Alone { squares: 0.0, profile: vec![0.0; apart] }; sample.fibres as usize];
+        boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
+            for (Alone { squares, profile }, cells) in fibres.iter_mut().zip(boxes.chunks_exact(apart)) {
+                // Most patches hold nothing.
+                for (mean, quanta) in profile.iter_mut().zip(cells).filter(|(_, quanta)| **quanta > 0) {
+                    let quanta = *quanta as f64;
+                    *squares += quanta * quanta;
+                    *mean += quanta * share;
+                }
+            }
+        });
+        Ok(fibres)
+    })?;
+    for ((side, sums), mut fibres) in sides.iter().zip(found).zip(of_sides) {
+        // All places of a patch on the lattice are looked at, of which a lattice of patches has one in `side²`.
+        let each = 1.0 / ((*side * *side) as f64 * length);
+        fibres.iter_mut().for_each(|fibre| fibre.squares = fibre.squares * metres * metres * each);
+        sums.rows.extend(fibres.iter().map(|_| rows as f64 * each));
+        sums.fibres.extend(fibres);
+    }
+    Ok(())
+}
+
+impl SingleFibres {
+    /// `CV²·τ` of a layer, without what fixed places themselves do.
+    pub fn estimate(&self, filaments: &Filaments) -> &Estimate {
+        match filaments {
+            Filaments::AtRandom { .. } => &self.at_random,
+            Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,
+        }
+    }
+
+    /// The mean mass in patches across a sheet, by the first column of the patch, for filaments at fixed
+    /// places, divided by the mean mass that the same filaments would give if they were spread evenly over
+    /// the sheet.
+    ///
+    /// * `places` – of the filaments [columns]
+    /// * `columns` – of the sheet, and whether it is closed
+    /// * `side` – of a patch [columns]
+    pub(super) fn across(&self, places: &[f64], (columns, closed): (usize, bool), side: usize) -> Vec<f64> {
+        let mut sums = vec![0.0; columns];
+        for place in places {
+            // The first patch that the profile knows, and the part of a column that it is further on.
+            let first = place - 0.5 - self.trace as f64;
+            let (start, further) = (first.floor() as i64, first - first.floor());
+            for (i, length) in self.profile.iter().enumerate() {
+                for (column, share) in [(start + i as i64, 1.0 - further), (start + i as i64 + 1, further)] {
+                    let column = if closed { column.rem_euclid(columns as i64) } else { column };
+                    if let Some(sum) = usize::try_from(column).ok().and_then(|column| sums.get_mut(column)) {
+                        *sum += share * length;
+                    }
+                }
+            }
+        }
+        if !closed {
+            sums.truncate(columns + 1 - side.min(columns));
+        }
+        let even = places.len() as f64 * self.profile.iter().sum::<f64>() / columns as f64;
+        sums.iter().map(|sum| sum / even).collect()
+    }
+}
+
+/// What single fibres have been found to do, fibre by fibre.
+#[derive(Clone, Debug, Default)]
+struct FibreSums {
+    fibres: Vec<Alone>,
+    /// By how much a squared mean of a column counts.
+    rows: Vec<f64>,
+}
+
+/// What a fibre has been found to do.
+#[derive(Clone, Debug)]
+struct Alone {
+    /// `Σ m²/L` over a lattice of patches [m].
+    squares: f64,
+    /// The mean of m by column [m].
+    profile: Vec<f64>,
+}
+
+impl FibreSums {
+    /// * `area` – of a patch [m²]
+    fn finish(self, area: f64, trace: usize) -> SingleFibres {
+        let fibres = self.fibres.len() as f64;
+        let columns = self.fibres.first().map_or(0, |fibre| fibre.profile.len());
+        let mean = |i: usize| self.fibres.iter().map(|fibre| fibre.profile[i]).sum::<f64>() / fibres;
+        let profile: Vec<f64> = (0..columns).map(mean).collect();
+        // The mean of the others, for the square of the own one has its chance in it. One alone has no others.
+        let other =
+            |mean: f64, own: f64| if fibres > 1.0 { (mean * fibres - own) / (fibres - 1.0) } else { own };
+        let at_places = self.fibres.iter().zip(&self.rows).map(|(fibre, rows)| {
+            let product = |(mean, own): (&f64, &f64)| own * other(*mean, *own);
+            (fibre.squares - rows * profile.iter().zip(&fibre.profile).map(product).sum::<f64>()) / area
+        });
+        let at_places = Estimate::new(at_places.collect());
+        SingleFibres {
+            at_places,
+            at_random: Estimate::new(self.fibres.iter().map(|fibre| fibre.squares / area).collect()),
+            profile,
+            trace,
+        }
+    }
+}
+
+/// `CV²·τ·x` of straight, endless fibres in all directions, thrown at random: the mean of 1/(π distance) over pairs of
+/// points in a square of side 1, `(4 ln(1+√2) + 4(1−√2)/3)/π = 0.9464`.
+///
+/// Source: W. J. Corte, O. Kallmes, in: The Formation and Structure of Paper (1962), 13–46, for squares.
+pub fn straight_fibres(tau: f64, patch: f64) -> f64 {
+    let root = std::f64::consts::SQRT_2;
+    let mean = (4.0 * libm::log1p(root) + 4.0 * (1.0 - root) / 3.0) / std::f64::consts::PI;
+    (mean / (tau * patch)).sqrt()
+}
+
+impl Fibres {
+    /// The stochastic model of each filament, if it is known.
+    pub const fn surrogate(&self) -> Option<Surrogate> {
+        match self {
+            Self::Surrogate(surrogate) => Some(*surrogate),
+            Self::Flown { surrogate, .. } => *surrogate,
+        }
+    }
+
+    /// Spread about the straight trace in cross direction [m].
+    pub(crate) fn sigma_cd(&self) -> f64 {
+        match self {
+            Self::Surrogate(surrogate) => surrogate.sigma_cd,
+            Self::Flown { curves, .. } => curves.sigma_cd(),
+        }
+    }
+
+    /// Squared mean of `e^{ikξ₂}` over the fibre: the power of a streak in a wave across the web, over that
+    /// of a streak without width.
+    ///
+    /// * `wave` – k [1/m]
+    pub(super) fn power_across(&self, wave: f64) -> f64 {
+        // ξ₂ is normal.
+        libm::exp(-(wave * self.sigma_cd()).powi(2))
+    }
+
+    /// Farthest that a curve goes across, but for rare exceptions [m].
+    pub(super) fn reach(&self) -> f64 {
+        /// A normal distribution goes beyond once in 26 million points.
+        const SIGMAS: f64 = 5.5;
+        SIGMAS * self.sigma_cd()
+    }
+}

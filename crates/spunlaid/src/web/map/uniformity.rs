@@ -1,0 +1,185 @@
+//! How uneven a web is: the coefficient of variation of its basis weight over square patches.
+
+use super::map::Map;
+use super::waves::{FEWEST, Parts, Places, Powers};
+use crate::ground::statistics::{interval_of_deviation, interval_of_deviation_by, student_t_95_at};
+
+/// The unevenness over patches of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unevenness {
+    /// Side of the square patches [m].
+    pub patch: f64,
+    /// Standard deviation of the basis weight of patches over its mean.
+    pub cv: f64,
+    /// Standard error of `cv`; none if the sheet is too small to say. It is a share of `cv` that depends on
+    /// the size of the sheet and of its clouds.
+    pub standard_error: Option<f64>,
+}
+
+impl Unevenness {
+    /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        Some(interval_of_deviation(self.cv, self.standard_error?))
+    }
+
+    /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only
+    /// roughly how much they scatter, as in a web whose filaments share one air: by Student's t with the
+    /// degrees of freedom of the CV.
+    pub fn interval_of_few(&self) -> Option<[f64; 2]> {
+        let quantile = student_t_95_at(self.degrees()?);
+        Some(interval_of_deviation_by(quantile, self.cv, self.standard_error?))
+    }
+
+    /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too
+    /// small to say.
+    pub fn degrees(&self) -> Option<f64> {
+        Some(0.5 * (self.cv / self.standard_error?).powi(2))
+    }
+}
+
+/// A variance is given with an error only if it has at least this many degrees of freedom: the number of
+/// independent values that would tell as much.
+pub(super) const DEGREES: f64 = 5.0;
+/// Places of a patch each way whose waves are looked at, and the most of them: so many that patches of the
+/// next places overlap by half. Waves between farther places would pass for longer ones, of which there are
+/// fewer, so that the error would be too large.
+const WAVES: usize = 512;
+const MOST_WAVES: usize = 2048;
+/// Size of the patches that the eye judges first [m].
+const SEEN: f64 = 10e-3;
+
+/// Which of the sides of patches [m] is nearest to what the eye judges first.
+pub fn nearest_to_seen(patches: impl Iterator<Item = f64>) -> Option<usize> {
+    let far = |patch: f64| libm::log(patch / SEEN).abs();
+    patches.map(far).enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(number, _)| number)
+}
+
+/// [`unevenness_at`] of filaments at places of which nothing is known.
+pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
+    unevenness_at(map, side, &Places::Unknown)
+}
+
+/// The coefficient of variation over patches of one side, at every place of the patch on the lattice of cells.
+///
+/// The variance is a sum over waves. For many independent filaments the basis weight is a normal field, whose waves are
+/// independent, each with a power that scatters by as much as its mean; so the powers themselves say how much their sum
+/// scatters between webs. (theory.md, "Chance in a map".) On a sheet that is not closed, the mean is known
+/// from the sheet only; the variance is larger by that of the mean.
+///
+/// * `side` – of a patch [cells], at least one and within the sheet; None otherwise, and without any fibre
+/// * `places` – what is known of the places of the filaments
+pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Option<Unevenness> {
+    let (squares, powers) = deviations(map, side)?;
+    let of_mean = match places_of_filaments {
+        Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.variance_of_mean(map.closed)),
+        Places::AtRandom(streaks) => streaks.variance_of_mean,
+        Places::Fixed => 0.0,
+    };
+    let cv = (squares + of_mean).sqrt();
+    let error = powers.and_then(|powers| {
+        let mut parts = Parts::default();
+        let places = match places_of_filaments {
+            Places::AtRandom(streaks) => Places::AtRandom(streaks.over(side as f64 / map.columns as f64)),
+            other => other.clone(),
+        };
+        powers.numbers().for_each(|wave| powers.add(wave, &places, 0, 1.0, &mut parts));
+        let share = parts.share([false; 2]);
+        (share > 0.0 && 2.0 / share >= DEGREES).then(|| 0.5 * cv * share.sqrt())
+    });
+    Some(Unevenness {
+        patch: side as f64 * map.cell,
+        cv,
+        standard_error: error.filter(|error| error.is_finite()),
+    })
+}
+
+/// Standard error of the mean basis weight of a map that is a piece of a web, as a share of it: by the waves that
+/// are as long as the piece. None of a map that is closed to a ring both ways, whose mean is that of the web,
+/// and of a map that is too small to say.
+///
+/// * `side` – of the patches whose waves are looked at [cells]
+pub fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
+    let (_, powers) = deviations(map, side)?;
+    Some(powers?.variance_of_mean(map.closed).sqrt()).filter(|error| *error > 0.0)
+}
+
+/// The mean square of the deviations of the patches of one side from the mean, over it, and the powers of their
+/// waves, if they are enough.
+fn deviations(map: &Map, side: usize) -> Option<(f64, Option<Powers>)> {
+    let sizes = [map.columns, map.rows];
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
+        return None;
+    }
+    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    // So many of the places, evenly spread, a power of two.
+    let overlapping = |places: usize| places.min((2 * places / side).clamp(WAVES, MOST_WAVES));
+    let [columns, rows] = places.map(|places| 1 << overlapping(places).ilog2());
+    let mut some = Vec::with_capacity(columns * rows);
+    let mut squares = 0.0;
+    boxes(map, side, places, |row, boxes| {
+        let deviation = |weight: &u64| *weight as f64 / mean - 1.0;
+        squares += boxes.iter().map(|weight| deviation(weight).powi(2)).sum::<f64>();
+        if some.len() / columns * places[1] / rows == row {
+            some.extend((0..columns).map(|column| deviation(&boxes[column * places[0] / columns])));
+        }
+    });
+    let powers = (columns.min(rows) >= FEWEST)
+        .then(|| Powers::new(columns, rows, 1, |row, column| some[row * columns + column]));
+    Some((squares / (places[0] * places[1]) as f64, powers))
+}
+
+/// The coefficient of variation over the patches of this very map, at every place within its edges. That of
+/// the web is larger, by what the mean of a piece varies.
+///
+/// * `side` – of a patch [cells]; None unless it is within the map, and without any fibre
+pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {
+    let sizes = [map.columns, map.rows];
+    if side == 0 || sizes.iter().any(|size| side > *size) {
+        return None;
+    }
+    let places = sizes.map(|size| size - side + 1);
+    let (mut sum, mut squares) = (0.0, 0.0);
+    boxes(map, side, places, |_, boxes| {
+        sum += boxes.iter().map(|weight| *weight as f64).sum::<f64>();
+        squares += boxes.iter().map(|weight| (*weight as f64).powi(2)).sum::<f64>();
+    });
+    let count = (places[0] * places[1]) as f64;
+    let mean = sum / count;
+    (mean > 0.0).then(|| (squares / count / (mean * mean) - 1.0).max(0.0).sqrt())
+}
+
+/// Passes on the quanta in all patches, row by row of their places.
+pub(crate) fn boxes(map: &Map, side: usize, places: [usize; 2], mut take: impl FnMut(usize, &[u64])) {
+    let mut columns = vec![0u64; map.columns];
+    for row in 0..side - 1 {
+        add(&mut columns, map.row(row % map.rows));
+    }
+    let mut boxes = vec![0u64; places[0]];
+    // On a closed sheet, the last patches reach beyond its edge.
+    let within = (map.columns + 1 - side).min(places[0]);
+    for row in 0..places[1] {
+        add(&mut columns, map.row((row + side - 1) % map.rows));
+        let mut sum: u64 = columns[..side - 1].iter().sum();
+        let mut slide = |boxes: &mut [u64], first: &[u64], last: &[u64]| {
+            for ((total, first), last) in boxes.iter_mut().zip(first).zip(last) {
+                sum += last;
+                *total = sum;
+                sum -= first;
+            }
+        };
+        let (inner, beyond) = boxes.split_at_mut(within);
+        slide(inner, &columns, &columns[side - 1..]);
+        slide(beyond, &columns[within..], &columns);
+        take(row, &boxes);
+        for (sum, cell) in columns.iter_mut().zip(map.row(row)) {
+            *sum -= u64::from(*cell);
+        }
+    }
+}
+
+fn add(sums: &mut [u64], row: &[u32]) {
+    for (sum, cell) in sums.iter_mut().zip(row) {
+        *sum += u64::from(*cell);
+    }
+}

@@ -1,0 +1,234 @@
+//! Waves: the powers of a field on a rectangle, and how much of its variance is chance.
+
+use crate::ground::fft::{Complex, InverseTransform};
+use crate::ground::lanes::{Lanes, WIDTH};
+use crate::ground::threads::each;
+
+/// What is known of the places at which the filaments of a sheet come down.
+///
+/// A filament that stays at its place leaves a streak along the whole sheet. Are the streaks of another web
+/// of this kind others, or the same?
+#[derive(Clone, Debug, PartialEq)]
+pub enum Places {
+    /// Nothing is known, as of a scan: streaks are chance, and the map itself says of how much. On a sheet
+    /// that is closed in cross direction the mean is the same for all; otherwise the variance of the mean is
+    /// found from the longest waves.
+    Unknown,
+    /// Some filaments are at random places: streaks are chance, and so is the number of filaments.
+    AtRandom(Streaks),
+    /// The places are those of nozzles: the mean along the web is the same for all webs.
+    Fixed,
+}
+
+/// Streaks of filaments at random places, over the square of the mean basis weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Streaks {
+    /// Variance of the mean basis weight of sheets like this one.
+    pub variance_of_mean: f64,
+    /// Mean power of the wave with so many periods across the sheet and none along it, from one period on.
+    /// All waves have twice that, since each counts in both senses.
+    pub powers: Vec<f64>,
+}
+
+impl Streaks {
+    fn power(&self, across: i64) -> f64 {
+        (across.unsigned_abs() as usize)
+            .checked_sub(1)
+            .and_then(|i| self.powers.get(i))
+            .copied()
+            .unwrap_or(0.0)
+    }
+
+    /// Those of means over a part of the sheet.
+    pub(super) fn over(&self, share: f64) -> Self {
+        let mean = |(number, power): (f64, &f64)| {
+            let angle = std::f64::consts::PI * number * share;
+            power * (libm::sin(angle) / angle).powi(2)
+        };
+        let powers = (1..).map(f64::from).zip(&self.powers).map(mean).collect();
+        Self { powers, ..*self }
+    }
+}
+
+/// Powers `|F|²/N²` of the waves of N numbers on a rectangle: they add up to the mean square.
+#[derive(Clone, Debug)]
+pub(super) struct Powers {
+    columns: usize,
+    rows: usize,
+    values: Vec<f64>,
+}
+
+/// Mean fourth power of a Hann window over the square of its mean square.
+const HANN: f64 = 35.0 / 18.0;
+/// Fewest numbers either way.
+pub(super) const FEWEST: usize = WIDTH;
+
+impl Powers {
+    /// * `columns`, `rows` – powers of two, at least [`FEWEST`]
+    /// * `value` – of a row and a column
+    pub(super) fn new(
+        columns: usize,
+        rows: usize,
+        threads: usize,
+        value: impl Fn(usize, usize) -> f64 + Sync,
+    ) -> Self {
+        let mut transform = InverseTransform::new(columns);
+        // Eight rows at a time, then eight columns.
+        let transformed: Vec<Vec<Complex>> = each(threads, rows / WIDTH, |group| {
+            let pair = |column| Complex {
+                re: Lanes::from_fn(|lane| value(group * WIDTH + lane, column)),
+                im: Lanes::ZERO,
+            };
+            let mut data: Vec<Complex> = (0..columns).map(pair).collect();
+            transform.run(&mut data);
+            data
+        });
+        transform = InverseTransform::new(rows);
+        let scale = ((columns * rows) as f64).powi(-2);
+        let groups: Vec<Vec<f64>> = each(threads, columns / WIDTH, |group| {
+            let wave = |row: usize| {
+                let part = |component: fn(&Complex) -> &Lanes| {
+                    Lanes::from_fn(|lane| {
+                        component(&transformed[row / WIDTH][group * WIDTH + lane]).0[row % WIDTH]
+                    })
+                };
+                Complex { re: part(|z| &z.re), im: part(|z| &z.im) }
+            };
+            let mut data: Vec<Complex> = (0..rows).map(wave).collect();
+            transform.run(&mut data);
+            let power = |z: &Complex, lane: usize| z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
+            data.iter().flat_map(|z| (0..WIDTH).map(move |lane| power(z, lane) * scale)).collect()
+        });
+        let mut values = Vec::with_capacity(columns * rows);
+        for row in 0..rows {
+            groups.iter().for_each(|group| values.extend(&group[row * WIDTH..][..WIDTH]));
+        }
+        Self { columns, rows, values }
+    }
+
+    /// Power by wave number in cross and in machine direction, of either sign.
+    pub(super) fn at(&self, across: i64, along: i64) -> f64 {
+        let [column, row] = [(across, self.columns), (along, self.rows)]
+            .map(|(number, count)| number.rem_euclid(count as i64) as usize);
+        self.values[row * self.columns + column]
+    }
+
+    /// All wave numbers but the mean's, in cross and in machine direction.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = (i64, i64)> {
+        let [columns, rows] = [self.columns, self.rows].map(|count| count as i64);
+        let each = move |along| (-columns / 2..columns / 2).map(move |across| (across, along));
+        (-rows / 2..rows / 2).flat_map(each).filter(|number| *number != (0, 0))
+    }
+
+    /// Adds a wave to the parts to which it belongs.
+    ///
+    /// * `places` – of the filaments
+    /// * `reach` – wave numbers along the web to which a window spreads a streak
+    /// * `gain` – factor of its power
+    pub(super) fn add(
+        &self,
+        (across, along): (i64, i64),
+        places: &Places,
+        reach: i64,
+        gain: f64,
+        to: &mut Parts,
+    ) {
+        if along.abs() > reach {
+            to.other_waves.add(gain * self.at(across, along));
+        } else if along == 0 && across != 0 {
+            let power = gain * (-reach..=reach).map(|along| self.at(across, along)).sum::<f64>();
+            to.streak_power += power;
+            match places {
+                Places::Unknown => to.streaks.add(power),
+                Places::AtRandom(streaks) => {
+                    let mean = streaks.power(across);
+                    to.expected += mean;
+                    to.expected_variance += 2.0 * mean * mean;
+                }
+                Places::Fixed => {
+                    // Chance has as much of this wave as of the next ones.
+                    let beside = 0.5 * gain * (self.at(across, reach + 1) + self.at(across, -reach - 1));
+                    to.expected += power;
+                    to.expected_variance += 4.0 * power * beside;
+                }
+            }
+        }
+    }
+
+    /// Variance of the mean of a sheet that is cut out of a larger one: the power of its longest waves, which
+    /// the mean continues.
+    ///
+    /// * `closed` – directions in which the sheet is closed, so that the mean is known
+    pub(super) fn variance_of_mean(&self, closed: [bool; 2]) -> f64 {
+        let line = |waves: [(i64, i64); 4]| {
+            0.25 * waves.map(|(across, along)| self.at(across, along)).iter().sum::<f64>()
+        };
+        let across = line([(1, 0), (-1, 0), (2, 0), (-2, 0)]);
+        let along = line([(0, 1), (0, -1), (0, 2), (0, -2)]);
+        match closed {
+            [true, true] => 0.0,
+            [false, true] => across,
+            [true, false] => along,
+            [false, false] => across.max(along),
+        }
+    }
+}
+
+/// A variance in parts, from the powers of independent waves.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Parts {
+    /// Waves across the web that are the same along all of it: their sum as it has been found.
+    streak_power: f64,
+    /// These waves where nothing else is known of them.
+    streaks: WaveSums,
+    /// Where it is known, their mean over webs and the variance of what is found.
+    expected: f64,
+    expected_variance: f64,
+    /// All other waves.
+    other_waves: WaveSums,
+}
+
+/// Sums over waves and those that run the other way, which are the same.
+#[derive(Clone, Copy, Debug, Default)]
+struct WaveSums {
+    powers: f64,
+    squares: f64,
+}
+
+impl WaveSums {
+    fn add(&mut self, power: f64) {
+        self.powers += power;
+        self.squares += power * power;
+    }
+
+    /// Variance of the sum of the powers. For a normal field each has the standard deviation of its mean, and
+    /// waves of opposite sign are one, so it is twice the sum of squared means, or the sum of squares. That
+    /// of few waves is too small beside the square of their sum: for equal waves by just the denominator.
+    fn variance(self) -> f64 {
+        if self.powers > 0.0 {
+            let share = self.squares / (self.powers * self.powers);
+            self.squares / (1.0 - share).max(f64::MIN_POSITIVE)
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Parts {
+    /// The variance of the field in these waves.
+    pub(super) fn sum(&self) -> f64 {
+        self.streak_power + self.other_waves.powers
+    }
+
+    /// The variance of that variance over webs of the kind, over its square. Where it is known how strong
+    /// streaks are on average, it does not depend on how strong they have come out.
+    ///
+    /// * `open` – directions, cross and machine, in which a Hann window makes one wave of two
+    pub(super) fn share(&self, open: [bool; 2]) -> f64 {
+        let [across, along] = open.map(|open| if open { HANN } else { 1.0 });
+        let mean = self.streaks.powers + self.expected + self.other_waves.powers;
+        let variance =
+            across * (self.streaks.variance() + along * self.other_waves.variance() + self.expected_variance);
+        if mean > 0.0 { variance / (mean * mean) } else { 0.0 }
+    }
+}
