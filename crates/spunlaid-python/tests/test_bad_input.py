@@ -57,7 +57,6 @@ def test_dicts_studies_webs_and_records(value: Any) -> None:
         spunlaid.web,
         lambda value: spunlaid.analyse(value, 1e3),
         spunlaid.load,
-        lambda value: _spunlaid.flown_from(value),
         lambda value: _spunlaid.fly_bundle(value),
         lambda value: _spunlaid.read_table(value),
         lambda value: spunlaid.Flight(value),
