@@ -29,12 +29,12 @@ impl Verdict {
     }
 
     /// Of something that is known without doubt.
-    pub const fn of(holds: bool) -> Self {
+    pub(crate) const fn of(holds: bool) -> Self {
         if holds { Self::Holds } else { Self::Fails }
     }
 
     /// Of a difference in standard errors, which the claim says is above zero.
-    pub fn of_difference(difference: f64) -> Self {
+    pub(crate) fn of_difference(difference: f64) -> Self {
         match difference {
             _ if difference > REAL => Self::Holds,
             _ if difference < -REAL => Self::Fails,

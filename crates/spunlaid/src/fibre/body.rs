@@ -17,10 +17,10 @@ pub enum Root {
 
 impl Root {
     /// Every kind of root.
-    pub const ALL: [Self; 3] = [Self::Pinned, Self::Clamped, Self::Free];
+    pub(crate) const ALL: [Self; 3] = [Self::Pinned, Self::Clamped, Self::Free];
 
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Pinned => "pinned",
             Self::Clamped => "clamped",
@@ -117,7 +117,7 @@ impl Fibre {
     }
 
     /// Period of the slowest axial wave of a fibre whose root is held, `4L √(ρ_f/E)` [s]. theory.md (56)
-    pub fn axial_period(&self) -> f64 {
+    pub(crate) fn axial_period(&self) -> f64 {
         4.0 * self.length * (self.density / self.youngs_modulus).sqrt()
     }
 

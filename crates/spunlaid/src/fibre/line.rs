@@ -34,7 +34,7 @@ pub enum Contact {
 
 impl Line {
     /// Feed and belt of which nothing is known yet.
-    pub const UNKNOWN: Self = Self {
+    pub(crate) const UNKNOWN: Self = Self {
         feed_speed: f64::NAN,
         distance: f64::NAN,
         belt_speed: f64::NAN,
@@ -51,7 +51,7 @@ impl Line {
 
     /// The fewest time steps in which an element can be fed: one, or eight if the fibre slides. Flights with
     /// sliding fibres were seen to fail with four.
-    pub const fn fewest_steps(&self) -> u64 {
+    pub(crate) const fn fewest_steps(&self) -> u64 {
         match self.contact {
             Contact::Stick => 1,
             Contact::Friction { .. } => 8,
@@ -59,7 +59,7 @@ impl Line {
     }
 
     /// The number of steps, of at most `longest` [s], in which an element of `length` [m] is fed.
-    pub fn steps_of(&self, length: f64, longest: f64) -> u64 {
+    pub(crate) fn steps_of(&self, length: f64, longest: f64) -> u64 {
         let ratio = length / self.feed_speed / longest;
         // A step that was written with all its digits is not shortened because of the last of them.
         (ratio * (1.0 - 1e-9)).ceil().clamp(1.0, 1e15) as u64
@@ -68,10 +68,10 @@ impl Line {
 
 impl Contact {
     /// Every kind of contact, with the usual numbers.
-    pub const ALL: [Self; 2] = [Self::Stick, Self::Friction { coefficient: 0.3, suction: 200.0 }];
+    pub(crate) const ALL: [Self; 2] = [Self::Stick, Self::Friction { coefficient: 0.3, suction: 200.0 }];
 
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Stick => "stick",
             Self::Friction { .. } => "friction",

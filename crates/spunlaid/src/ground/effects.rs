@@ -142,7 +142,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
     ///
     /// # Errors
     /// Those of measuring.
-    pub fn new(
+    pub(crate) fn new(
         changes: Vec<Change<E>>,
         measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
     ) -> Result<Self, Error> {
@@ -167,7 +167,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
     ///
     /// # Errors
     /// Those of measuring.
-    pub fn confirm(
+    pub(crate) fn confirm(
         &mut self,
         measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
     ) -> Result<(), Error> {

@@ -112,7 +112,7 @@ impl Error {
     }
 
     /// The problems that it consists of.
-    pub fn problems(&self) -> &[Problem] {
+    pub(crate) fn problems(&self) -> &[Problem] {
         match self {
             Self::Rejected(problems) | Self::Folder(problems) => problems,
             Self::File(problem) | Self::System(problem) => std::slice::from_ref(problem),
@@ -134,7 +134,7 @@ impl Error {
 
     /// Node, counted from 1 at the root, and time [s] at which a fibre was lost; `None` for other errors.
     /// Such a replicate is counted as lost, and no mean contains it.
-    pub const fn lost_fibre(&self) -> Option<(usize, f64)> {
+    pub(crate) const fn lost_fibre(&self) -> Option<(usize, f64)> {
         match self {
             Self::Diverged { node, time, .. } => Some((*node, *time)),
             Self::NotLanding { time, .. } => Some((1, *time)),

@@ -54,13 +54,13 @@ pub struct InverseTransform {
 
 impl InverseTransform {
     /// For signals of `size` samples, a power of two.
-    pub fn new(size: usize) -> Self {
+    pub(crate) fn new(size: usize) -> Self {
         debug_assert!(size.is_power_of_two());
         Self { roots: (0..size / 2).map(|k| unit(k as f64 / size as f64)).collect() }
     }
 
     /// Transforms `data` in place.
-    pub fn run(&self, data: &mut Vec<Complex>) {
+    pub(crate) fn run(&self, data: &mut Vec<Complex>) {
         let mut scratch = vec![Complex::default(); data.len()];
         Isa::detect().run(Run { transform: self, data, scratch: &mut scratch });
     }

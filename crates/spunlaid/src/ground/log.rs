@@ -79,7 +79,7 @@ struct Place {
 
 impl Log {
     /// Nothing yet, in memory.
-    pub fn in_memory() -> Self {
+    pub(crate) fn in_memory() -> Self {
         Self::of(Box::new(Cursor::new(Vec::new())), None)
     }
 
@@ -102,7 +102,7 @@ impl Log {
     ///
     /// # Errors
     /// Those of [`Log::open`].
-    pub fn lock(path: &Path) -> io::Result<Self> {
+    pub(crate) fn lock(path: &Path) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path)?;
         match file.try_lock() {
             Ok(()) => {}
@@ -123,7 +123,7 @@ impl Log {
     ///
     /// # Errors
     /// If they cannot be read.
-    pub fn head(&self, most: usize) -> io::Result<Vec<u8>> {
+    pub(crate) fn head(&self, most: usize) -> io::Result<Vec<u8>> {
         let mut head = Vec::new();
         if let Some(mut file) = self.file.as_ref() {
             file.rewind()?;
@@ -136,7 +136,7 @@ impl Log {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn begin(&mut self, line: &str) -> io::Result<()> {
+    pub(crate) fn begin(&mut self, line: &str) -> io::Result<()> {
         let rows = unlocked(&mut self.rows);
         (rows.end, rows.places) = (0, Places::new());
         if let Some(file) = &self.file {
@@ -155,7 +155,7 @@ impl Log {
     ///
     /// # Errors
     /// If the file cannot be read or shortened.
-    pub fn go_on(&mut self, start: u64) -> io::Result<()> {
+    pub(crate) fn go_on(&mut self, start: u64) -> io::Result<()> {
         if let Some(file) = &self.file {
             let rows = unlocked(&mut self.rows);
             (rows.places, rows.end, self.damaged, self.torn) = scan(file, start)?;
@@ -165,7 +165,7 @@ impl Log {
     }
 
     /// Leaves out the keys that are none. Returns how many there were.
-    pub fn retain(&mut self, is_one: impl Fn(Key) -> bool) -> u64 {
+    pub(crate) fn retain(&mut self, is_one: impl Fn(Key) -> bool) -> u64 {
         let places = &mut unlocked(&mut self.rows).places;
         let before = places.len();
         places.retain(|key, _| is_one(*key));
@@ -176,7 +176,7 @@ impl Log {
     ///
     /// # Errors
     /// If the operating system cannot provide it.
-    pub fn handle(&self) -> io::Result<Option<File>> {
+    pub(crate) fn handle(&self) -> io::Result<Option<File>> {
         self.file.as_ref().map(File::try_clone).transpose()
     }
 
@@ -223,7 +223,7 @@ impl Log {
     }
 
     /// The second parts of the keys with this first part, in their order.
-    pub fn keys_of(&self, first: u64) -> Vec<u64> {
+    pub(crate) fn keys_of(&self, first: u64) -> Vec<u64> {
         let rows = lock(&self.rows);
         rows.places.range([first, 0]..=[first, u64::MAX]).map(|([_, second], _)| *second).collect()
     }

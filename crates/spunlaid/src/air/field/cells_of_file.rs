@@ -41,7 +41,7 @@ pub enum BlockKind {
 
 impl BlockKind {
     /// Number of corners.
-    pub const fn corners(self) -> usize {
+    pub(crate) const fn corners(self) -> usize {
         match self {
             Self::Pixel | Self::Tetrahedron => 4,
             Self::Voxel => 8,
@@ -63,17 +63,12 @@ impl Field {
 
 impl FieldCells<'_> {
     /// How many.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.blocks.ends.len()
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.blocks.ends.is_empty()
-    }
-
     /// The cell in which a place lies; None outside of the field.
-    pub fn find(&self, at: Vec3<f64>, hint: &mut Hint) -> Option<usize> {
+    pub(crate) fn find(&self, at: Vec3<f64>, hint: &mut Hint) -> Option<usize> {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
         if at.iter().any(|x| x.is_nan()) {
             return None;
@@ -90,18 +85,18 @@ impl FieldCells<'_> {
     }
 
     /// Volume of a cell. In a plane flow it reaches as far in the third direction as [`FieldCells::depth`] says.
-    pub fn volume(&self, cell: usize) -> f64 {
+    pub(crate) fn volume(&self, cell: usize) -> f64 {
         self.blocks.volumes[cell]
     }
 
     /// Middle of a cell.
-    pub fn centre(&self, cell: usize) -> Vec3<f64> {
+    pub(crate) fn centre(&self, cell: usize) -> Vec3<f64> {
         vector(self.blocks.centres[cell])
     }
 
     /// How far the cells reach along the direction in which the air of a plane flow is the same: the thickness of a
     /// mesh, or one unit. None if the flow is in space.
-    pub fn depth(&self) -> Option<f64> {
+    pub(crate) fn depth(&self) -> Option<f64> {
         self.blocks.depth
     }
 

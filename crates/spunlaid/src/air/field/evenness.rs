@@ -15,7 +15,7 @@ impl Field {
     /// one coordinate is that of another point, over √2 times the rms speed. NaN if no such place lies in the field.
     ///
     /// Where the points of the field are dense, most is looked at.         Jansen 1999 (total effects)
-    pub fn changes(&self) -> [f64; 3] {
+    pub(crate) fn changes(&self) -> [f64; 3] {
         *self.changes.get_or_init(|| self.compare_points())
     }
 
@@ -41,7 +41,7 @@ impl Field {
 
     /// The only axis along which the air is the same, 0, 1, 2 for x, y, z: the one across a plane flow, or along which
     /// a flow in space does not change. None of a flow that changes along all of them, or along a single one.
-    pub fn even_axis(&self) -> Option<usize> {
+    pub(crate) fn even_axis(&self) -> Option<usize> {
         self.plane_axis().or_else(|| {
             let changes = self.changes();
             let mut even = (0..3).filter(|axis| is_even(changes, *axis));

@@ -274,7 +274,7 @@ impl Field {
 
     /// What a file lacks for `k` and `ε`, the arrays that it has, and what to do; none if they are there. The
     /// text continues after `the field`.
-    pub fn why_no_turbulence(&self) -> Option<&Fault> {
+    pub(crate) fn why_no_turbulence(&self) -> Option<&Fault> {
         self.lacks.as_ref().filter(|_| !self.turbulence)
     }
 
@@ -285,12 +285,12 @@ impl Field {
     }
 
     /// The arrays that were named when the file was read.
-    pub const fn layout(&self) -> &FieldLayout {
+    pub(crate) const fn layout(&self) -> &FieldLayout {
         &self.layout
     }
 
     /// The name of a coordinate whose unit its file tells, `x_mm`. None if the file leaves the unit open.
-    pub fn measured_coordinate(&self) -> Option<&str> {
+    pub(crate) fn measured_coordinate(&self) -> Option<&str> {
         self.measured_coordinate.as_deref()
     }
 

@@ -181,7 +181,7 @@ pub struct Values {
 
 impl Values {
     /// Whether both `k` and `ε` are there.
-    pub fn has_turbulence(&self) -> bool {
+    pub(crate) fn has_turbulence(&self) -> bool {
         !self.k.is_empty() && !self.epsilon.is_empty()
     }
 

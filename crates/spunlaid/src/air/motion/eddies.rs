@@ -21,7 +21,7 @@ pub enum EddyModel {
 
 impl EddyModel {
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Independent => "independent",
             Self::Convected { .. } => "convected",
@@ -58,12 +58,12 @@ impl Eddies {
     }
 
     /// One eddy for every element, for a pattern that is carried along the fibre.
-    pub fn one_for_each(elements: usize) -> Self {
+    pub(crate) fn one_for_each(elements: usize) -> Self {
         Self::collect(0..elements as u32)
     }
 
     /// The same eddies along a fibre with fewer elements, each of which feels the one at its middle, or the one before.
-    pub fn coarsen(&self, elements: usize) -> Self {
+    pub(crate) fn coarsen(&self, elements: usize) -> Self {
         let parts = self.index_of_element.len() / elements.max(1);
         if parts < 2 {
             return self.clone();
@@ -89,7 +89,7 @@ impl Eddies {
     }
 
     /// Middle of each eddy, in elements from the root. An eddy without elements has the middle of the next one.
-    pub fn middles(&self) -> Vec<f64> {
+    pub(crate) fn middles(&self) -> Vec<f64> {
         let mut middles = vec![0.0; self.count];
         let mut first = 0;
         for (j, &eddy) in self.index_of_element.iter().enumerate() {
@@ -134,7 +134,7 @@ impl EddyTurbulence {
 
     /// Energy spectrum of a component of its signal. The spacing of the harmonics is the same in every eddy, so
     /// that all signals repeat after the same time.
-    pub fn spectrum<'a>(&self, air: &'a Air, component: usize) -> Spectrum<'a> {
+    pub(crate) fn spectrum<'a>(&self, air: &'a Air, component: usize) -> Spectrum<'a> {
         let times = (self.cutoff_frequency, self.integral_time);
         Spectrum::new(&air.spectrum, self.rms, times, component, 1.0 / air.repeat_time())
     }

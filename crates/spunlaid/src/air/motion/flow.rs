@@ -66,7 +66,7 @@ impl Flow {
     }
 
     /// Which numbers the flow contains besides the velocity.
-    pub fn numbers(&self) -> FlowNumbers {
+    pub(crate) fn numbers(&self) -> FlowNumbers {
         match self {
             Self::Uniform => FlowNumbers::default(),
             Self::Profile(profile) => FlowNumbers {
@@ -209,7 +209,7 @@ impl Air {
     /// Mean velocity along a straight fibre, and mean speed there [m/s].
     ///
     /// * `along` – from its root to its end [m]
-    pub fn along_and_speed(&self, along: Vec3<f64>) -> (f64, f64) {
+    pub(crate) fn along_and_speed(&self, along: Vec3<f64>) -> (f64, f64) {
         const PLACES: usize = 64;
         let (mut hint, way) = (Hint::default(), along * (1.0 / along.norm()));
         let velocities = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
@@ -224,7 +224,7 @@ impl Air {
     /// the velocity by as much as the largest velocity, if that is shorter.
     ///
     /// * `along` – from the root to the end of the straight fibre [m]
-    pub fn time_between_looks(&self, along: Vec3<f64>) -> f64 {
+    pub(crate) fn time_between_looks(&self, along: Vec3<f64>) -> f64 {
         let passing = self.length_scale / self.velocity.abs();
         let steepest = if matches!(self.flow, Flow::Field(_)) { self.steepest(along) } else { 0.0 };
         passing.min(1.0 / steepest) / 64.0

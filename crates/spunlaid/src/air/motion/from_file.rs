@@ -29,7 +29,7 @@ impl<T> FileContent<T> {
     /// The same content with the files that the file names, relative to its folder. The checksum is that of
     /// all of them.
     #[must_use]
-    pub fn with_parts(mut self, parts: Vec<PathBuf>) -> Self {
+    pub(crate) fn with_parts(mut self, parts: Vec<PathBuf>) -> Self {
         Arc::make_mut(&mut self.file).parts = parts;
         self
     }
@@ -57,12 +57,12 @@ impl<T> FileContent<T> {
     }
 
     /// Checksum of the file and its parts, and of the way in which they were read.
-    pub fn checksum(&self) -> u32 {
+    pub(crate) fn checksum(&self) -> u32 {
         self.file.checksum
     }
 
     /// The same content at another path.
-    pub fn moved_to(&self, path: PathBuf) -> Self {
+    pub(crate) fn moved_to(&self, path: PathBuf) -> Self {
         let mut moved = self.clone();
         Arc::make_mut(&mut moved.file).path = path;
         moved

@@ -70,7 +70,7 @@ impl Measured {
     }
 
     /// Number of samples.
-    pub fn samples(&self) -> usize {
+    pub(crate) fn samples(&self) -> usize {
         self.components.first().map_or(0, |component| component.len())
     }
 
@@ -85,25 +85,25 @@ impl Measured {
     }
 
     /// How many stretches one eddy needs at a time.
-    pub fn stretches_each(&self) -> usize {
+    pub(crate) fn stretches_each(&self) -> usize {
         self.directions().0
     }
 
     /// Number of samples of a stretch of `duration` [s], with those before and after it that the interpolation
     /// needs.
-    pub fn stretch(&self, duration: f64) -> f64 {
+    pub(crate) fn stretch(&self, duration: f64) -> f64 {
         (duration / self.interval).ceil() + 4.0
     }
 
     /// How many stretches of `duration` [s] the record holds whose starts are far enough apart for them to be
     /// uncorrelated.
-    pub fn stretches(&self, duration: f64) -> f64 {
+    pub(crate) fn stretches(&self, duration: f64) -> f64 {
         let room = self.samples() as f64 - self.stretch(duration);
         (room * self.interval / (APART * self.integral_time)).floor().max(if room >= 0.0 { 1.0 } else { 0.0 })
     }
 
     /// How long the record must be [s] for that many stretches.
-    pub fn duration_for(&self, stretches: f64, duration: f64) -> f64 {
+    pub(crate) fn duration_for(&self, stretches: f64, duration: f64) -> f64 {
         stretches * APART * self.integral_time + self.stretch(duration) * self.interval
     }
 }

@@ -144,7 +144,7 @@ impl Air {
     }
 
     /// The same air with its files at other paths.
-    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+    pub(crate) fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
         fn moved<T>(file: &FileContent<T>, place: impl Fn(&Path) -> PathBuf) -> FileContent<T> {
             file.moved_to(place(file.path()))
         }
@@ -199,7 +199,7 @@ impl Air {
 
     /// As [`Air::default_harmonics`], for the many stations along the way of a fed fibre: at most 256
     /// harmonics, or as many as make a window last for 256 integral times.
-    pub fn default_harmonics_at_stations(&self, duration: f64) -> usize {
+    pub(crate) fn default_harmonics_at_stations(&self, duration: f64) -> usize {
         self.harmonics_lasting(duration, 256.0)
     }
 
@@ -227,12 +227,12 @@ pub enum Lateral {
 
 impl Lateral {
     /// `k_max L_T` of a case that leaves it out [-].
-    pub const USUAL_CUTOFF: f64 = 10.0;
+    pub(crate) const USUAL_CUTOFF: f64 = 10.0;
     /// Every kind; the second one has the usual cut-off.
-    pub const ALL: [Self; 2] = [Self::Uniform, Self::VonKarman { cutoff: Self::USUAL_CUTOFF }];
+    pub(crate) const ALL: [Self; 2] = [Self::Uniform, Self::VonKarman { cutoff: Self::USUAL_CUTOFF }];
 
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Uniform => "uniform",
             Self::VonKarman { .. } => "von-karman",
@@ -240,7 +240,7 @@ impl Lateral {
     }
 
     /// `k_max L_T` [-]; none if the turbulence is the same across the flow.
-    pub const fn cutoff(self) -> Option<f64> {
+    pub(crate) const fn cutoff(self) -> Option<f64> {
         match self {
             Self::Uniform => None,
             Self::VonKarman { cutoff } => Some(cutoff),
@@ -259,10 +259,10 @@ pub enum Widening {
 
 impl Widening {
     /// Both.
-    pub const ALL: [Self; 2] = [Self::None, Self::MachineDirection];
+    pub(crate) const ALL: [Self; 2] = [Self::None, Self::MachineDirection];
 
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::None => "none",
             Self::MachineDirection => "md",
@@ -278,7 +278,7 @@ impl Air {
 
     /// `k_max L_T` of the field of eddies in space [-]. None if the turbulence is the same across the flow,
     /// and in still air, which has no turbulence.
-    pub fn field_cutoff(&self) -> Option<f64> {
+    pub(crate) fn field_cutoff(&self) -> Option<f64> {
         self.lateral.cutoff().filter(|_| self.velocity != 0.0)
     }
 }

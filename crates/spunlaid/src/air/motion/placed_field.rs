@@ -38,14 +38,14 @@ impl Axis {
     }
 
     /// The axis that makes a right-handed frame of this one, another one across it, and itself.
-    pub const fn cross(self, other: Self) -> Self {
+    pub(crate) const fn cross(self, other: Self) -> Self {
         let is_next = (self.index + 1) % 3 == other.index;
         let backwards = self.backwards ^ other.backwards ^ !is_next;
         Self { index: (6 - self.index - other.index) % 3, backwards }
     }
 
     /// The part of a vector along the axis.
-    pub fn part_of(self, v: Vec3<f64>) -> f64 {
+    pub(crate) fn part_of(self, v: Vec3<f64>) -> f64 {
         let part = [v.x, v.y, v.z][self.index];
         if self.backwards { -part } else { part }
     }
@@ -187,7 +187,7 @@ impl PlacedField {
     }
 
     /// The middle of the side where x enters the field's box [m]. This is the default place of the root.
-    pub fn middle_of_inlet(field: &Field, axis: Axis, unit: f64) -> Vec3<f64> {
+    pub(crate) fn middle_of_inlet(field: &Field, axis: Axis, unit: f64) -> Vec3<f64> {
         let (low, high) = field.bounds();
         let middle = (low + high) * 0.5;
         let inlet = if axis.backwards { high } else { low };

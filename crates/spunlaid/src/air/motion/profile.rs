@@ -24,7 +24,7 @@ pub struct Profile {
 
 impl Profile {
     /// From the first to the last point [m].
-    pub fn range(&self) -> (f64, f64) {
+    pub(crate) fn range(&self) -> (f64, f64) {
         (self.x.first().copied().unwrap_or(0.0), self.x.last().copied().unwrap_or(0.0))
     }
 

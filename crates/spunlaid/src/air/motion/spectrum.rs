@@ -42,7 +42,7 @@ impl SpectrumTable {
     }
 
     /// The highest frequency [Hz].
-    pub fn highest(&self) -> f64 {
+    pub(crate) fn highest(&self) -> f64 {
         self.frequency.last().copied().unwrap_or(0.0)
     }
 }
@@ -79,7 +79,7 @@ impl<'a> Spectrum<'a> {
     /// * `integral_time` – of the component along the flow [s]; only the von Kármán spectrum depends on it
     /// * `component` – 0 along the mean flow, 1 and 2 across it
     /// * `spacing` – of the harmonics that the variance is divided among [Hz]
-    pub fn new(
+    pub(crate) fn new(
         shape: &'a SpectrumShape,
         rms: f64,
         (cutoff_frequency, integral_time): (f64, f64),
@@ -109,7 +109,7 @@ impl<'a> Spectrum<'a> {
 
     /// Amplitudes `A_n = √(E(ω_n) Δω)` [m/s] of the harmonics up to the cut-off, `ω_n = (n+½)Δω`; their
     /// squares add up to `u²`.                                                theory.md (17)
-    pub fn amplitudes(&self) -> Vec<f64> {
+    pub(crate) fn amplitudes(&self) -> Vec<f64> {
         (0..self.harmonics()).map(|n| (self.level * self.relative(self.frequency(n))).sqrt()).collect()
     }
 

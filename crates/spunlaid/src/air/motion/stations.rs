@@ -111,7 +111,7 @@ impl Stations {
     }
 
     /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
-    pub fn outside(&self, lane: usize) -> Option<f64> {
+    pub(crate) fn outside(&self, lane: usize) -> Option<f64> {
         self.field.as_ref().map(|field| field.outside(lane))
     }
 
@@ -280,7 +280,7 @@ impl StationGrid {
     }
 
     /// The eddies, one for each station.
-    pub fn eddies(&self) -> Eddies {
+    pub(crate) fn eddies(&self) -> Eddies {
         Eddies::one_for_each(self.count)
     }
 }
@@ -290,7 +290,7 @@ impl Air {
     ///
     /// Independent eddies have one in each length scale. A carried pattern has four in each length scale and
     /// eight in the shortest wave.
-    pub fn stations(&self, distance: f64) -> StationGrid {
+    pub(crate) fn stations(&self, distance: f64) -> StationGrid {
         const PLACES: usize = 64;
         let mut hint = Hint::default();
         let spacing = match self.eddies {
@@ -310,7 +310,7 @@ impl Air {
     }
 
     /// The turbulence at each station; its mean is zero. In a uniform flow it has the flow's rms, otherwise rms one.
-    pub fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
+    pub(crate) fn turbulence_at(&self, grid: &StationGrid) -> Vec<EddyTurbulence> {
         let mut turbulence = self.turbulence_along(grid.along(), grid.count, &grid.eddies());
         turbulence.iter_mut().for_each(|eddy| eddy.mean = 0.0);
         turbulence

@@ -81,7 +81,7 @@ impl Surroundings {
     }
 
     /// Share of the time that the elements of a lane's fibre have spent outside of the flow's data.
-    pub fn outside(&self, lane: usize) -> f64 {
+    pub(crate) fn outside(&self, lane: usize) -> f64 {
         if self.looks == 0 { 0.0 } else { self.outside.0[lane] / self.looks as f64 }
     }
 

@@ -78,7 +78,7 @@ impl Autocorrelation {
     }
 
     /// Integral time `T_I = ∫ρ dτ` from zero to the limit, by the trapezoidal rule [s].
-    pub fn integral_time(&self) -> f64 {
+    pub(crate) fn integral_time(&self) -> f64 {
         let limit = self.limit / self.interval;
         let whole = limit.floor() as usize;
         let at = |k: usize| self.coefficients.get(k).copied().unwrap_or(0.0);

@@ -28,7 +28,7 @@ impl Interval {
     }
 
     /// Half the width over the value.
-    pub fn relative(&self) -> f64 {
+    pub(crate) fn relative(&self) -> f64 {
         0.5 * (self.high - self.low) / self.value.abs()
     }
 

@@ -205,7 +205,7 @@ pub struct Moments {
 
 impl Moments {
     /// The moments of a list of values.
-    pub fn new(values: &[f64]) -> Self {
+    pub(crate) fn new(values: &[f64]) -> Self {
         let reference = values.iter().sum::<f64>() / values.len() as f64;
         Powers::new(values, reference).moments(reference)
     }

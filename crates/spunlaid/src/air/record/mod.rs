@@ -124,7 +124,7 @@ impl Record {
     }
 
     /// From the first sample to one interval after the last [s].
-    pub fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         self.samples() as f64 * self.interval
     }
 }

@@ -152,7 +152,7 @@ impl Target {
     }
 
     /// What is compared.
-    pub fn textures(&self) -> &[Texture] {
+    pub(crate) fn textures(&self) -> &[Texture] {
         &self.textures.all
     }
 
@@ -162,12 +162,12 @@ impl Target {
     }
 
     /// Why no interval can be given.
-    pub fn doubt(&self) -> Option<&str> {
+    pub(crate) fn doubt(&self) -> Option<&str> {
         self.doubt.as_deref()
     }
 
     /// A checksum over all that the numbers of a simulated web depend on, and over the target's own.
-    pub fn checksum(&self) -> u32 {
+    pub(crate) fn checksum(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();
         let sides = self.sides();
         let numbers = self.logarithms.iter().chain(&sides).chain(self.camera.iter().flatten());

@@ -50,10 +50,10 @@ pub enum Way {
 
 impl Way {
     /// All.
-    pub const ALL: [Self; 3] = [Self::Rises, Self::Falls, Self::Turns];
+    pub(crate) const ALL: [Self; 3] = [Self::Rises, Self::Falls, Self::Turns];
 
     /// The word in a study file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Rises => "rises",
             Self::Falls => "falls",

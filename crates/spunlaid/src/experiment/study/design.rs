@@ -49,7 +49,7 @@ pub enum Spacing {
 
 impl Spacing {
     /// Name in the study file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Logarithmic => "log",
@@ -94,7 +94,7 @@ impl Design {
     /// Number of points; a floating-point number, because a large grid may exceed the range of an integer.
     ///
     /// * `base` – values of the factors in the base case
-    pub fn count(self, factors: &[Factor], base: &[f64]) -> f64 {
+    pub(crate) fn count(self, factors: &[Factor], base: &[f64]) -> f64 {
         match self {
             Self::Grid => factors.iter().map(|factor| factor.levels.count() as f64).product(),
             Self::OneAtATime => {
@@ -247,7 +247,7 @@ impl Factor {
 
 impl Levels {
     /// Number of values; 0 for a range without steps.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         match self {
             Self::List(values) => values.len() as u64,
             Self::Range { steps, .. } => steps.unwrap_or(0),

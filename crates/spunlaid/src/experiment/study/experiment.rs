@@ -49,7 +49,7 @@ impl Experiment {
 
     /// Whether nothing of it is by chance, so that a single replicate has no error: a spinline, or a fibre in air
     /// without turbulence.
-    pub fn is_exact(&self) -> bool {
+    pub(crate) fn is_exact(&self) -> bool {
         match self {
             Self::Case(case) => case.air.turbulence_intensity == 0.0 && case.air.records.is_empty(),
             Self::Web(_) => false,

@@ -130,7 +130,7 @@ const KEYS: &[Key<Study>] = &[
 
 impl Study {
     /// The file of what its points vary, in the folder of its results.
-    pub fn base_file(&self) -> &'static str {
+    pub(crate) fn base_file(&self) -> &'static str {
         match self.noun() {
             "web" => "web.toml",
             "spinline" => "spinline.toml",

@@ -80,7 +80,7 @@ pub struct Link {
 
 impl Link {
     /// Its key with its dimension.
-    pub fn input(&self) -> Input<'_> {
+    pub(crate) fn input(&self) -> Input<'_> {
         Input { key: &self.key, dimension: self.dimension, words: &[] }
     }
 }

@@ -24,7 +24,7 @@ pub struct PointResults {
 
 impl PointResults {
     /// Mean and standard error of a measure of fibres. None without a measure of this name.
-    pub fn find(&self, name: &str) -> Option<(f64, Option<f64>)> {
+    pub(crate) fn find(&self, name: &str) -> Option<(f64, Option<f64>)> {
         let index = MEASURES.iter().position(|measure| measure.name == name)?;
         Some((*self.mean.get(index)?, self.standard_error(index)))
     }

@@ -36,7 +36,7 @@ impl SpinSpec {
 
 impl Spinline {
     /// The files that it was read from, each with the parts that it names: none.
-    pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+    pub(crate) fn files(&self) -> Vec<(&Path, &[PathBuf])> {
         let mut files = Vec::new();
         if let PolymerSource::File(file) = &self.polymer {
             files.push((file.path(), file.parts()));
@@ -48,7 +48,7 @@ impl Spinline {
     }
 
     /// The same spinline with its files at other paths.
-    pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+    pub(crate) fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
         fn moved<T>(file: &mut FileContent<T>, place: impl Fn(&Path) -> PathBuf) {
             *file = file.moved_to(place(file.path()));
         }

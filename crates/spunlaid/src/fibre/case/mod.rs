@@ -121,7 +121,7 @@ const FIRST_ELEMENTS: usize = 2;
 
 impl Case {
     /// Takes diameter, density and feed speed from a solved spinline, and the modulus where the case leaves it out.
-    pub fn take_filament(&mut self, filament: &Solution) {
+    pub(crate) fn take_filament(&mut self, filament: &Solution) {
         let Some(spinline) = &self.spinline else { return };
         self.fibre.diameter = filament.final_diameter;
         self.fibre.density = spinline.material.solid_density;
@@ -180,7 +180,7 @@ impl Case {
     }
 
     /// The smallest length scale of the eddies on the way of the air [m].
-    pub fn smallest_length_scale(&self) -> f64 {
+    pub(crate) fn smallest_length_scale(&self) -> f64 {
         self.length_scales().fold(f64::INFINITY, f64::min)
     }
 
@@ -237,12 +237,12 @@ impl Case {
 
     /// Largest Reynolds number across the fibre to expect [-]. The velocity is the larger of two: the mean flow's
     /// component across the fibre at the start, and three times the rms of the fluctuation.
-    pub fn reynolds_across(&self) -> f64 {
+    pub(crate) fn reynolds_across(&self) -> f64 {
         self.reynolds_across_at(3.0)
     }
 
     /// Usual Reynolds number across the fibre [-], likewise with one time the rms of the fluctuation.
-    pub fn usual_reynolds_across(&self) -> f64 {
+    pub(crate) fn usual_reynolds_across(&self) -> f64 {
         self.reynolds_across_at(1.0)
     }
 
@@ -272,7 +272,7 @@ impl Case {
     }
 
     /// The turbulence of each eddy.
-    pub fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
+    pub(crate) fn turbulence_along(&self, eddies: &Eddies) -> Vec<EddyTurbulence> {
         self.air.turbulence_along(self.along(), self.fibre.elements, eddies)
     }
 

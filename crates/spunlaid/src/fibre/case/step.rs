@@ -74,7 +74,7 @@ pub enum StepChoice {
 
 impl StepChoice {
     /// The reason in words.
-    pub const fn reason(self) -> &'static str {
+    pub(crate) const fn reason(self) -> &'static str {
         match self {
             Self::Error => "it keeps the error tolerance",
             Self::Stability => "it is at most half the stability limit",

@@ -128,7 +128,7 @@ impl Chain {
 
     /// Tension of each element [N], negative in compression. Implicit tension gives the tension that the scheme
     /// has solved for, the explicit schemes give the tension of the stretch.
-    pub fn tension(&self) -> Vec<Lanes> {
+    pub(crate) fn tension(&self) -> Vec<Lanes> {
         let solved = &self.tensions.tension;
         if solved.is_empty() { self.tension_of_stretch().collect() } else { solved.to_vec() }
     }

@@ -27,7 +27,7 @@ impl Scheme {
     }
 
     /// Whether the velocities are those at half steps.
-    pub const fn is_staggered(self) -> bool {
+    pub(crate) const fn is_staggered(self) -> bool {
         !matches!(self, Self::SemiImplicitEuler)
     }
 }

@@ -43,7 +43,7 @@ impl Charge {
     ///
     /// * `mass` – of all filaments in an area of the curtain, across the web and down [kg/m²]
     /// * `gravity` – acceleration of gravity [m/s²]
-    pub fn estimate(&self, mass: f64, gravity: f64) -> ChargeEstimate {
+    pub(crate) fn estimate(&self, mass: f64, gravity: f64) -> ChargeEstimate {
         let edge_field = 0.5 * (self.per_mass * mass).abs() / PERMITTIVITY;
         ChargeEstimate { edge_field, over_weight: self.per_mass.abs() * edge_field / gravity.abs() }
     }

@@ -23,7 +23,7 @@ impl Curve {
     }
 
     /// `g(s)` itself, which the table follows to 1e-6.
-    pub fn exact(self, s: f64) -> f64 {
+    pub(crate) fn exact(self, s: f64) -> f64 {
         match self {
             Self::Moving => 1.0 / BoundaryLayer::Moving.thickness(1.0 / s),
             Self::Held => 1.0 / BoundaryLayer::Held.thickness(1.0 / s),

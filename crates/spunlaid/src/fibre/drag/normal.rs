@@ -70,7 +70,7 @@ pub(super) enum Form {
 
 impl NormalLaw {
     /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         self.law().name
     }
 
@@ -80,12 +80,12 @@ impl NormalLaw {
     }
 
     /// The diameters the law was fitted to [m]; none if it depends on the Reynolds number alone.
-    pub fn fitted_diameters(self) -> Option<RangeInclusive<f64>> {
+    pub(crate) fn fitted_diameters(self) -> Option<RangeInclusive<f64>> {
         self.law().fitted_diameters.clone()
     }
 
     /// The Reynolds numbers the law holds for [-], if they are known.
-    pub fn fitted_reynolds(self) -> Option<RangeInclusive<f64>> {
+    pub(crate) fn fitted_reynolds(self) -> Option<RangeInclusive<f64>> {
         self.law().fitted_reynolds.clone()
     }
 

@@ -296,7 +296,7 @@ impl Flight {
 
     /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in
     /// uniform air.
-    pub fn outside(&self, lane: usize) -> Option<f64> {
+    pub(crate) fn outside(&self, lane: usize) -> Option<f64> {
         self.air.outside(lane)
     }
 }

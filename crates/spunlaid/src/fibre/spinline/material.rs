@@ -287,7 +287,7 @@ impl Polymer {
 
 impl Material {
     /// Constants of which nothing is known yet.
-    pub const UNKNOWN: Self = Self {
+    pub(crate) const UNKNOWN: Self = Self {
         specific_volume: f64::NAN,
         specific_volume_slope: f64::NAN,
         heat_capacity: f64::NAN,
@@ -312,21 +312,21 @@ impl Material {
     /// Density `ρ = 1/(a_0 + a_1 T)` of the melt [kg/m³].                                          theory.md (84)
     ///
     /// * `temperature` – [K]
-    pub fn melt_density(&self, temperature: f64) -> f64 {
+    pub(crate) fn melt_density(&self, temperature: f64) -> f64 {
         1.0 / (self.specific_volume + self.specific_volume_slope * (temperature - ZERO_CELSIUS))
     }
 
     /// Heat capacity `c_p = c_0 + c_1 T` [J/(kg K)].                                               theory.md (88)
     ///
     /// * `temperature` – [K]
-    pub fn heat_capacity_at(&self, temperature: f64) -> f64 {
+    pub(crate) fn heat_capacity_at(&self, temperature: f64) -> f64 {
         self.heat_capacity + self.heat_capacity_slope * (temperature - ZERO_CELSIUS)
     }
 
     /// Heat content above 0 °C `∫ c_p dT` [J/kg].
     ///
     /// * `temperature` – [K]
-    pub fn heat_content(&self, temperature: f64) -> f64 {
+    pub(crate) fn heat_content(&self, temperature: f64) -> f64 {
         let above = temperature - ZERO_CELSIUS;
         (self.heat_capacity + 0.5 * self.heat_capacity_slope * above) * above
     }
@@ -336,7 +336,7 @@ impl Material {
     ///
     /// * `stress` – `N_1` [Pa]
     /// * `temperature` – [K]
-    pub fn birefringence(&self, stress: f64, temperature: f64) -> f64 {
+    pub(crate) fn birefringence(&self, stress: f64, temperature: f64) -> f64 {
         let of_temperature = self.stress_optical_temperature / temperature;
         self.stress_optical_coefficient * stress * if of_temperature.is_nan() { 1.0 } else { of_temperature }
     }
@@ -344,7 +344,7 @@ impl Material {
     /// Young's modulus to expect of the solid filament [Pa]. It can be wrong by a factor of two.   theory.md (98)
     ///
     /// * `birefringence` – `Δn` [-]
-    pub fn estimate_modulus(&self, birefringence: f64) -> f64 {
+    pub(crate) fn estimate_modulus(&self, birefringence: f64) -> f64 {
         let orientation = (birefringence / self.full_birefringence).clamp(0.0, 1.0);
         self.unoriented_modulus + (self.oriented_modulus - self.unoriented_modulus) * orientation
     }
@@ -353,7 +353,7 @@ impl Material {
     /// load 2.16 kg): the apparent one at a wall stress of 19 kPa, good to some 20 %.          theory.md (91)
     ///
     /// * `melt_flow_rate` – [g/10 min], measured at the temperature `viscosity_temperature`
-    pub fn viscosity_of_flow_rate(&self, melt_flow_rate: f64) -> f64 {
+    pub(crate) fn viscosity_of_flow_rate(&self, melt_flow_rate: f64) -> f64 {
         use std::f64::consts::PI;
         const DIE_RADIUS: f64 = 1.0475e-3;
         const DIE_LENGTH: f64 = 8e-3;
@@ -368,7 +368,7 @@ impl Material {
 
 impl Crystals {
     /// Whether all constants are known.
-    pub fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         self.rate.is_finite() && self.melting_temperature.is_finite()
     }
 
@@ -376,7 +376,7 @@ impl Crystals {
     ///
     /// * `temperature` – [K]
     /// * `orientation` – `f`, from 0 to 1 [-]
-    pub fn rate_at(&self, temperature: f64, orientation: f64) -> f64 {
+    pub(crate) fn rate_at(&self, temperature: f64, orientation: f64) -> f64 {
         // Below the melting point the bell ends within this many kelvin.
         const END: f64 = 20.0;
         let below_melting = self.melting_temperature - temperature;

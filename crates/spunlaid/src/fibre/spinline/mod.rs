@@ -214,7 +214,7 @@ impl Spinline {
     ///
     /// # Errors
     /// As [`Spinline::solve`].
-    pub fn final_speed_near(&self, friction: FrictionLaw, near: &Solution) -> Result<f64, Failure> {
+    pub(crate) fn final_speed_near(&self, friction: FrictionLaw, near: &Solution) -> Result<f64, Failure> {
         steady::final_speed_near(self, friction, &self.air, near)
     }
 
@@ -227,7 +227,7 @@ impl Spinline {
     /// Diameter of the cold filament that leaves the line at a speed [m].
     ///
     /// * `speed` – [m/s]
-    pub fn final_diameter(&self, speed: f64) -> f64 {
+    pub(crate) fn final_diameter(&self, speed: f64) -> f64 {
         2.0 * libm::sqrt(self.throughput / speed / (std::f64::consts::PI * self.material.solid_density))
     }
 

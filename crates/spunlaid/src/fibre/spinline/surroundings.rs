@@ -44,7 +44,8 @@ pub struct AirChange {
 
 impl AirChange {
     /// The air stays as it is.
-    pub const NONE: Self = Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
+    pub(crate) const NONE: Self =
+        Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
 
     /// The changed air.
     pub(super) fn apply(self, air: AirState) -> AirState {
@@ -110,7 +111,7 @@ impl Surroundings {
     }
 
     /// The air at a distance from the die [m]; see [`AirTable`].
-    pub fn at(&self, distance: f64, hint: &mut usize) -> AirState {
+    pub(crate) fn at(&self, distance: f64, hint: &mut usize) -> AirState {
         match self {
             Self::Uniform(state) => *state,
             Self::Table(table) => table.at(distance, hint),
@@ -119,7 +120,7 @@ impl Surroundings {
     }
 
     /// The distances at which the air may have a kink [m].
-    pub fn rows(&self) -> &[f64] {
+    pub(crate) fn rows(&self) -> &[f64] {
         self.table().map_or(&[], |table| &table.distance)
     }
 }

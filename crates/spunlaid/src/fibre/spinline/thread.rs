@@ -340,7 +340,7 @@ impl Spinline {
     }
 
     /// Viscosity of the melt at the reference temperature `η_r` [Pa s].
-    pub fn viscosity(&self) -> f64 {
+    pub(crate) fn viscosity(&self) -> f64 {
         match self.melt {
             Melt::Viscosity => self.material.viscosity,
             Melt::FlowRate(rate) => self.material.viscosity_of_flow_rate(rate),

@@ -60,7 +60,7 @@ pub enum Place {
 
 impl Place {
     /// A position in the file of this name.
-    pub fn in_file(name: &str, position: Position) -> Self {
+    pub(crate) fn in_file(name: &str, position: Position) -> Self {
         Self::File { file: excerpt(name, 1000), position, part: None }
     }
 

@@ -178,10 +178,10 @@ impl<T> Default for EvenSample<T> {
 impl<T> EvenSample<T> {
     /// Most values that are kept. A series that is not longer is kept whole; of a longer one, half as many at
     /// least are kept.
-    pub const MOST: usize = 1 << 14;
+    pub(crate) const MOST: usize = 1 << 14;
 
     /// Takes the next value of the series.
-    pub fn push(&mut self, value: T) {
+    pub(crate) fn push(&mut self, value: T) {
         if self.count.is_multiple_of(self.every) {
             if self.values.len() == Self::MOST {
                 let mut index = 0_usize;
@@ -198,7 +198,7 @@ impl<T> EvenSample<T> {
     }
 
     /// The values that are kept, in their order.
-    pub fn values(&self) -> &[T] {
+    pub(crate) fn values(&self) -> &[T] {
         &self.values
     }
 }

@@ -66,7 +66,7 @@ impl Spectrum {
     }
 
     /// Half the sampling rate [Hz].
-    pub fn highest(&self) -> f64 {
+    pub(crate) fn highest(&self) -> f64 {
         self.density.len() as f64 * self.step
     }
 
@@ -133,7 +133,7 @@ impl Welch {
     }
 
     /// Adds the next value of a record, as [`Welch::add`] does.
-    pub fn push(&mut self, value: f64, mean: Option<f64>) {
+    pub(crate) fn push(&mut self, value: f64, mean: Option<f64>) {
         self.waiting.push(value);
         if self.waiting.len() == (TOGETHER - 1) * self.hop() + self.weights.len() {
             self.transform_waiting(mean);
@@ -142,7 +142,7 @@ impl Welch {
     }
 
     /// Ends a record whose values were pushed.
-    pub fn end_record(&mut self, mean: Option<f64>) {
+    pub(crate) fn end_record(&mut self, mean: Option<f64>) {
         self.transform_waiting(mean);
         self.waiting.clear();
         let segments = std::mem::take(&mut self.transformed);

@@ -16,7 +16,7 @@ pub struct Head {
 
 impl Head {
     /// Splits `u_m_s`, `u [m/s]`, `u (m/s)`, `u/(m/s)` and `u m/s` into name and unit.
-    pub fn new(text: &str) -> Self {
+    pub(crate) fn new(text: &str) -> Self {
         let text = text.trim();
         let head = |name: &str, unit: Option<&str>| {
             let name = excerpt(name.trim().trim_matches(['_', '/', '-', ':']), 40);
@@ -80,7 +80,7 @@ impl Head {
     ///
     /// # Errors
     /// When the header has no unit, or a unit of another dimension.
-    pub fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
+    pub(crate) fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
         let fault = match &self.unit {
             None => Fault::new(
                 format!("contains {} and has no unit", dimension.name()),

@@ -97,7 +97,7 @@ impl<R: Read> Table<R> {
     ///
     /// # Errors
     /// When the source cannot be read, is not text or has no rows of numbers.
-    pub fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
+    pub(crate) fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
         let mut lines = Lines::open(source, kind, skip)?;
         let mut ahead = VecDeque::new();
         while ahead.len() < LINES_AHEAD {
@@ -133,12 +133,12 @@ impl<R: Read> Table<R> {
     }
 
     /// The headers of the columns; `column 1`, `column 2` … if the file has no names.
-    pub fn heads(&self) -> &[Head] {
+    pub(crate) fn heads(&self) -> &[Head] {
         &self.heads
     }
 
     /// Whether the file names its columns.
-    pub const fn named(&self) -> bool {
+    pub(crate) const fn named(&self) -> bool {
         self.named
     }
 
@@ -152,7 +152,7 @@ impl<R: Read> Table<R> {
     /// # Errors
     /// When the file cannot be read, the row has too few or too many cells, or nothing tells whether the signs in a
     /// column that was read are those of decimals or of thousands.
-    pub fn next_row(&mut self) -> Result<bool, FileError> {
+    pub(crate) fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;
         loop {
             match self.ahead.pop_front() {
@@ -217,7 +217,7 @@ impl<R: Read> Table<R> {
     }
 
     /// Line number of the row, from 1.
-    pub const fn line(&self) -> u64 {
+    pub(crate) const fn line(&self) -> u64 {
         self.row.number
     }
 
@@ -227,12 +227,12 @@ impl<R: Read> Table<R> {
     }
 
     /// Empty lines between this row and the one before.
-    pub const fn blank_lines(&self) -> u64 {
+    pub(crate) const fn blank_lines(&self) -> u64 {
         self.row.blank
     }
 
     /// The text in a column of the row; empty if there is no such column.
-    pub fn text(&self, column: usize) -> &str {
+    pub(crate) fn text(&self, column: usize) -> &str {
         self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()])
     }
 
@@ -240,7 +240,7 @@ impl<R: Read> Table<R> {
     ///
     /// # Errors
     /// When the cell holds text or infinity.
-    pub fn number(&mut self, column: usize) -> Result<f64, FileError> {
+    pub(crate) fn number(&mut self, column: usize) -> Result<f64, FileError> {
         let mut decimals = self.decimals;
         let text = self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()]);
         let number = number(text, self.parting, &mut decimals);
@@ -274,7 +274,7 @@ impl<R: Read> Table<R> {
     }
 
     /// The unit of the last digit of the number in a column as it is written: 1e-3 for `0,125`, 1e-5 for `1.25e-3`.
-    pub fn last_place(&self, column: usize) -> f64 {
+    pub(crate) fn last_place(&self, column: usize) -> f64 {
         cells::last_place(self.text(column))
     }
 

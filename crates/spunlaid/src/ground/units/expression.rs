@@ -21,12 +21,12 @@ pub struct Powers([f64; 5]);
 
 impl Powers {
     /// The powers of a dimension.
-    pub const fn from_dimension(dimension: Dimension) -> Self {
+    pub(crate) const fn from_dimension(dimension: Dimension) -> Self {
         Self(dimension.row().powers)
     }
 
     /// Whether the two are equal apart from rounding.
-    pub fn agree(self, other: Self) -> bool {
+    pub(crate) fn agree(self, other: Self) -> bool {
         self.plus(other, -1.0).0.iter().all(|power| power.abs() < 1e-9)
     }
 
@@ -74,7 +74,7 @@ impl Expression {
     ///
     /// # Errors
     /// If the text is not a formula.
-    pub fn parse(text: &str) -> Result<Self, Fault> {
+    pub(crate) fn parse(text: &str) -> Result<Self, Fault> {
         let text = text.trim();
         if text.len() > LONGEST {
             return Err(too_long());
@@ -93,7 +93,7 @@ impl Expression {
     }
 
     /// The names of keys that it uses.
-    pub fn names(&self) -> BTreeSet<&str> {
+    pub(crate) fn names(&self) -> BTreeSet<&str> {
         let mut names = BTreeSet::new();
         self.root.names(&mut names);
         names
@@ -105,7 +105,7 @@ impl Expression {
     ///
     /// # Errors
     /// If units do not fit or a name is unknown.
-    pub fn value(
+    pub(crate) fn value(
         &self,
         value_of_key: &dyn Fn(&str) -> Option<(f64, Powers)>,
     ) -> Result<(f64, Powers), Fault> {

@@ -47,7 +47,7 @@ impl fmt::Display for UnitAdvice {
 
 impl Dimension {
     /// Its name with an article: `a length`.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         self.row().name
     }
 
@@ -57,7 +57,7 @@ impl Dimension {
     }
 
     /// Whether this is one of its units, however it is spelt.
-    pub fn has_unit(self, unit: &str) -> bool {
+    pub(crate) fn has_unit(self, unit: &str) -> bool {
         let plain = |unit: &str| plain_spelling(unit.trim()).to_lowercase();
         !unit.trim().is_empty() && self.units().iter().any(|one| plain(one.plain) == plain(unit))
     }
@@ -159,7 +159,7 @@ impl Dimension {
 
     /// The value for people who write it in a file: as [`Dimension::pretty`], with as many digits as it takes
     /// to be read back within a rounding, `1.6 dtex`.
-    pub fn written(self, value: f64) -> String {
+    pub(crate) fn written(self, value: f64) -> String {
         /// Of the value: what two roundings make.
         const ROUNDING: f64 = 4.0 * f64::EPSILON;
         let texts = (4..=17).map(|digits| self.pretty_to(value, digits));

@@ -108,7 +108,7 @@ impl<'a> Beam<'a> {
 
 impl Beam<'_> {
     /// About how many steps all filaments together take for a sheet.
-    pub fn steps(&self, sheet: &Sheet) -> u64 {
+    pub(crate) fn steps(&self, sheet: &Sheet) -> u64 {
         let Some(line) = self.case.line else { return 0 };
         let fall = line.distance / line.feed_speed;
         let stretch = sheet.length + 2.0 * SPREAD * line.distance;

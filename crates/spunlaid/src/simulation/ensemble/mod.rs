@@ -224,7 +224,7 @@ pub struct EndPath {
 
 impl EndPath {
     /// Number of the last instants that are all kept.
-    pub const LAST: usize = 20_000;
+    pub(crate) const LAST: usize = 20_000;
 
     /// Takes the next recorded instant.
     pub fn push(&mut self, sample: &Sample) {

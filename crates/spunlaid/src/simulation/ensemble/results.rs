@@ -33,7 +33,7 @@ pub struct LostFibre {
 
 impl LostFibre {
     /// * `error` – why it was lost
-    pub fn new(replicate: u64, error: &Error) -> Self {
+    pub(crate) fn new(replicate: u64, error: &Error) -> Self {
         let time = error.lost_fibre().map_or(f64::NAN, |(_, time)| time);
         Self { replicate, time, reason: error.to_string() }
     }

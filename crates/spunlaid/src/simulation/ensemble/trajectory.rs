@@ -49,8 +49,6 @@ impl Trajectory {
 pub struct Keep {
     /// Whether curves are measured too: profiles, series, spectra, and the path of a free end.
     pub curves: bool,
-    /// Whether what a fed fibre does to its air is measured, without the other curves.
-    pub way: bool,
     /// Whether the recorded instants are kept in memory. A [`Recorder`](super::Recorder) receives them without.
     pub samples: bool,
     /// The whole shapes that are stored.
@@ -59,11 +57,9 @@ pub struct Keep {
 
 impl Keep {
     /// Numbers only.
-    pub const NUMBERS: Self = Self { curves: false, way: false, samples: false, shapes: KeepShapes::NONE };
+    pub const NUMBERS: Self = Self { curves: false, samples: false, shapes: KeepShapes::NONE };
     /// Numbers and the recorded instants.
     pub const SAMPLES: Self = Self { samples: true, ..Self::NUMBERS };
-    /// Numbers and what a fed fibre does to its air.
-    pub const WAY: Self = Self { way: true, ..Self::NUMBERS };
     /// Curves, but no recorded instants and no shapes.
     pub const CURVES: Self = Self { curves: true, ..Self::NUMBERS };
 }
@@ -203,7 +199,7 @@ fn fly_until_lost(
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
     let clock = flight.clock().clone();
-    let mut observers = Observers::new(&flight, keep.curves, keep.way);
+    let mut observers = Observers::new(&flight, keep.curves);
     let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates;
     let begin = |(lane, job): (usize, &Job<'_>)| {
         let place = computing.recorder.filter(|_| keeps_shapes(lane));

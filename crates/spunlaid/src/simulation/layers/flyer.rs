@@ -165,7 +165,7 @@ impl FlownFibres {
     }
 
     /// The surrogate with the mean numbers of the filaments; None if none was identified.
-    pub fn surrogate(&self) -> Option<Surrogate> {
+    pub(crate) fn surrogate(&self) -> Option<Surrogate> {
         Self::known(&self.numbers)
     }
 }

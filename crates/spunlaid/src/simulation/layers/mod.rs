@@ -174,7 +174,7 @@ impl LayerSpec {
     }
 
     /// The layer, once its fibres are known.
-    pub fn layer(&self, fibres: Fibres) -> Layer {
+    pub(crate) fn layer(&self, fibres: Fibres) -> Layer {
         Layer {
             linear_density: self.linear_density(),
             feed_speed: self.feed_speed,
@@ -227,7 +227,7 @@ impl WebSpec {
     }
 
     /// The speed of a belt on which all layers together have this mass per area [m/s].
-    pub fn belt_speed_for(&self, basis_weight: f64) -> f64 {
+    pub(crate) fn belt_speed_for(&self, basis_weight: f64) -> f64 {
         self.mass_flow() / basis_weight
     }
 

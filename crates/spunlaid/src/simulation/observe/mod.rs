@@ -109,24 +109,25 @@ impl Observers {
     ///
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
-    /// * `way` – whether to measure what fed fibres do to their air, even without the other curves
-    pub fn new(flight: &Flight, curves: bool, way: bool) -> Self {
+    pub(crate) fn new(flight: &Flight, curves: bool) -> Self {
         let has = |d: &Declaration, wanted: fn(&Measure) -> bool| d.measures.iter().any(wanted);
-        let wanted = |d: &&Declaration| {
-            curves || has(d, |m| m.kind == Kind::Number) || way && has(d, |m| m.name == FORCE_ON_AIR)
-        };
+        let wanted = |d: &&Declaration| curves || has(d, |m| m.kind == Kind::Number);
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);
         Self(declared.map(|declared| (declared, (declared.observer)(flight))).collect())
     }
 
     /// Passes a recorded instant to all observers.
-    pub fn see(&mut self, observation: &Observation<'_>) {
+    pub(crate) fn see(&mut self, observation: &Observation<'_>) {
         self.0.iter_mut().for_each(|(_, observer)| observer.see(observation));
     }
 
     /// The measures that apply to one fibre, in the order of their declarations.
-    pub fn finish(&self, lane: usize, flight: &Flight) -> impl Iterator<Item = (&'static Measure, Value)> {
+    pub(crate) fn finish(
+        &self,
+        lane: usize,
+        flight: &Flight,
+    ) -> impl Iterator<Item = (&'static Measure, Value)> {
         let of_lane = self.0.iter().filter(move |(declared, _)| applies(declared, flight, lane));
         of_lane
             .flat_map(move |(declared, observer)| declared.measures.iter().zip(observer.finish(lane, flight)))

@@ -72,7 +72,7 @@ impl Sample {
     }
 
     /// Dissipation of the implicit tension, with the same divisor as the balance [%].
-    pub fn tension_dissipation_percent(&self) -> f64 {
+    pub(crate) fn tension_dissipation_percent(&self) -> f64 {
         percent(self.tension_dissipation, self.energy_flow())
     }
 

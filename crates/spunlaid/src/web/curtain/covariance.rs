@@ -105,7 +105,7 @@ impl Covariance {
     /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest
     ///   neighbours alone would tell. Between neighbours the flight does not tell the covariance: what
     ///   shorter scales explain passes for what each filament does for itself
-    pub fn fit(flown: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
+    pub(crate) fn fit(flown: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
         let places = flown.places();
         let deviations = samples(flown);
         let [width, pitch] = flown.width_and_pitch();
@@ -176,18 +176,19 @@ impl Covariance {
     /// * `variance` – at one place [m²]
     /// * `scales` – across and along the machine direction; infinite where nothing changes [m]
     /// * `turn` – width after which the curtain repeats itself, of periodic edges [m]
-    pub fn normal(variance: f64, scales: [f64; 2], turn: Option<f64>) -> Self {
+    #[cfg(test)]
+    pub(crate) fn normal(variance: f64, scales: [f64; 2], turn: Option<f64>) -> Self {
         let term = Term { part: 1.0, across: Across::new(scales[0], turn), along: Scale::new(scales[1]) };
         Self { variance, terms: vec![term] }
     }
 
     /// The variance at one place [m²].
-    pub fn variance(&self) -> f64 {
+    pub(crate) fn variance(&self) -> f64 {
         self.variance
     }
 
     /// The correlation at a distance across and along the machine direction [m]; across the shorter way round.
-    pub fn correlation(&self, [z, y]: [f64; 2]) -> f64 {
+    pub(crate) fn correlation(&self, [z, y]: [f64; 2]) -> f64 {
         let at = |term: &Term| {
             let along = term.along.at(y);
             if along > 0.0 { term.part * along * term.across.at(z) } else { 0.0 }
@@ -196,7 +197,7 @@ impl Covariance {
     }
 
     /// Distance across at which half the correlation is left, up to a farthest one [m].
-    pub fn half_distance(&self, farthest: f64) -> f64 {
+    pub(crate) fn half_distance(&self, farthest: f64) -> f64 {
         let mut between = [0.0, farthest];
         if self.correlation([farthest, 0.0]) >= 0.5 {
             return farthest;

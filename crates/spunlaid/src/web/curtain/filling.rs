@@ -32,7 +32,7 @@ pub struct Covariances {
 
 impl Covariances {
     /// As flown filaments tell them.
-    pub fn fit(flown: &FlownCurves, threads: usize) -> Self {
+    pub(crate) fn fit(flown: &FlownCurves, threads: usize) -> Self {
         let [smooth, rough] = [SMOOTH, ROUGH].map(|shortest| Covariance::fit(flown, shortest, threads));
         Self { smooth, rough }
     }
@@ -67,7 +67,7 @@ impl FlownCurves {
     }
 
     /// As [`FlownCurves::fill`], with known covariances.
-    pub fn fill_by(&self, by: &Covariances, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
+    pub(crate) fn fill_by(&self, by: &Covariances, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
         let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &by.smooth[d], wanted[i]));
         let curves = each(threads, wanted.len(), curve);
         let step = wanted.len().div_ceil(TOLD).max(1);

@@ -95,17 +95,17 @@ impl FlownCurves {
     }
 
     /// Width after which the curtain repeats itself, of periodic edges [m].
-    pub fn turn(&self) -> Option<f64> {
+    pub(crate) fn turn(&self) -> Option<f64> {
         self.turn
     }
 
     /// Deviations of a filament in a direction: 0 along the machine, 1 across [m].
-    pub fn deviations(&self, filament: usize, direction: usize) -> &[f32] {
+    pub(crate) fn deviations(&self, filament: usize, direction: usize) -> &[f32] {
         &self.curves[filament][direction]
     }
 
     /// Mean deviation of filaments at a place along the machine direction, in a direction [m].
-    pub fn mean(&self, direction: usize, y: f64) -> f64 {
+    pub(crate) fn mean(&self, direction: usize, y: f64) -> f64 {
         self.mean.value[direction] + self.mean.slope[direction] * (y - self.mean.middle)
     }
 

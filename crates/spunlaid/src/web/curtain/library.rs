@@ -87,7 +87,7 @@ impl Library {
     /// # Errors
     /// If the edges of the flown curtain are not periodic, or if it is too narrow or too short for pieces
     /// that know nothing of each other.
-    pub fn new(flown: &FlownCurves, threads: usize) -> Result<Self, Fault> {
+    pub(crate) fn new(flown: &FlownCurves, threads: usize) -> Result<Self, Fault> {
         let Some(turn) = flown.turn() else {
             return Err(Fault::new(
                 "a sheet of tiles is made from filaments with periodic edges, and these end at edges that cut",
@@ -153,7 +153,7 @@ impl Library {
     }
 
     /// The part of the variance that the flown filaments do not tell, in machine and in cross direction.
-    pub fn missing(&self) -> [f64; 2] {
+    pub(crate) fn missing(&self) -> [f64; 2] {
         self.missing
     }
 

@@ -59,7 +59,7 @@ impl Library {
     ///
     /// # Errors
     /// If a filament hangs in a row that was not flown.
-    pub fn tiles(
+    pub(crate) fn tiles(
         &self,
         places: Vec<Place>,
         around: f64,

@@ -56,7 +56,7 @@ pub struct FabricKeys {
 
 impl FabricKeys {
     /// What is usual: strips as in ISO 9073-3, and the pressure of ISO 9073-15.
-    pub const USUAL: Self = Self {
+    pub(crate) const USUAL: Self = Self {
         thickness: None,
         saleable_width: None,
         tolerance: 0.05,
@@ -191,7 +191,7 @@ pub struct Marked {
 
 impl Marked {
     /// Its middle in cross and in machine direction [m].
-    pub fn middle(&self) -> [f64; 2] {
+    pub(crate) fn middle(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.corner[axis] + 0.5 * self.sides[axis])
     }
 }

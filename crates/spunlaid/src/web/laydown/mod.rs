@@ -34,11 +34,6 @@ impl Footprint {
         Self { cell, centre, counts: vec![0; CELLS * CELLS] }
     }
 
-    /// Cells along each side.
-    pub const fn side(&self) -> usize {
-        CELLS
-    }
-
     /// Points in each row of cells, row after row in cross direction; within a row in machine direction.
     pub fn rows(&self) -> impl Iterator<Item = &[u64]> {
         self.counts.chunks_exact(CELLS)
@@ -219,7 +214,7 @@ mod tests {
         assert_eq!(grown, at_once);
         assert_eq!(grown.rows().flatten().sum::<u64>(), 5000);
         let corner = grown.corner();
-        assert!((corner[0] - (1.0 - 48.0 * 0.016)).abs() < 1e-12 && grown.rows().count() == grown.side());
+        assert!((corner[0] - (1.0 - 48.0 * 0.016)).abs() < 1e-12 && grown.rows().count() == CELLS);
     }
 
     #[test]

@@ -98,7 +98,7 @@ pub struct LaidCurve {
 
 impl LaidCurve {
     /// Number of classes of direction.
-    pub const DIRECTIONS: usize = 36;
+    pub(crate) const DIRECTIONS: usize = 36;
 }
 
 impl Trace {

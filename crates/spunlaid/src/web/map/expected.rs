@@ -82,7 +82,7 @@ impl ExpectedCv {
     /// That of a map, or of a few filaments, which no other one has anything in common with.
     ///
     /// * `standard_error` – of the CV; not a number where it is not known
-    pub const fn alone(patch: f64, cv: f64, standard_error: f64) -> Self {
+    pub(crate) const fn alone(patch: f64, cv: f64, standard_error: f64) -> Self {
         Self { patch, cv, standard_error, degrees: f64::INFINITY, parts: Vec::new() }
     }
 
@@ -90,7 +90,7 @@ impl ExpectedCv {
     ///
     /// The fibres of both are compared one by one where there are as many, because they fly in the same
     /// gusts; else the two are taken as independent.
-    pub fn effect_to(&self, others: &[Self]) -> Option<Effect<f64>> {
+    pub(crate) fn effect_to(&self, others: &[Self]) -> Option<Effect<f64>> {
         let other = others.iter().find(|other| other.patch == self.patch)?;
         let ratio = other.cv / self.cv;
         let fibres = self.parts.len();

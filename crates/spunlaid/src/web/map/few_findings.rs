@@ -87,7 +87,7 @@ pub struct LayerFew {
 
 impl LayerFew {
     /// Why they do not tell the CV over patches of a side; None if they do.
-    pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+    pub(crate) fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
         if self.correlation < TOGETHER {
             return Some(FewDoubt::Neighbours(self.correlation));
         }

@@ -279,7 +279,7 @@ const OF_MAP: f64 = 0.05;
 
 impl Findings {
     /// What must be known of these numbers before they are believed.
-    pub fn doubts(&self, web: &Web) -> Vec<Doubt> {
+    pub(crate) fn doubts(&self, web: &Web) -> Vec<Doubt> {
         let mut doubts = match &self.laid.shared_air {
             Some(together) => {
                 [lost(web, together), few_filaments(self, together), charged(together)].concat()

@@ -68,7 +68,7 @@ pub struct SharedAirFindings {
 
 impl SharedAirFindings {
     /// Why the few filaments of a layer do not tell the CV of all over patches of a side; None if they do.
-    pub fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+    pub(crate) fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
         self.few.iter().find_map(|few| few.doubt_over(patch))
     }
 
@@ -169,7 +169,7 @@ impl Curves {
     ///
     /// # Errors
     /// If there is no curve, or one of less than 16 pieces or with a point that is not finite.
-    pub fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, Fault> {
+    pub(crate) fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, Fault> {
         let usable = |curve: &Vec<[f64; 2]>| {
             curve.len() > Self::FEWEST && curve.iter().flatten().all(|x| x.is_finite())
         };
@@ -200,13 +200,8 @@ impl Curves {
     }
 
     /// Fed length from point to point [m].
-    pub const fn spacing(&self) -> f64 {
+    pub(crate) const fn spacing(&self) -> f64 {
         self.spacing
-    }
-
-    /// Speed of the belt over speed of the feed.
-    pub const fn belt_ratio(&self) -> f64 {
-        self.belt_ratio
     }
 
     /// The points (ξ₁, ξ₂) of each curve [m].

@@ -56,7 +56,7 @@ impl Map {
     ///
     /// * `corner` – its first column and row
     /// * `sides` – its columns and rows
-    pub fn part(&self, corner: [usize; 2], sides: [usize; 2]) -> Self {
+    pub(crate) fn part(&self, corner: [usize; 2], sides: [usize; 2]) -> Self {
         let row = |row: usize| self.row(corner[1] + row).get(corner[0]..corner[0] + sides[0]);
         let cells = (0..sides[1]).flat_map(|i| row(i).unwrap_or_default()).copied().collect();
         Self { columns: sides[0], rows: sides[1], closed: [false; 2], cells, ..*self }

@@ -146,7 +146,7 @@ impl Filaments {
     }
 
     /// How far they are spread in machine direction where they are fed [m].
-    pub fn depth(&self) -> f64 {
+    pub(crate) fn depth(&self) -> f64 {
         match self {
             Self::AtRandom { .. } => 0.0,
             Self::Slot { depth, .. } => *depth,
@@ -204,7 +204,7 @@ pub enum Fibres {
 
 impl Layer {
     /// Speed of the belt over speed of the feed.
-    pub fn belt_ratio(&self) -> f64 {
+    pub(crate) fn belt_ratio(&self) -> f64 {
         self.belt_speed / self.feed_speed
     }
 

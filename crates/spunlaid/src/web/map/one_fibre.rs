@@ -126,7 +126,7 @@ fn add(
 
 impl SingleFibres {
     /// `CV²·τ` of a layer, without what fixed places themselves do.
-    pub fn estimate(&self, filaments: &Filaments) -> &Estimate {
+    pub(crate) fn estimate(&self, filaments: &Filaments) -> &Estimate {
         match filaments {
             Filaments::AtRandom { .. } => &self.at_random,
             Filaments::Slot { .. } | Filaments::Rows(_) => &self.at_places,

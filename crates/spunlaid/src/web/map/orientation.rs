@@ -151,7 +151,7 @@ impl Sample {
 
 impl Orientation {
     /// Number of classes of direction.
-    pub const DIRECTIONS: usize = 36;
+    pub(crate) const DIRECTIONS: usize = 36;
 
     /// Mass along the machine direction over mass along the cross direction, `⟨cos²⟩/⟨sin²⟩`, and its standard
     /// error.

@@ -25,14 +25,14 @@ impl Unevenness {
     /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only
     /// roughly how much they scatter, as in a web whose filaments share one air: by Student's t with the
     /// degrees of freedom of the CV.
-    pub fn interval_of_few(&self) -> Option<[f64; 2]> {
+    pub(crate) fn interval_of_few(&self) -> Option<[f64; 2]> {
         let quantile = student_t_95_at(self.degrees()?);
         Some(interval_of_deviation_by(quantile, self.cv, self.standard_error?))
     }
 
     /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too
     /// small to say.
-    pub fn degrees(&self) -> Option<f64> {
+    pub(crate) fn degrees(&self) -> Option<f64> {
         Some(0.5 * (self.cv / self.standard_error?).powi(2))
     }
 }

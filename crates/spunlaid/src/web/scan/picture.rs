@@ -70,7 +70,7 @@ impl Picture {
 
     /// Whether its values are grey levels of the light that came through, as far as the file states it;
     /// otherwise they are basis weights.
-    pub const fn holds_light(&self) -> bool {
+    pub(crate) const fn holds_light(&self) -> bool {
         matches!(self.format, Format::Png | Format::Tiff) && self.weight_of_black.is_none()
     }
 

@@ -95,11 +95,6 @@ impl Paths {
         Some(paths)
     }
 
-    /// Length of fibre from one point to the next [m].
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
     /// Fills `points` with the next points, [ξ₁, ξ₂] of each path [m]; the first point of all is the start.
     ///
     /// The paths do not depend on how many points are asked for at a time.

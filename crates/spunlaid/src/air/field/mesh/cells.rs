@@ -55,7 +55,7 @@ impl Shape {
     }
 
     /// Number of corners; 0 for a polyhedron, which has no fixed number.
-    pub const fn corners(self) -> usize {
+    pub(crate) const fn corners(self) -> usize {
         match self {
             Self::Tetrahedron => 4,
             Self::Pyramid => 5,
@@ -106,12 +106,12 @@ impl Cells {
     }
 
     /// How many.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 

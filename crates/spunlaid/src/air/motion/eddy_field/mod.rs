@@ -158,7 +158,7 @@ impl EddyField {
 
     /// Another field of the same air, with a key of its own.
     #[must_use]
-    pub fn with_key(&self, key: StreamKey) -> Self {
+    pub(crate) fn with_key(&self, key: StreamKey) -> Self {
         let tapes = vec![Tape::default(); self.tapes.len()];
         Self { key, tapes, made: 0.0..0.0, ..self.clone() }
     }

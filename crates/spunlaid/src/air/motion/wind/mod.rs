@@ -154,7 +154,7 @@ impl Wind {
     }
 
     /// Number of eddies.
-    pub const fn eddies(&self) -> usize {
+    pub(crate) const fn eddies(&self) -> usize {
         self.eddies
     }
 

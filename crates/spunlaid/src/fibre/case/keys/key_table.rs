@@ -109,12 +109,12 @@ impl<T> KeyTable<T> {
     }
 
     /// The key with this full name, `air.velocity`.
-    pub fn find(&self, name: &str) -> Option<&'static Key<T>> {
+    pub(crate) fn find(&self, name: &str) -> Option<&'static Key<T>> {
         self.rows.iter().find(|key| key.name == name)
     }
 
     /// The keys of a table.
-    pub fn keys_of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
+    pub(crate) fn keys_of_table(&self, table: &str) -> impl Iterator<Item = &'static Key<T>> {
         self.rows.iter().filter(move |key| key.table() == table)
     }
 

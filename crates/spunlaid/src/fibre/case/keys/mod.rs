@@ -170,11 +170,6 @@ impl<T> Key<T> {
         self.kind.dimension()
     }
 
-    /// Whether it takes only whole numbers.
-    pub const fn is_whole(&self) -> bool {
-        matches!(self.kind, Kind::Whole(..))
-    }
-
     /// The value in a case or another input, in SI units. None if the key has no meaning for it.
     pub fn get(&self, input: &T) -> Option<Value> {
         (self.get)(input)

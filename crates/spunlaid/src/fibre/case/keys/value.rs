@@ -188,7 +188,7 @@ impl FileKind {
     }
 
     /// Whether a text is a word and not the name of a file.
-    pub fn is_word(self, text: &str) -> bool {
+    pub(crate) fn is_word(self, text: &str) -> bool {
         !text.is_empty() && !text.contains('.') && !self.words().0.is_empty()
     }
 }
@@ -305,7 +305,7 @@ impl Kind {
     }
 
     /// The words that the key takes, with an example of a file if it also takes one.
-    pub fn names(&self) -> Vec<&'static str> {
+    pub(crate) fn names(&self) -> Vec<&'static str> {
         let words = self.words();
         let file = match self {
             Self::File(kind) if !words.is_empty() => Some(kind.words().1),
