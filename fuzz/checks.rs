@@ -1,9 +1,9 @@
 //! What must hold whatever the readers are given: of the fuzzers' inputs, and of their findings in the tests.
 
-use spunlaid::air::field::{Field, Hint};
-use spunlaid::air::record::{self, Layout, parse_csv, parse_parquet};
+use spunlaid::air::record::{parse_csv, parse_parquet};
+use spunlaid::air::{Field, Hint, Layout, record};
 use spunlaid::input::{parse_case, parse_spinline, parse_web, starter_case, write_case, write_spinline};
-use spunlaid::web::scan::{self, Light};
+use spunlaid::web::{Light, scan};
 use std::fmt::Display;
 
 /// A message never breaks the terminal or the log that it is written to.

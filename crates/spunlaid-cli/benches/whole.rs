@@ -10,8 +10,8 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cpu_time::ThreadTime;
-use spunlaid::fibre::flight::{Flight, Job};
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::fibre::{Flight, Job};
+use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::read_case;
 use std::hint::black_box;
 use std::path::PathBuf;

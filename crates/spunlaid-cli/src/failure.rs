@@ -1,6 +1,6 @@
 //! The failures of the program, their messages and exit codes.
 
-use spunlaid::ground::error::{Error, Fault, FileError};
+use spunlaid::ground::{Error, Fault, FileError};
 use std::fmt;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -91,7 +91,7 @@ impl fmt::Display for Failure {
 mod tests {
     use super::*;
     use spunlaid::experiment::study::{foreign, in_use, unsynced};
-    use spunlaid::ground::error::Problem;
+    use spunlaid::ground::Problem;
     use std::io;
     use std::path::Path;
 

@@ -10,7 +10,7 @@ mod say;
 use args::{Arguments, Command, Invocation};
 use clap::{CommandFactory, FromArgMatches};
 use failure::Failure;
-use spunlaid::ground::error::{Error, Fault};
+use spunlaid::ground::{Error, Fault};
 use std::ffi::OsString;
 use std::io::Write as _;
 use std::path::Path;

@@ -2,7 +2,8 @@
 
 use crate::say;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use spunlaid::ground::threads::{OnDrop, look_while};
+use spunlaid::ground::OnDrop;
+use spunlaid::ground::threads::look_while;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 use terminal_size::terminal_size_of;

@@ -1,10 +1,10 @@
 //! The case as text: keys are changed in it, comments stay, and it is saved.
 
 use super::message::Complaint;
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
-use spunlaid::ground::error::{Error, Place};
-use spunlaid::ground::units::Dimension;
+use spunlaid::ground::error::Place;
+use spunlaid::ground::{Dimension, Error};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case};
 use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
@@ -246,7 +246,7 @@ pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
     let Error::Rejected(problems) = error else {
         return complaint(error.to_string());
     };
-    let mistake = |problem: &spunlaid::ground::error::Problem| {
+    let mistake = |problem: &spunlaid::ground::Problem| {
         let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
         let mut problem = problem.clone();
         problem.place = Place::Code;

@@ -1,11 +1,8 @@
 //! Eight replicates of a case in flight, changed while they fly.
 
-use spunlaid::fibre::case::Case;
 use spunlaid::fibre::case::keys;
-use spunlaid::fibre::flight::{Flight, Job, LaidPoint, Snapshot};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::{Isa, Lanes, WIDTH};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Case, Flight, Job, LaidPoint, Snapshot};
+use spunlaid::ground::{Error, Isa, Lanes, Vec3, WIDTH};
 use std::array::from_fn;
 
 /// Eight fibres in flight.

@@ -21,8 +21,8 @@
 //!
 //! Samples and laid points are those that the page has not had yet.
 
-use spunlaid::fibre::flight::{LaidPoint, Snapshot};
-use spunlaid::ground::lanes::WIDTH;
+use spunlaid::fibre::{LaidPoint, Snapshot};
+use spunlaid::ground::WIDTH;
 use std::collections::VecDeque;
 
 /// Most samples that a page can lag behind.

@@ -1,7 +1,7 @@
 //! Who may talk to the server: programs of this machine that know the token.
 
 use super::not_served;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use std::fmt::Write;
 use std::io;
 

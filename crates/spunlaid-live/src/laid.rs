@@ -2,12 +2,11 @@
 
 use super::fibres::Instant;
 use serde::Serialize;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::lanes::WIDTH;
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::observe::{DECLARED, Measure};
-use spunlaid::web::laydown::{self, Footprint, Trace, TraceSettings};
+use spunlaid::fibre::Case;
+use spunlaid::ground::{Estimate, WIDTH};
+use spunlaid::simulation::{DECLARED, Measure};
 use spunlaid::web::surrogate::identify;
+use spunlaid::web::{Footprint, Trace, TraceSettings, laydown};
 use std::array::from_fn;
 
 /// Points of each fibre from one fit of the surrogate to the next, as a share of those that it had.

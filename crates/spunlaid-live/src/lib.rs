@@ -39,14 +39,11 @@ use server::Server;
 use session::Session;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::error::{Error, Fault, Problem};
-use spunlaid::ground::units::Dimension;
-use std::io;
+use spunlaid::ground::{Dimension, Error, Fault, Problem};
 use std::net::{Ipv4Addr, TcpListener};
-use std::panic;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
-use std::thread;
+use std::{io, panic, thread};
 
 /// Messages that wait for the flight; then pages wait.
 const WAITING: usize = 64;

@@ -3,11 +3,10 @@
 use super::fibres::Instant;
 use super::laid::{LaidStatistics, ShownNumber};
 use serde::Serialize;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::flight::{EndNodeMotion, Flight};
-use spunlaid::ground::lanes::WIDTH;
-use spunlaid::ground::statistics::{Welch, Window};
-use spunlaid::simulation::observe::{DECLARED, Observation, Observer, Sample, Value};
+use spunlaid::fibre::{Case, EndNodeMotion, Flight};
+use spunlaid::ground::{WIDTH, Welch, Window};
+use spunlaid::simulation::observe::Sample;
+use spunlaid::simulation::{DECLARED, Observation, Observer, Value};
 use std::array::from_fn;
 
 /// Time after a change that the statistics of a fibre of fixed length leave out, if the case has no longer spin-up [s].
@@ -179,9 +178,8 @@ impl FixedFibreMeasures {
         }
         let [y, z] = self.spectrum.each_ref().map(|welch| welch.clone().finish());
         let frequency = y.points().map(|(frequency, _)| frequency).collect();
-        let density = |spectrum: &spunlaid::ground::statistics::Spectrum| {
-            spectrum.density.iter().map(|p| p * 1e6).collect()
-        };
+        let density =
+            |spectrum: &spunlaid::ground::Spectrum| spectrum.density.iter().map(|p| p * 1e6).collect();
         Curves { along, spectrum: [frequency, density(&y), density(&z)] }
     }
 }
@@ -211,9 +209,9 @@ mod tests {
 
     #[test]
     fn stat_amplitude_and_curves_agree_with_those_of_a_run() {
-        use spunlaid::ground::error::Error;
-        use spunlaid::ground::lanes::Isa;
-        use spunlaid::simulation::ensemble::{Keep, Results, RunControl, fly};
+        use spunlaid::ground::{Error, Isa};
+        use spunlaid::simulation::ensemble::fly;
+        use spunlaid::simulation::{Keep, Results, RunControl};
         use std::sync::atomic::{AtomicBool, AtomicU64};
         // The same flight over the same time: 0.5 s of settling, two seconds of statistics.
         let values = [

@@ -1,9 +1,9 @@
 //! The settings that a page can change, from the table of keys.
 
 use serde::Serialize;
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::units::Dimension;
+use spunlaid::ground::Dimension;
 
 /// A slider or a choice.
 #[derive(Debug, Serialize, PartialEq)]

@@ -5,9 +5,9 @@ use crate::watched::{guarded, threads};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use spunlaid::air::motion::AirAtPlaces;
+use spunlaid::air::AirAtPlaces;
+use spunlaid::ground::Vec3;
 use spunlaid::ground::threads::lock;
-use spunlaid::ground::vec3::Vec3;
 use spunlaid_results::Failure;
 use std::sync::Mutex;
 

@@ -7,11 +7,10 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
-use spunlaid::air::motion::PlaceAxes;
+use spunlaid::air::PlaceAxes;
 use spunlaid::fibre::case::keys::{self, Key, Value};
-use spunlaid::fibre::case::{self, Note};
-use spunlaid::ground::error::FileKind;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Note, case};
+use spunlaid::ground::{FileKind, Vec3};
 use spunlaid::input::{
     Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };

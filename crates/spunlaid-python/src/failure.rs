@@ -2,7 +2,8 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::ground::error::{Error, Place, Position, Problem};
+use spunlaid::ground::error::Place;
+use spunlaid::ground::{Error, Position, Problem};
 use spunlaid::input::StudyFile;
 use std::any::Any;
 

@@ -8,10 +8,9 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::fibre::flight::{self, Job, LaidPoint, Snapshot};
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::fibre::{Job, LaidPoint, Snapshot, flight};
 use spunlaid::ground::threads::lock;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::ground::{Isa, Vec3, WIDTH};
 use spunlaid_results::Failure;
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard};
@@ -128,7 +127,7 @@ impl Flight {
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let snapshots = self.snapshots(py)?;
         let all = PyDict::new(py);
-        type Number = fn(&spunlaid::fibre::energy::Energy) -> spunlaid::ground::lanes::Lanes;
+        type Number = fn(&spunlaid::fibre::Energy) -> spunlaid::ground::Lanes;
         let numbers: [(&str, Number); 6] = [
             ("kinetic_j", |energy| energy.kinetic),
             ("axial_j", |energy| energy.axial),

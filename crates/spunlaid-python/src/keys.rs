@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use spunlaid::fibre::case::keys::{CASE, Key, KeyTable, Omission};
-use spunlaid::ground::removed::Removed;
-use spunlaid::simulation::layers::WEB;
+use spunlaid::ground::Removed;
+use spunlaid::simulation::WEB;
 use std::ffi::OsString;
 
 /// Every key of a case or of a web: a dict for each. See spunlaid.keys, which calls it.

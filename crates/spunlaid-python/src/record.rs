@@ -5,11 +5,9 @@ use numpy::{PyArray1, PyReadonlyArrayDyn};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::air::record::{
-    Analysis, IntegralRule, Layout, Reading, Record, Samples, Settings, analyse as analysed, read_record,
-};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::statistics::Spectrum;
+use spunlaid::air::record::{analyse as analysed, read_record};
+use spunlaid::air::{Analysis, IntegralRule, Layout, Reading, Record, Samples, Settings};
+use spunlaid::ground::{Error, Spectrum};
 use spunlaid_results::output::analysis::{air_block, analysis_json};
 use std::path::PathBuf;
 

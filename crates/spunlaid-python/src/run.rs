@@ -11,17 +11,15 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::fibre::case::Note;
-use spunlaid::fibre::flight::LaidPoint;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::WIDTH;
+use spunlaid::fibre::{LaidPoint, Note};
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::ground::units::udunits;
-use spunlaid::simulation::ensemble::{
-    FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, Recorder, Results,
-    RunControl, Trajectory, Unchecked, fly_for_checks, nothing_kept,
+use spunlaid::ground::{Error, WIDTH};
+use spunlaid::simulation::ensemble::{fly_for_checks, nothing_kept};
+use spunlaid::simulation::{
+    FinerCheck, FinerChecks, FinerPlans, Keep, KeepShapes, LaidCurves, LostFibre, MEASURES, Measure,
+    Recorder, Results, RunControl, Trajectory, Unchecked,
 };
-use spunlaid::simulation::observe::{MEASURES, Measure};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::run::{self as folder, POSITIONS};
@@ -30,8 +28,7 @@ use spunlaid_results::output::flown::{Flights, Tables};
 use spunlaid_results::output::summary::Performance;
 use spunlaid_results::output::tables::unit_of_column;
 use std::path::PathBuf;
-use std::sync::OnceLock;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Instant;
 
 /// Number of trajectories that are kept whole, for the report.
@@ -42,7 +39,7 @@ const KEPT: usize = WIDTH;
 #[derive(Debug)]
 pub(crate) struct RunResults {
     name: String,
-    case: Arc<spunlaid::fibre::case::Case>,
+    case: Arc<spunlaid::fibre::Case>,
     results: Results,
     checks: FinerChecks,
     #[pyo3(get)]
@@ -209,7 +206,7 @@ impl RunResults {
         let all = PyList::empty(py);
         for curve in &self.results.curves {
             let dict = described(py, curve.measure)?;
-            let column = |quantity: &dyn Fn(&spunlaid::simulation::ensemble::Place) -> f64| {
+            let column = |quantity: &dyn Fn(&spunlaid::simulation::Place) -> f64| {
                 locked(PyArray1::from_vec(py, curve.places.iter().map(quantity).collect()).as_any())
             };
             dict.set_item("at", column(&|place| place.at)?)?;

@@ -2,7 +2,7 @@
 
 use crate::watched::guarded;
 use pyo3::prelude::*;
-use spunlaid::ground::error::FileKind;
+use spunlaid::ground::FileKind;
 use spunlaid::input::read_text;
 use std::path::{Path, PathBuf};
 

@@ -11,16 +11,15 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use spunlaid::experiment::study::{
-    Bundles, Experiment, Journal, Progress, Rounds, rankings, results_of_point, run, unsynced,
-};
+use spunlaid::experiment::study::{rankings, results_of_point, run, unsynced};
+use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Rounds};
 use spunlaid::ground::threads::{lock, look_while, unlock};
 use spunlaid::ground::units::udunits;
 use spunlaid::input::{
     Overrides, Resources, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text,
     write_experiment,
 };
-use spunlaid::simulation::layers::WebSpec;
+use spunlaid::simulation::WebSpec;
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study as folder;

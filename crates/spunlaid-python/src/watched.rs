@@ -2,11 +2,11 @@
 
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::ground::threads::lock;
 use spunlaid::input::Resources;
-use spunlaid::simulation::ensemble::RunControl;
-use spunlaid::web::map::LayControl;
+use spunlaid::simulation::RunControl;
+use spunlaid::web::LayControl;
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Making;
 use std::panic::{AssertUnwindSafe, catch_unwind};

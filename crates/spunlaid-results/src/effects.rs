@@ -1,10 +1,10 @@
 //! What changes do, in the words that files, figures and reports share.
 
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, rounded, significant};
-use spunlaid::experiment::advice::Change;
-use spunlaid::ground::effects::{ChangedKey, Setting};
-use spunlaid::ground::statistics::Difference;
-use spunlaid::simulation::layers::{WebSpec, web_key};
+use spunlaid::experiment::Change;
+use spunlaid::ground::{ChangedKey, Difference, Setting};
+use spunlaid::simulation::WebSpec;
+use spunlaid::simulation::layers::web_key;
 
 pub(crate) const PER_CENT: f64 = 100.0;
 

@@ -1,7 +1,7 @@
 //! Folders that cannot take results, and results that cannot be written.
 
 use parquet::errors::ParquetError;
-use spunlaid::ground::error::{Error, Fault, Problem};
+use spunlaid::ground::{Error, Fault, Problem};
 use std::io;
 use std::path::Path;
 

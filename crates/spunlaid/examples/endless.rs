@@ -3,8 +3,8 @@
 //! `cargo run --release -p spunlaid --example endless -- 1000`
 #![allow(clippy::expect_used, clippy::print_stdout)]
 
-use spunlaid::fibre::flight::{Flight, Job};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Flight, Job};
+use spunlaid::ground::Isa;
 use spunlaid::input::read_case;
 use std::path::Path;
 

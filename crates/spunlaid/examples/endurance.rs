@@ -10,9 +10,8 @@
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
-use spunlaid::fibre::flight::{Flight, Job};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Flight, Job};
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::read_case;
 
 /// Fibre-seconds to fly.

@@ -9,8 +9,8 @@
 //! autocorrelation an integral time of Si(π)/(2π f) = 2.95 ms.
 #![allow(clippy::expect_used, clippy::print_stderr)]
 
-use spunlaid::air::motion::{Air, StreamKey, Wind};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::air::{Air, StreamKey, Wind};
+use spunlaid::ground::Isa;
 use std::fmt::Write;
 use std::process::ExitCode;
 

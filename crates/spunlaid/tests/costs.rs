@@ -11,16 +11,13 @@ mod common;
 mod vtk;
 
 use common::*;
-use spunlaid::air::field::Field;
-use spunlaid::air::motion::{Air, Eddies, EddyField, EddyModel, Extent, StreamKey, Wind};
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::fibre::{Case, Flight, Strand};
+use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::{Job, Keep, Results, RunControl, Trajectory, fly_together};
-use spunlaid::simulation::observe::MEASURES;
+use spunlaid::simulation::ensemble::fly_together;
+use spunlaid::simulation::{Job, Keep, MEASURES, Results, RunControl, Trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -151,7 +148,7 @@ fn frozen_memory_of_a_flight() {
         [(Scheme::SemiImplicitEuler, 964), (Scheme::Leapfrog, 964), (Scheme::ImplicitTension, 2180)]
     {
         let kept = |elements: usize| {
-            let fibre = spunlaid::fibre::body::Fibre { elements, ..table1_fibre() };
+            let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
             let (eddies, turbulence) = steady_air(10.0, elements, 1e-3);
             let strand = in_vacuum(fibre, 9.81);
             let new = || {

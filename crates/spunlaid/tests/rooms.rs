@@ -5,7 +5,8 @@
 
 mod rooms_of;
 
-use rooms_of::{circles, faults, sources};
+use rooms_of::{circles, code_and_texts, faults, paths, sources};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -57,6 +58,35 @@ fn rooms_import_only_from_their_left() {
     let in_rooms = WINGS.iter().filter(|(_, rooms)| !rooms.is_empty());
     let wrong: Vec<_> =
         in_rooms.flat_map(|(wing, rooms)| faults(&src.join(wing), Some(wing), rooms, &["mod"])).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Types that a file takes from deep within a wing of the library though its door has them: names of wing, room and type.
+fn past_doors(file: &Path, doors: &BTreeMap<&str, String>) -> Vec<String> {
+    let source = fs::read_to_string(file).expect("a readable source");
+    let past = paths(&code_and_texts(&source).0).into_iter().filter(|path| {
+        let [root, wing, _, name, ..] = &path.names[..] else { return false };
+        let at_door =
+            |door: &String| door.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+        let own = file.iter().zip(file.iter().skip(1)).any(|(src, folder)| src == "src" && folder == &**wing);
+        let is_type = name.starts_with(|c: char| c.is_uppercase());
+        ["crate", "spunlaid"].contains(&&**root) && is_type && !own && doors.get(&**wing).is_some_and(at_door)
+    });
+    past.map(|path| format!("{}: {}", file.display(), path.names.join("::"))).collect()
+}
+
+/// What a wing gives to others stands in its `mod.rs`, and others take it there.
+#[test]
+fn types_of_a_wing_are_taken_at_its_door() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("a folder of crates");
+    let door = |wing: &str| {
+        fs::read_to_string(crates.join("spunlaid/src").join(wing).join("mod.rs")).expect("a wing")
+    };
+    let code = |text: String| {
+        text.lines().filter(|line| !line.trim().starts_with("//")).collect::<Vec<_>>().join("\n")
+    };
+    let doors = WINGS.iter().map(|(wing, _)| (*wing, code(door(wing)))).collect();
+    let wrong: Vec<_> = sources(crates).iter().flat_map(|file| past_doors(file, &doors)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

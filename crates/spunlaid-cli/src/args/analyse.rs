@@ -3,10 +3,9 @@
 use super::output::Output;
 use super::{Figures, one_of, quantity};
 use clap::{ArgAction, Args, ValueHint};
-use spunlaid::air::record::IntegralRule;
-use spunlaid::ground::statistics::Window;
-use spunlaid::ground::units::Dimension;
-use spunlaid::web::scan::LightKind;
+use spunlaid::air::IntegralRule;
+use spunlaid::ground::{Dimension, Window};
+use spunlaid::web::LightKind;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -46,7 +45,7 @@ pub(crate) struct RecordOptions {
     #[arg(long, value_name = "LINES", default_value_t = 0)]
     pub(crate) skip: u64,
     /// Most missing samples in a row that are interpolated
-    #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::air::record::LONGEST_GAP)]
+    #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::air::LONGEST_GAP)]
     pub(crate) max_gap: usize,
     /// Mean velocity, as "10 m/s", if the record holds the fluctuation only
     #[arg(long, value_name = "SPEED", value_parser = quantity(Dimension::Velocity))]

@@ -1,10 +1,9 @@
 //! The arguments of `spunlaid fit`.
 
-use super::output::Figures;
-use super::output::{Output, Threads};
+use super::output::{Figures, Output, Threads};
 use super::source::key_and_value;
 use clap::{Args, ValueHint};
-use spunlaid::experiment::fit::{FEWEST_WEBS, USUAL_WEBS};
+use spunlaid::experiment::{FEWEST_WEBS, USUAL_WEBS};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

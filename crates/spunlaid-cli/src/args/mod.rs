@@ -15,8 +15,7 @@ pub(crate) use new::{
     Given, LineNumbers, New, basis_weight, beams, belt_speed, depth, holes, length, polymer, speed,
     throughput, titre, turbulence,
 };
-pub(crate) use output::Figures;
-pub(crate) use output::{Output, Threads};
+pub(crate) use output::{Figures, Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -28,12 +27,10 @@ use help::{
 };
 use output::FigureWidth;
 use source::key_and_value;
-use spunlaid::air::motion::PlaceAxes;
-use spunlaid::fibre::case::Checks;
+use spunlaid::air::PlaceAxes;
+use spunlaid::fibre::Checks;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::removed::Removed;
-use spunlaid::ground::units::Dimension;
+use spunlaid::ground::{Dimension, Fault, Removed};
 use std::ffi::OsString;
 use std::path::PathBuf;
 

@@ -2,8 +2,9 @@
 
 use super::quantity;
 use clap::{Args, ValueHint};
-use spunlaid::fibre::spinline::Polymer;
-use spunlaid::ground::units::{Dimension, with_decimal_point};
+use spunlaid::fibre::Polymer;
+use spunlaid::ground::Dimension;
+use spunlaid::ground::units::with_decimal_point;
 use std::path::PathBuf;
 
 /// Most beams of a line, and most holes of a beam.

@@ -1,7 +1,7 @@
 //! The case that a command reads, with the changes to it.
 
 use clap::{Args, ValueHint};
-use spunlaid::ground::error::{Error, Fault, Problem};
+use spunlaid::ground::{Error, Fault, Problem};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case, read_case, text_of};
 use spunlaid_results::command::{beside_of, quoted};
 use std::cell::OnceCell;

@@ -5,7 +5,7 @@ use super::stem;
 use crate::args::{Compare, Invocation, Threads};
 use crate::failure::Failure;
 use crate::perform_words;
-use spunlaid::ground::error::FileKind;
+use spunlaid::ground::FileKind;
 use spunlaid::input::kind_of;
 use spunlaid_results::folders::comparison::{ComparedFolders, Folders};
 use std::ffi::OsString;

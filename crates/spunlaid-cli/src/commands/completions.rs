@@ -7,7 +7,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Arg, CommandFactory};
 use clap_complete::Shell;
 use spunlaid::fibre::case::keys;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::WEB_KEYS;
 use std::fs;
 

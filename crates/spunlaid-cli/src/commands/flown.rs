@@ -3,7 +3,7 @@
 use super::run_control;
 use crate::args::Threads;
 use crate::progress;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::Resources;
 use std::sync::atomic::AtomicU64;
 

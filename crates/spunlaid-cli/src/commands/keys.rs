@@ -3,12 +3,10 @@
 use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::experiment::study::STUDY;
+use spunlaid::experiment::STUDY;
 use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind};
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::removed::Removed;
-use spunlaid::ground::units::{Dimension, UnitAdvice};
-use spunlaid::simulation::layers::{WEB, WEB_KEYS, WebKey};
+use spunlaid::ground::{Dimension, Fault, Removed, UnitAdvice};
+use spunlaid::simulation::{WEB, WEB_KEYS, WebKey};
 use spunlaid::web::fabric::about;
 use std::fmt::Write;
 

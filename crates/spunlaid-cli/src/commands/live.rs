@@ -7,9 +7,8 @@ use crate::failure::Failure;
 #[cfg(feature = "live")]
 pub(crate) fn live(live: &Live) -> Result<(), Failure> {
     use crate::say;
-    use spunlaid::ground::error::FileKind;
-    use spunlaid::input::paper;
-    use spunlaid::input::{read_case, read_text};
+    use spunlaid::ground::FileKind;
+    use spunlaid::input::{paper, read_case, read_text};
 
     let text = match &live.case {
         Some(path) => {
@@ -37,9 +36,6 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
 #[cfg(not(feature = "live"))]
 pub(crate) fn live(_: &Live) -> Result<(), Failure> {
     let message = "this program was built without the page on which fibres fly";
-    Err(spunlaid::ground::error::Fault::new(
-        message,
-        "build it with the feature `live`, which is there by default",
-    )
-    .into())
+    Err(spunlaid::ground::Fault::new(message, "build it with the feature `live`, which is there by default")
+        .into())
 }

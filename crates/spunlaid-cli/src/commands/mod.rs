@@ -19,11 +19,10 @@ pub(crate) mod web;
 
 use crate::args::{Threads, is_standard};
 use crate::say;
-use spunlaid::ground::error::FileKind;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::{FileKind, Isa};
 use spunlaid::input::kind_of;
-use spunlaid::simulation::ensemble::RunControl;
-use spunlaid::web::map::LayControl;
+use spunlaid::simulation::RunControl;
+use spunlaid::web::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

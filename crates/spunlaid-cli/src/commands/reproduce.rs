@@ -5,21 +5,17 @@ use super::{plural, run_control};
 use crate::args::{Invocation, Reproduce};
 use crate::failure::Failure;
 use crate::progress;
-use spunlaid::experiment::claim::Claim;
-use spunlaid::experiment::study::{
-    Journal, PointResults, Progress, Replicates, Study, results_of_point, run,
-};
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::error::Fault;
+use spunlaid::experiment::study::{results_of_point, run};
+use spunlaid::experiment::{Claim, Journal, PointResults, Progress, Replicates, Study};
+use spunlaid::fibre::Case;
+use spunlaid::ground::Fault;
 use spunlaid::ground::threads::unlock;
 use spunlaid::input::paper::{
     Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, table1, time_steps,
 };
-use spunlaid::simulation::ensemble::{
-    Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint, fly, turbulence_spectrum,
-    velocity_record,
-};
+use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
+use spunlaid::simulation::{Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::folders::products::PaperFolder;

@@ -6,11 +6,10 @@ use super::{name_of, plural, run_control};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::fibre::case::{Case, Note};
-use spunlaid::ground::error::FileKind;
-use spunlaid::simulation::ensemble::{FinerChecks, FinerPlans, RunControl, RunPaths};
-use spunlaid_results::folders::read_summary_of_run;
-use spunlaid_results::folders::run as files;
+use spunlaid::fibre::{Case, Note};
+use spunlaid::ground::FileKind;
+use spunlaid::simulation::{FinerChecks, FinerPlans, RunControl, RunPaths};
+use spunlaid_results::folders::{read_summary_of_run, run as files};
 
 use std::path::Path;
 use std::sync::OnceLock;

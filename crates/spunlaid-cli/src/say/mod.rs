@@ -6,7 +6,7 @@
 mod wrap;
 
 use anstyle::{AnsiColor, Style};
-use spunlaid::fibre::case::Note;
+use spunlaid::fibre::Note;
 use spunlaid::input::StudyNote;
 use std::fmt::Display;
 use std::io::{Error, ErrorKind, Write};

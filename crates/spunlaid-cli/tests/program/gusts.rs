@@ -1,8 +1,8 @@
 //! `spunlaid air`: the turbulent air of a case, looked at.
 
 use crate::desk::{Desk, entries, names, refusal, success};
-use spunlaid::air::motion::AirAtPlaces;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::AirAtPlaces;
+use spunlaid::ground::Vec3;
 use spunlaid::input::read_case;
 
 /// Small and quick to make.

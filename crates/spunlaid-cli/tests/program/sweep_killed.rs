@@ -20,7 +20,7 @@ impl Moments {
 
 /// Number of records in a journal.
 fn records(place: &Place, out: &str) -> u64 {
-    const RECORD: u64 = 8 * (6 + spunlaid::simulation::observe::MEASURES.len() as u64);
+    const RECORD: u64 = 8 * (6 + spunlaid::simulation::MEASURES.len() as u64);
     fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / RECORD)
 }
 

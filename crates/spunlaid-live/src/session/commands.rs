@@ -7,7 +7,7 @@ use crate::measured::Statistics;
 use crate::message::{Answer, Command, KeyValue};
 use crate::save;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
-use spunlaid::ground::units::Dimension;
+use spunlaid::ground::Dimension;
 use std::time::Instant;
 
 /// Digits of a number of a slider, in the unit in which it is shown.

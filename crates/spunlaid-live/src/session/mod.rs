@@ -11,7 +11,7 @@ use super::fibres::Fibres;
 use super::frame::{Frame, RecentMotion};
 use super::measured::Statistics;
 use super::message::{Answer, Command, Complaint, Pace};
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Arc, mpsc};

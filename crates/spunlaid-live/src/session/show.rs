@@ -5,11 +5,9 @@ use crate::board::Topic;
 use crate::frame::Frame;
 use crate::settings::{present, settings};
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::body::Root;
-use spunlaid::fibre::case::Case;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::lanes::WIDTH;
-use spunlaid::ground::units::Dimension;
+use spunlaid::fibre::{Case, Root};
+use spunlaid::ground::{Dimension, WIDTH};
 use spunlaid_results::output::spinline::filament;
 use std::time::Instant;
 

@@ -3,13 +3,11 @@
 
 use super::Session;
 use crate::document::{Document, complaints};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::{CaseWithNotes, Resources};
-use spunlaid::simulation::ensemble::RunControl;
-use std::sync::Arc;
+use spunlaid::simulation::RunControl;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 use std::thread;
 
 /// Flights that look for a tension. They stop when nobody waits for them any more.

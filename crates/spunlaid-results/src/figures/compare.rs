@@ -1,11 +1,9 @@
 //! The measured curves of several runs in one picture each.
 
 use super::run::measured::axes;
-use spunlaid::simulation::observe::{DECLARED, Kind, Measure};
-use spunlaid_charts::{
-    Chart, Figure, Series,
-    palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},
-};
+use spunlaid::simulation::{DECLARED, Kind, Measure};
+use spunlaid_charts::palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION};
+use spunlaid_charts::{Chart, Figure, Series};
 use std::collections::BTreeMap;
 
 /// Most runs in one picture.

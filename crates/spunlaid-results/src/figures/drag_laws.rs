@@ -1,10 +1,8 @@
 //! The pictures of the drag laws in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
 
-use spunlaid::fibre::drag::{FrictionLaw, NormalLaw};
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION},
-};
+use spunlaid::fibre::{FrictionLaw, NormalLaw};
+use spunlaid_charts::palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 use std::fs;
 
 const CYLINDERS: &str = include_str!("../../../spunlaid/tests/published/cylinders.csv");

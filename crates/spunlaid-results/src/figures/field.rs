@@ -1,14 +1,11 @@
 //! A CFD field around the way of a fibre: how line and field lie to each other.
 
-use spunlaid::air::field::Hint;
-use spunlaid::air::motion::PlacedField;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::vec3::Vec3;
-use spunlaid::simulation::ensemble::Results;
-use spunlaid_charts::{
-    Axis, Chart, Figure, Map, Series, Shades,
-    palette::{INK, ORANGE, VERMILION},
-};
+use spunlaid::air::{Hint, PlacedField};
+use spunlaid::fibre::Case;
+use spunlaid::ground::Vec3;
+use spunlaid::simulation::Results;
+use spunlaid_charts::palette::{INK, ORANGE, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Map, Series, Shades};
 
 const MM: f64 = 1e3;
 /// Columns and rows of a slice.

@@ -2,13 +2,10 @@
 //! the values are.
 
 use crate::numbers::significant;
-use spunlaid::experiment::fit::{Fit, FittedKey, FittedNumber, Texture};
-use spunlaid::ground::statistics::NORMAL_95;
-use spunlaid::ground::units::Dimension;
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREY, INK, VERMILION},
-};
+use spunlaid::experiment::{Fit, FittedKey, FittedNumber, Texture};
+use spunlaid::ground::{Dimension, NORMAL_95};
+use spunlaid_charts::palette::{BLUE, GREY, INK, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 const MM: f64 = 1e3;
 const PER_CENT: f64 = 100.0;

@@ -1,12 +1,10 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::ground::Vec3;
 use spunlaid::input::paper::{LateralEstimates, Parameter, TrendPoint};
-use spunlaid::simulation::ensemble::{Place, SpectrumPoint};
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, VERMILION},
-};
+use spunlaid::simulation::{Place, SpectrumPoint};
+use spunlaid_charts::palette::{BLUE, GREEN, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;

@@ -1,15 +1,11 @@
 //! Made-up results for the tests.
 
-use spunlaid::air::motion::Air;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::case::{Case, Run};
+use spunlaid::air::Air;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::flight::LaidPoint;
-use spunlaid::fibre::line::{Contact, Line};
-use spunlaid::ground::vec3::Vec3;
-use spunlaid::simulation::ensemble::{Results, Sample, Shape, SpectrumPoint, Trajectory};
-use spunlaid::simulation::observe::{DECLARED, Kind, Measure, Value};
+use spunlaid::fibre::{Case, Contact, Drag, Fibre, FrictionLaw, LaidPoint, Line, NormalLaw, Root, Run};
+use spunlaid::ground::Vec3;
+use spunlaid::simulation::ensemble::Sample;
+use spunlaid::simulation::{DECLARED, Kind, Measure, Results, Shape, SpectrumPoint, Trajectory, Value};
 
 /// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
 pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
@@ -40,7 +36,7 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: spunlaid::fibre::case::Checks::default(),
+            checks: spunlaid::fibre::Checks::default(),
         },
     }
 }

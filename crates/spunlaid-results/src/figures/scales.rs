@@ -3,8 +3,8 @@
 use super::run::measured::axes;
 use super::study::FactorAxis;
 use super::with_unit;
-use spunlaid::experiment::study::Study;
-use spunlaid::simulation::observe::{Measure, Unit};
+use spunlaid::experiment::Study;
+use spunlaid::simulation::{Measure, Unit};
 use spunlaid_charts::{Axis, Spacing};
 
 /// How values in SI units stand on an axis.

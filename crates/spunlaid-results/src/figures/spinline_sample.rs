@@ -1,10 +1,8 @@
 //! Spinlines for tests, as a user would write them.
 
-use spunlaid::fibre::drag::FrictionLaw;
-use spunlaid::fibre::spinline::{AirTable, Curtain, Melt, Polymer, Solution, Spinline, Surroundings};
-use spunlaid::ground::effects::{Change, ChangedKey, Effect, Setting, Tried};
-use spunlaid::ground::statistics::Difference;
-use spunlaid::ground::units::Dimension;
+use spunlaid::fibre::spinline::Curtain;
+use spunlaid::fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
+use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried};
 use spunlaid::input::{Influence, OfFilament};
 
 /// Friction between thread and air.

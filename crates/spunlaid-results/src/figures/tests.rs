@@ -1,8 +1,7 @@
 //! Every figure of every run can be drawn.
 
 use super::{run_figures, sample};
-use spunlaid::simulation::ensemble::SpectrumPoint;
-use spunlaid::simulation::observe::Kind;
+use spunlaid::simulation::{Kind, SpectrumPoint};
 use spunlaid_charts::{Figure, pdf, png, svg};
 
 fn check(figures: &[Figure]) {

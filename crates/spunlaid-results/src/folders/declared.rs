@@ -10,16 +10,16 @@ use crate::output::spinline::SpinResults;
 use crate::output::web::{Performance, summary_of_scan};
 use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::input::{parse_spinline, parse_web};
-use spunlaid::simulation::layers::Flyer;
-use spunlaid::simulation::observe::{
-    Measure, OF_COMPONENTS, OF_FABRICS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES,
-    OF_WEBS, Value, measured, with_errors,
+use spunlaid::simulation::observe::{measured, with_errors};
+use spunlaid::simulation::{
+    Flyer, Measure, OF_COMPONENTS, OF_FABRICS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS,
+    OF_SPINLINES, OF_WEBS, Value,
 };
 use spunlaid::web::fabric::of_scan;
-use spunlaid::web::map::{FewDoubt, FewFilamentsCv, Findings, LayControl, PatchFindings};
-use spunlaid::web::scan::{self, Format, Light, Picture};
+use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::{FewDoubt, FewFilamentsCv, Format, LayControl, Light, Picture, scan};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -3,8 +3,8 @@
 use crate::Failure;
 use crate::output::web::MapFile;
 use serde_json::Value as Json;
-use spunlaid::experiment::fit::{MeasuredPatch, MeasuredWeb};
-use spunlaid::ground::error::{Error, Fault};
+use spunlaid::experiment::{MeasuredPatch, MeasuredWeb};
+use spunlaid::ground::{Error, Fault};
 use spunlaid::web::scan::Doubt;
 use std::fs;
 use std::path::Path;

@@ -15,7 +15,7 @@ use crate::output::folder::{MARKS, Staging, refuse_others};
 use crate::output::leftovers;
 use crate::output::origin::{ORIGIN, Origin};
 use crate::output::pictures::FigureFiles;
-use spunlaid::experiment::study::{Header, Journal, JournalState};
+use spunlaid::experiment::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

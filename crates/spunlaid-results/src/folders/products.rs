@@ -20,12 +20,12 @@ use crate::report::{
     air_report, analysis_report, paper_report, scan_report, sources_report, spinline_report,
 };
 use serde_json::json;
-use spunlaid::air::record::{Analysis, Record};
-use spunlaid::experiment::claim::Claim;
-use spunlaid::fibre::case::Case;
+use spunlaid::air::{Analysis, Record};
+use spunlaid::experiment::Claim;
+use spunlaid::fibre::Case;
 use spunlaid::input::SpinFile;
-use spunlaid::simulation::ensemble::Sources;
-use spunlaid::web::fabric::Fabric;
+use spunlaid::simulation::Sources;
+use spunlaid::web::Fabric;
 use spunlaid::web::scan::Findings;
 use spunlaid_charts::Figure;
 

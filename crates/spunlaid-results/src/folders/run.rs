@@ -11,11 +11,11 @@ use crate::output::spinline::{SpinResults, write_stations};
 use crate::output::summary::{Performance, summary};
 use crate::output::{doubt, paraview};
 use crate::report::run_report;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::simulation::ensemble::{
+use spunlaid::fibre::Case;
+use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
+use spunlaid::simulation::{
     FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunControl, RunPaths,
-    fly_for_checks, turbulence_spectrum,
 };
 use spunlaid_charts::Figure;
 

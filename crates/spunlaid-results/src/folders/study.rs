@@ -12,12 +12,10 @@ use crate::output::study::write_json;
 use crate::output::table::TABLES;
 use crate::output::{self};
 use crate::report::study_report;
-use spunlaid::experiment::claim::Claim;
-use spunlaid::experiment::study::{
-    Experiment, Header, Journal, JournalState, PointResults, Rankings, judge, rankings,
-};
-use spunlaid::fibre::case::MOST_REPLICATES;
-use spunlaid::ground::error::Fault;
+use spunlaid::experiment::study::{judge, rankings};
+use spunlaid::experiment::{Claim, Experiment, Header, Journal, JournalState, PointResults, Rankings};
+use spunlaid::fibre::MOST_REPLICATES;
+use spunlaid::ground::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use std::fs;
 use std::io::{self, Write};

@@ -6,9 +6,8 @@
 //!
 //! Nothing here ends a command: what cannot be kept or read is flown again.
 
-use spunlaid::experiment::advice::Shelf;
-use spunlaid::ground::effects::{Effect, Outcome};
-use spunlaid::ground::statistics::Difference;
+use spunlaid::experiment::Shelf;
+use spunlaid::ground::{Difference, Effect, Outcome};
 use std::collections::HashMap;
 use std::fs::{self, OpenOptions};
 use std::io::Write;

@@ -12,15 +12,13 @@ use crate::output::spinline::{STATIONS, SpinResults, part_of_case, write_station
 use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance};
 use crate::report::{Advised, LayerSpinline, web_report};
-use spunlaid::experiment::advice::Advice;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::load::Load;
-use spunlaid::fibre::spinline::Solution;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::experiment::Advice;
+use spunlaid::fibre::{Case, Load, Solution};
+use spunlaid::ground::Isa;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
-use spunlaid::simulation::layers::{FlownWeb, LayerFibres};
-use spunlaid::web::fabric::Fabric;
-use spunlaid::web::map::{Findings, LayControl, Web, strands};
+use spunlaid::simulation::{FlownWeb, LayerFibres};
+use spunlaid::web::map::{Findings, strands};
+use spunlaid::web::{Fabric, LayControl, Web};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
@@ -125,7 +123,7 @@ impl Contents for WebFolder<'_> {
 
 /// What layers were laid from, for the files.
 fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
-    let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::map::Layer))| {
+    let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = layers.get(i).and_then(LayerFibres::residual);
         let surrogate = drawn.fibres.surrogate();
         Layer {

@@ -4,7 +4,7 @@ use super::measured::{known, mean};
 use crate::effects::difference_text;
 use crate::numbers::plus_minus;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::statistics::{Difference, Estimate};
+use spunlaid::ground::{Difference, Estimate};
 
 /// Two runs, measure by measure.
 #[derive(Clone, Debug)]

@@ -2,10 +2,9 @@
 //! the headline states.
 
 use crate::numbers::plus_minus;
-use spunlaid::fibre::case::{Case, Checks};
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
+use spunlaid::fibre::{Case, Checks};
+use spunlaid::ground::{Dimension, Estimate};
+use spunlaid::simulation::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
 
 /// Error of step or mesh that is small enough [-].
 pub(super) const FINE_ENOUGH: f64 = 0.03;
@@ -217,7 +216,7 @@ mod tests {
     use super::*;
     use crate::figures::sample;
     use spunlaid::fibre::chain::schemes::Scheme;
-    use spunlaid::simulation::ensemble::Statistic;
+    use spunlaid::simulation::Statistic;
 
     fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {
         let statistic = Statistic::all().find(|statistic| statistic.name == "spread").unwrap();

@@ -2,11 +2,10 @@
 
 use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, unchecked};
 use crate::numbers::significant;
-use spunlaid::air::motion::EddyModel;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::ensemble::{Change, FinerCheck, FinerChecks, Refinement, Results};
+use spunlaid::air::EddyModel;
+use spunlaid::fibre::Case;
+use spunlaid::ground::{Dimension, Estimate};
+use spunlaid::simulation::{Change, FinerCheck, FinerChecks, Refinement, Results};
 
 /// A check: what is compared, and what it says, in sentences.
 pub type CheckWords = (String, Vec<String>);
@@ -173,7 +172,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
 mod tests {
     use super::*;
     use spunlaid::fibre::chain::schemes::Scheme;
-    use spunlaid::simulation::ensemble::Statistic;
+    use spunlaid::simulation::Statistic;
 
     fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
         let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };

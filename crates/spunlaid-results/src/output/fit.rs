@@ -6,7 +6,7 @@ use super::versioned_json;
 use crate::Failure;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::fit::{
+use spunlaid::experiment::{
     Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, Parameter, Target, Texture, USUAL_WEBS,
 };
 

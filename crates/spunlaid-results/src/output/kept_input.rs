@@ -3,8 +3,7 @@
 
 use super::folder::{CASE_FILES, Staging};
 use crate::Failure;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::spinline::SpinSpec;
+use spunlaid::fibre::{Case, SpinSpec};
 use spunlaid::input::{WebSpec, write_case, write_spinline, write_web};
 use std::collections::BTreeMap;
 use std::fs;

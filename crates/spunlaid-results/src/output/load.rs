@@ -3,9 +3,8 @@
 use super::measured::values;
 use super::spinline::SpinResults;
 use serde_json::Value as Json;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::load::{Load, WayPlace};
-use spunlaid::simulation::observe::{OF_LOAD_PLACES, OF_LOADS};
+use spunlaid::fibre::{Case, Load, WayPlace};
+use spunlaid::simulation::{OF_LOAD_PLACES, OF_LOADS};
 
 /// The load of the filaments of a case; None for a fibre of fixed length.
 ///

@@ -3,8 +3,9 @@
 use crate::numbers::{number_to, plus_minus};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::observe::{ErrorRole, Measure, Measured, measured};
+use spunlaid::ground::Estimate;
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{ErrorRole, Measure, Measured};
 
 /// The values of some measures by their names, in their order, those of a group together; null where there is none.
 pub fn values<T>(measures: &'static [Measure<T>], found: &T) -> Json {

@@ -3,10 +3,10 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::vec3::Vec3;
-use spunlaid::simulation::ensemble::{Shape, Trajectory};
-use spunlaid::web::map::Strand;
+use spunlaid::fibre::Case;
+use spunlaid::ground::Vec3;
+use spunlaid::simulation::{Shape, Trajectory};
+use spunlaid::web::Strand;
 use std::fmt::Write;
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.

@@ -4,8 +4,8 @@
 use super::table::TableFormat;
 use crate::Failure;
 use crate::failure::undrawable;
+use spunlaid::ground::Dimension;
 use spunlaid::ground::threads::each;
-use spunlaid::ground::units::Dimension;
 use spunlaid_charts::{Figure, Picture, PictureError, pdf, png, svg};
 use std::borrow::Borrow;
 use std::thread::available_parallelism;

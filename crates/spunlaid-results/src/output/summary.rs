@@ -4,12 +4,10 @@ use super::measured::{joined, known};
 use super::{doubt, load, spinline, versioned_json};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Content, Value};
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::ensemble::{FinerCheck, FinerChecks, LostFibre, Number, Results};
-use spunlaid::simulation::observe::Aggregate;
+use spunlaid::ground::{Dimension, Estimate};
+use spunlaid::simulation::{Aggregate, FinerCheck, FinerChecks, LostFibre, Number, Results};
 use std::path::Path;
 
 /// The speed of the run. This is the only part that differs when a run is repeated.

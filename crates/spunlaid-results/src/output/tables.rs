@@ -1,6 +1,6 @@
 //! The tables of a run: their files and columns.
 
-use spunlaid::fibre::flight::LaidPoint;
+use spunlaid::fibre::LaidPoint;
 use spunlaid::simulation::ensemble::Sample;
 
 /// A column of doubles: its name with the unit, and its value at an instant.

@@ -5,7 +5,7 @@ use super::methods::{methods, of_case};
 use super::words::length;
 use crate::numbers::{THIN, significant};
 use crate::output::air::Slices;
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid_charts::Figure;
 
 /// The air of a case, in pictures.

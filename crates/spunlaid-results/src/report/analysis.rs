@@ -6,8 +6,8 @@ use super::table::{Content, Layout, Row, Table};
 use super::words::{count, time};
 use crate::numbers::{THIN, significant};
 use crate::output::analysis::{ResultRow, results};
-use spunlaid::air::record::{Analysis, Interval, Record};
-use spunlaid::ground::units::Dimension;
+use spunlaid::air::{Analysis, Interval, Record};
+use spunlaid::ground::Dimension;
 use spunlaid_charts::Figure;
 
 /// What was found in a velocity record.

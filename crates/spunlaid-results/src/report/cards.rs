@@ -9,9 +9,9 @@ use crate::Failure;
 use crate::numbers::{THIN, significant};
 use crate::output::web::{HOUR, Layer, fabric_rows};
 use spunlaid::experiment::plausible::implausible;
-use spunlaid::simulation::layers::{LayerSpec, WebSpec};
-use spunlaid::web::fabric::Fabric;
-use spunlaid::web::map::{Findings, Map};
+use spunlaid::simulation::{LayerSpec, WebSpec};
+use spunlaid::web::map::Findings;
+use spunlaid::web::{Fabric, Map};
 use std::f64::consts::PI;
 
 /// What is asked, the answers, and what is to be said of them.

@@ -2,7 +2,7 @@
 
 use super::document::Section;
 use super::table::{Cell, Row, Table, Tone};
-use spunlaid::experiment::claim::{Claim, Verdict};
+use spunlaid::experiment::{Claim, Verdict};
 
 /// A row for each claim, with its figure if it is about one.
 ///

@@ -7,7 +7,7 @@ use super::pictures::{Beside, ComparedPictures, caption};
 use super::table::{Cell, Row, Table, Tone};
 use super::view::View;
 use crate::output::comparison::{ComparedMeasure, Comparison};
-use spunlaid::ground::statistics::Difference;
+use spunlaid::ground::Difference;
 use spunlaid_charts::Figure;
 
 /// Results beside each other.

@@ -9,10 +9,9 @@ use crate::command::web_command;
 use crate::effects::{PER_CENT, describe, difference_text, label};
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::output::web::HOUR;
-use spunlaid::experiment::advice::{Advice, ChangedWeb, Tried};
-use spunlaid::ground::effects::{Effect, NAMED, Setting};
-use spunlaid::ground::statistics::Difference;
-use spunlaid::simulation::layers::WebSpec;
+use spunlaid::experiment::{Advice, ChangedWeb, Tried};
+use spunlaid::ground::{Difference, Effect, NAMED, Setting};
+use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::Findings;
 
 /// What was tried with a web.

@@ -4,10 +4,11 @@ use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use super::words::millimetres;
 use crate::output::web::known_text;
-use spunlaid::simulation::observe::{
-    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT, measured,
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{
+    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT,
 };
-use spunlaid::web::fabric::Fabric;
+use spunlaid::web::Fabric;
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {

@@ -5,9 +5,9 @@ use super::methods::{MOMENTS, methods, of_web};
 use super::table::{Row, Table};
 use crate::numbers::significant;
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
-use spunlaid::experiment::fit::{Fit, FittedKey, FittedNumber, KeyDoubt, Target, Texture};
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::layers::WebSpec;
+use spunlaid::experiment::{Fit, FittedKey, FittedNumber, KeyDoubt, Target, Texture};
+use spunlaid::ground::Dimension;
+use spunlaid::simulation::WebSpec;
 use spunlaid_charts::Figure;
 
 /// Values of a web that make it like a scan.

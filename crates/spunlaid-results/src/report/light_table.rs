@@ -8,8 +8,7 @@ use crate::output::web::light_table;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::web::fabric::{Fabric, Marked, Marks, Streak, StripPlace};
-use spunlaid::web::map::{Map, Strand, Window};
+use spunlaid::web::{Fabric, Map, Marked, Marks, Strand, Streak, StripPlace, Window};
 
 const MM: f64 = 1e3;
 /// Most pixels of the picture of the web: a page of some megabytes.

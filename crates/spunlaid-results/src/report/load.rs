@@ -4,8 +4,9 @@ use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::fibre::load::{Load, LoadPlace};
-use spunlaid::simulation::observe::{Measured, OF_LOAD_PLACES, OF_LOADS, measured};
+use spunlaid::fibre::{Load, LoadPlace};
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measured, OF_LOAD_PLACES, OF_LOADS};
 
 const TITLE: &str = "What the filaments do to their air";
 

@@ -2,8 +2,8 @@
 //! cited.
 
 use crate::report::document::{Part, Section};
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::layers::WebSpec;
+use spunlaid::fibre::Case;
+use spunlaid::simulation::WebSpec;
 
 /// A paragraph to copy, and below it the works that it cites, each once, the program first.
 ///
@@ -36,7 +36,7 @@ pub(super) fn methods(command: &str, cited: Vec<Reference>, input: &str) -> Sect
 }
 
 /// A work that is cited. A law of the drag names its own.
-pub(in crate::report) use spunlaid::fibre::drag::Source as Reference;
+pub(in crate::report) use spunlaid::fibre::Source as Reference;
 
 /// The program itself.
 pub(in crate::report) const PROGRAM: Reference = Reference {
@@ -89,7 +89,7 @@ pub(in crate::report) fn of_web(spec: &WebSpec) -> Vec<Reference> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::fibre::drag::{FrictionLaw, NormalLaw};
+    use spunlaid::fibre::{FrictionLaw, NormalLaw};
 
     fn file(name: &str) -> String {
         std::fs::read_to_string(format!("{}/../../{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()

@@ -4,8 +4,8 @@ use super::claims::{claim_table, claims_in_short};
 use super::document::{Report, Section};
 use super::methods::{methods, of_case};
 use super::table::{Row, Table};
-use spunlaid::experiment::claim::{Claim, Verdict};
-use spunlaid::fibre::case::Case;
+use spunlaid::experiment::{Claim, Verdict};
+use spunlaid::fibre::Case;
 use spunlaid_charts::Figure;
 
 /// What the paper claims, and what was found.

@@ -15,9 +15,8 @@ use crate::output::finer::{self, CheckWords};
 use crate::output::load::load_of_spinline;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::ensemble::{FinerChecks, Number, Results};
-use spunlaid::simulation::observe::{DECLARED, Kind};
+use spunlaid::fibre::Case;
+use spunlaid::simulation::{DECLARED, FinerChecks, Kind, Number, Results};
 use spunlaid_charts::Figure;
 
 /// A run. The page has less than 6 MB.

@@ -3,9 +3,8 @@
 use super::table::{Content, Layout, Row, Table};
 use super::words::{estimate_text, unbroken};
 use crate::numbers::{number, signed};
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::ensemble::{Number, Results};
-use spunlaid::simulation::observe::Aggregate;
+use spunlaid::ground::Estimate;
+use spunlaid::simulation::{Aggregate, Number, Results};
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;

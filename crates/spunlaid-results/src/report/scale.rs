@@ -8,8 +8,9 @@ use crate::numbers::{THIN, significant};
 use crate::output::web::with_clouds;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use spunlaid::web::Map;
+use spunlaid::web::map::PatchFindings;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Map, PatchFindings};
 
 /// The CVs of the pictures.
 const LEVELS: [f64; 5] = [0.03, 0.06, 0.1, 0.15, 0.2];

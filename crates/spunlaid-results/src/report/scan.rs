@@ -15,11 +15,12 @@ use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::web::Performance;
-use spunlaid::simulation::observe::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS, measured};
-use spunlaid::web::fabric::Fabric;
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS};
+use spunlaid::web::map::nearest_to_seen;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Map, nearest_to_seen};
 use spunlaid::web::scan::{Doubt, Findings, PatchFindings};
+use spunlaid::web::{Fabric, Map};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 

@@ -6,10 +6,9 @@ use super::table::Table;
 use super::words::{estimate_text, quantity};
 use crate::numbers::{THIN, number, plus_minus};
 use crate::output::sources::has_order_of_openfoam;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::spinline::ZERO_CELSIUS;
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::ensemble::Sources;
+use spunlaid::fibre::{Case, ZERO_CELSIUS};
+use spunlaid::ground::Estimate;
+use spunlaid::simulation::Sources;
 
 /// What filaments do to the cells of their field.
 ///

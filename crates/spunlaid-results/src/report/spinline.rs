@@ -9,10 +9,10 @@ use crate::numbers::{THIN, number_to, significant};
 use crate::output::measured::text;
 use crate::output::spinline::{SpinResults, freezing, influence, model_error, numerical_error};
 use crate::output::web::Layer;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::spinline::{End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
-use spunlaid::simulation::observe::{Measured, OF_SPINLINES, measured};
-use spunlaid::web::map::Web;
+use spunlaid::fibre::{Case, End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measured, OF_SPINLINES};
+use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
 /// Influences that are told in a sentence each.

@@ -9,10 +9,8 @@ use super::words::count;
 use crate::figures::name_of_key;
 use crate::numbers::{THIN, number};
 use crate::output::study::shown;
-use spunlaid::experiment::claim::Claim;
-use spunlaid::experiment::study::{Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
-use spunlaid::ground::effects::Effect;
-use spunlaid::ground::statistics::Difference;
+use spunlaid::experiment::{Claim, Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
+use spunlaid::ground::{Difference, Effect};
 use spunlaid_charts::Figure;
 
 /// Largest number of points that are listed.

@@ -6,10 +6,9 @@ use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::drag::FrictionLaw;
+use spunlaid::fibre::{Case, FrictionLaw};
 use spunlaid::input::parse_spinline;
-use spunlaid::simulation::ensemble::{FinerChecks, Results, Unchecked};
+use spunlaid::simulation::{FinerChecks, Results, Unchecked};
 
 /// What a run cost.
 const PERFORMANCE: Performance = Performance {

@@ -3,8 +3,9 @@
 use super::words::{count, millimetres, time};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::web::Performance;
+use spunlaid::web::Clouds;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Clouds, Findings, nearest_to_seen};
+use spunlaid::web::map::{Findings, nearest_to_seen};
 
 pub(super) const PER_CENT: f64 = 100.0;
 

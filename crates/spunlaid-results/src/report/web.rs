@@ -19,13 +19,12 @@ use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
 use crate::output::web::{Layer, PatchTable, Performance};
-use spunlaid::fibre::charge::BREAKDOWN;
-use spunlaid::fibre::load::Load;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::layers::WebSpec;
-use spunlaid::web::fabric::Fabric;
+use spunlaid::fibre::{BREAKDOWN, Load};
+use spunlaid::ground::Dimension;
+use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{ChargedCurtain, Findings, PatchFindings, Strand, Web};
+use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
 use spunlaid_charts::Figure;
 
 /// A web.

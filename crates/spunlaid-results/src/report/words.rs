@@ -2,12 +2,11 @@
 
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
 use crate::output::doubt;
-use spunlaid::air::motion::EddyModel;
-use spunlaid::fibre::body::Root;
-use spunlaid::fibre::case::Case;
+use spunlaid::air::EddyModel;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::ensemble::{FinerChecks, Results};
+use spunlaid::fibre::{Case, Root};
+use spunlaid::ground::Estimate;
+use spunlaid::simulation::{FinerChecks, Results};
 
 /// A result with its standard error, `factor` converts the unit.
 pub(super) fn estimate_text(estimate: &Estimate, factor: f64) -> String {

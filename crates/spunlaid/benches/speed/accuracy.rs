@@ -3,10 +3,10 @@
 use crate::common::table1;
 use crate::flights::{compare, trajectories_of};
 use crate::title;
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::lanes::WIDTH;
-use spunlaid::simulation::ensemble::Trajectory;
+use spunlaid::ground::WIDTH;
+use spunlaid::simulation::Trajectory;
 
 /// Table 1, and a fibre of 18 µm in elements of a millimetre.
 pub fn of_steps() {

@@ -2,9 +2,8 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::flight::{Flight, Job};
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::fibre::{Case, Flight, Job};
+use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::read_case;
 use std::path::Path;
 

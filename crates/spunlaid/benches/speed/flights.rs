@@ -1,9 +1,10 @@
 //! Whole flights for the tables of speed and accuracy: Table 1 by any scheme and step, and how far its
 //! paths are off.
 
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::simulation::ensemble::{Job, Keep, RunControl, Sample, Trajectory, fly_together};
+use spunlaid::fibre::Case;
+use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::{Sample, fly_together};
+use spunlaid::simulation::{Job, Keep, RunControl, Trajectory};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The first eight flights of a case, on this thread.

@@ -3,12 +3,10 @@
 use crate::common::*;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::body::Fibre;
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::fibre::{Fibre, Flight, Strand};
+use spunlaid::ground::{Isa, WIDTH};
 
 /// The step each scheme is flown with: the paper's, and those with a like error or better.
 pub const STEPS: [(Scheme, f64); 5] = [

@@ -2,9 +2,9 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::ground::lanes::{Isa, Lanes, WIDTH};
-use spunlaid::web::map::{Fibres, Filaments, LayControl, Layer, Sheet, Web, lay};
-use spunlaid::web::surrogate::{PathKey, Paths, Surrogate};
+use spunlaid::ground::{Isa, Lanes, WIDTH};
+use spunlaid::web::map::{Filaments, lay};
+use spunlaid::web::{Fibres, LayControl, Layer, PathKey, Paths, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };

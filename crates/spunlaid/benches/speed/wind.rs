@@ -4,9 +4,9 @@ use crate::common::*;
 use crate::kernel::Setup;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::motion::{Air, StreamKey, Wind};
+use spunlaid::air::{Air, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::ground::{Isa, WIDTH};
 use std::hint::black_box;
 
 /// Synthesis per second of a fibre, and what the wind adds to a step.

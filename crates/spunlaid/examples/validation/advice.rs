@@ -3,13 +3,14 @@
 //! All cores fly; a line takes some minutes of sixteen. `validation advice slot` looks at one of them.
 
 use crate::title;
-use spunlaid::experiment::advice::{Change, Tried, advise};
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::Difference;
+use spunlaid::experiment::advice::advise;
+use spunlaid::experiment::{Change, Tried};
 use spunlaid::ground::threads::each;
+use spunlaid::ground::{Difference, Isa};
 use spunlaid::input::{Changes, Overrides, WebSpec, parse_changes, parse_web};
-use spunlaid::simulation::layers::Flyer;
-use spunlaid::web::map::{Findings, LayControl, Web, nearest_to_seen};
+use spunlaid::simulation::Flyer;
+use spunlaid::web::map::{Findings, nearest_to_seen};
+use spunlaid::web::{LayControl, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -176,7 +177,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
 }
 
 fn label(change: &Change) -> String {
-    let key = |key: &spunlaid::ground::effects::ChangedKey| format!("{} {}", key.key, key.pretty(key.to));
+    let key = |key: &spunlaid::ground::ChangedKey| format!("{} {}", key.key, key.pretty(key.to));
     change.keys.first().map_or_else(String::new, key)
 }
 

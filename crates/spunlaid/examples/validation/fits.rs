@@ -9,8 +9,7 @@ pub(crate) fn intervals() {
     let truth = [16.0, 350.0];
     for spectrum in [false, true] {
         let fits = closed_loops(&["laydown.noise", "line.filaments_per_metre"], &truth, spectrum, (100, 20));
-        let mean =
-            |of: &dyn Fn(&spunlaid::experiment::fit::Fit) -> f64| fits.iter().map(of).sum::<f64>() / 100.0;
+        let mean = |of: &dyn Fn(&spunlaid::experiment::Fit) -> f64| fits.iter().map(of).sum::<f64>() / 100.0;
         let with = if spectrum { "patches and spectrum" } else { "patches" };
         let trials = mean(&|fit| fit.trials.len() as f64);
         let strange = fits.iter().filter(|fit| fit.worse == 0).count();

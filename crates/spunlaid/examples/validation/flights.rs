@@ -2,16 +2,12 @@
 
 use crate::common::*;
 use crate::title;
-use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::FrictionLaw;
-use spunlaid::fibre::flight::{Flight, Snapshot};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::simulation::ensemble::{Keep, Number, Results, RunControl, fly};
+use spunlaid::fibre::{Case, Flight, FrictionLaw, Snapshot, Strand};
+use spunlaid::ground::{Error, Estimate, Isa, WIDTH};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{Keep, Number, Results, RunControl};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 

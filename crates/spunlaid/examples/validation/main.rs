@@ -41,7 +41,7 @@ fn main() {
         scans::intervals();
         return scans::spots();
     }
-    println!("kernel: {}", spunlaid::ground::lanes::Isa::detect().name());
+    println!("kernel: {}", spunlaid::ground::Isa::detect().name());
     mechanics::forces();
     mechanics::terminal_velocity();
     mechanics::cantilevers();

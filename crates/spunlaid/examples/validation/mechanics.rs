@@ -5,12 +5,9 @@ use crate::common::modes::{frequency_of, vibrations};
 use crate::common::reference::{ReferenceDrag, forces as scalar_forces};
 use crate::common::*;
 use crate::title;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::chain::Strand;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::ground::{Isa, Vec3};
 use std::f64::consts::PI;
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };

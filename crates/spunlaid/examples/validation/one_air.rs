@@ -1,13 +1,13 @@
 //! The numbers of webs in one air and of their fabrics: the errors that are told, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::ground::threads::each;
 use spunlaid::input::parse_web;
-use spunlaid::simulation::layers::Flyer;
-use spunlaid::simulation::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS, measured};
-use spunlaid::web::fabric::Fabric;
-use spunlaid::web::map::{Findings, LayControl, PatchFindings};
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Flyer, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
+use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::{Fabric, LayControl};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SEEDS: usize = 24;

@@ -2,9 +2,9 @@
 
 use super::pictures::{PIXEL, beside, exposed, file, light, piece, spoiled, spotted, web};
 use super::title;
-use spunlaid::web::map::Map;
 use spunlaid::web::map::uniformity::unevenness;
-use spunlaid::web::scan::{Findings, Light, Picture, Settings, analyse, parse};
+use spunlaid::web::scan::{Findings, analyse, parse};
+use spunlaid::web::{Light, Map, Picture, Settings};
 
 /// Columns and rows of a piece.
 const SIZE: [usize; 2] = [400, 500];

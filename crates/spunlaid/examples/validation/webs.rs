@@ -1,13 +1,11 @@
 //! Errors of small webs of each kind, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::ground::statistics::{difference_of_deviations, interval_of_deviation};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::map::{
-    Clouds, Edges, Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, find, lay,
-};
-use spunlaid::web::surrogate::Surrogate;
+use spunlaid::web::map::{Filaments, find, lay};
+use spunlaid::web::{Clouds, Edges, Fibres, LayControl, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

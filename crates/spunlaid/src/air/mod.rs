@@ -11,3 +11,23 @@ pub mod field;
 pub mod motion;
 
 pub mod record;
+
+// The face of the wing: the types that others know by it. Functions are called by their room.
+pub(crate) use field::ReadField;
+pub use field::{
+    AirAround, BlockKind, Cells, Description, Field, FieldCells, FieldLayout, Hint, Local, Shape, Spread,
+    Values,
+};
+pub use motion::{
+    APART, Air, AirAtPlaces, AirInSpace, Atmosphere, Axis, Eddies, EddyField, EddyModel, EddyTurbulence,
+    EddyWind, Extent, FileContent, Flow, FlowNumbers, LENGTH_CONSTANT, Lateral, LocalAir, Measured,
+    PlaceAxes, PlacedField, Profile, RecordLayout, RecordNumbers, SUTHERLAND_RANGE, Spectrum, SpectrumShape,
+    SpectrumTable, StationGrid, Stations, Stream, StreamKey, Surroundings, TIME_CONSTANT, Widening, Wind,
+};
+pub(crate) use motion::{
+    HEAT_CAPACITY_OF_AIR, Instant, LastEddy, Room, Sampling, Velocities, VelocityAt, VelocityTask, Way,
+};
+pub use record::{
+    Analysis, Component, IntegralRule, Interval, LONGEST_GAP, Layout, Reading, Record, Samples, Settings,
+    SpectrumSettings,
+};

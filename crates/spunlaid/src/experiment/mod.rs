@@ -11,3 +11,17 @@ pub mod study;
 
 pub mod advice;
 pub mod fit;
+
+// The face of the wing: the types that others know by it. Functions are called by their room.
+pub use advice::{Advice, Change, ChangedWeb, MOST_STEPS, Shelf, Tried};
+pub use claim::{CHANCE, Claim, REAL, Verdict};
+pub use fit::{
+    FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, MOST_TRIALS, MeasuredPatch,
+    MeasuredWeb, Parameter, Question, Target, Texture, USUAL_FACTOR, USUAL_WEBS, WebInProgress,
+};
+pub use study::{
+    Batch, Bundles, Contrast, Design, Experiment, Factor, Header, Journal, JournalState, Levels, Link, Point,
+    PointResults, Progress, Quantity, Ranking, Rankings, Record, ReplicateOutcome, Replicates, Rounds, STUDY,
+    Spacing, Statement, Study, StudyClaim, Way,
+};
+pub(crate) use study::{MOST_POINTS, MOST_REPLICATES, RANGE};

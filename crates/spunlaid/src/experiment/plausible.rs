@@ -1,8 +1,8 @@
 //! Whether the numbers of a line are such as spunbond lines have.
 
-use crate::fibre::case::{Note, Remark};
+use crate::fibre::{Note, Remark};
 use crate::ground::error::Place;
-use crate::simulation::layers::{LayerSpec, WebSpec};
+use crate::simulation::{LayerSpec, WebSpec};
 use std::fmt;
 
 /// A number of a line, with the range in which spunbond lines have it; `docs/line.md` says where that comes from.

@@ -1,6 +1,6 @@
 //! The fibre: geometry, material, mesh and root.
 
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 use std::f64::consts::PI;
 
 /// How the fibre's first node is held.

@@ -10,8 +10,8 @@ mod friction;
 mod normal;
 
 use crate::fibre::body::Fibre;
-use crate::ground::lanes::{Lanes, Register, Simd, WIDTH, Wide, exp2, log2, power};
-use crate::ground::vec3::Vec3;
+use crate::ground::lanes::{exp2, log2, power};
+use crate::ground::{Lanes, Register, Simd, Vec3, WIDTH, Wide};
 pub use boundary_layer::BoundaryLayer;
 pub use curve::Curve;
 pub use friction::FrictionLaw;

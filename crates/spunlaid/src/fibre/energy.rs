@@ -5,8 +5,8 @@ use crate::fibre::chain::forces::Element;
 use crate::fibre::chain::laying::CarriedEnergy;
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
-use crate::ground::lanes::{Isa, Lanes, Register, Task, Wide, bend_ratio};
-use crate::ground::vec3::Vec3;
+use crate::ground::lanes::bend_ratio;
+use crate::ground::{Isa, Lanes, Register, Task, Vec3, Wide};
 
 /// Energies [J] of eight chains at one instant, and the work done on them since the start.
 #[derive(Clone, Copy, Debug, Default)]

@@ -7,11 +7,10 @@
 //! The flights are in the air as it is given; a load says by how much the filaments would change it.
 //!                                                                            theory.md (116) to (119)
 
-use crate::air::field::Hint;
-use crate::air::motion::HEAT_CAPACITY_OF_AIR;
+use crate::air::{HEAT_CAPACITY_OF_AIR, Hint};
 use crate::fibre::case::Case;
 use crate::fibre::spinline::Solution;
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// Number of places at which a load is told, at equal distances from the inlet to the belt.
 const PLACES: usize = 10;

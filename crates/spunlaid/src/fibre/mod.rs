@@ -22,3 +22,24 @@ pub mod case;
 
 pub mod flight;
 pub mod load;
+
+// The face of the wing: the types that others know by it. Functions are called by their room.
+pub use body::{Fibre, Root};
+pub use case::{
+    Case, Checks, ERROR_TOLERANCE, FLIGHT_MEMORY_LIMIT, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run,
+    StepChoice,
+};
+pub use chain::Strand;
+pub use charge::{BREAKDOWN, Charge, ChargeEstimate, STRONG, SheetHeight};
+pub(crate) use charge::{ChargedNode, SheetField, Sheets};
+pub use drag::{BoundaryLayer, Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share, Source};
+pub use energy::Energy;
+pub(crate) use flight::{Common, SurroundingRun};
+pub use flight::{EndNodeMotion, Flight, Job, LaidPoint, Snapshot};
+pub use line::{Contact, Line};
+pub use load::{Heat, Load, LoadPlace, WayPlace};
+pub use spinline::{
+    AirChange, AirTable, End, Failure, FreezingCause, Law, Material, Melt, Polymer, PolymerFile,
+    PolymerSource, Solution, SpinSpec, Spinline, Station, Surroundings, ZERO_CELSIUS,
+};
+pub(crate) use spinline::{Cooled, SolidFilament};

@@ -3,12 +3,11 @@
 
 use super::open::OpenCase;
 use super::written_values::{WrittenValues, sorted};
-use crate::air::motion::EddyModel;
-use crate::fibre::body::Fibre;
+use crate::air::EddyModel;
 use crate::fibre::case::keys::{self, Value};
-use crate::fibre::case::{Case, MOST_STEPS, Note, Remark, StepChoice, too_many_steps, unusual, whole_parts};
-use crate::ground::error::{Error, Finding};
-use crate::ground::units::Dimension;
+use crate::fibre::case::{too_many_steps, unusual, whole_parts};
+use crate::fibre::{Case, Fibre, MOST_STEPS, Note, Remark, StepChoice};
+use crate::ground::{Dimension, Error, Finding};
 
 /// How many times longer a suitable step must be than the written one to be mentioned.
 const MUCH_LONGER: f64 = 50.0;

@@ -9,9 +9,9 @@ use super::entry::{Entry, VERSION, check_version, in_order, kind, read as read_v
 use super::source::Source;
 use super::written_values::{WrittenValue, WrittenValues};
 use crate::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
-use crate::ground::error::{Error, Fault, Finding, Place, Problem};
-use crate::ground::removed::Removed;
+use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
+use crate::ground::{Error, Fault, Finding, Problem, Removed};
 use crate::simulation::layers::full_names::without_numbers;
 use crate::simulation::layers::keys::WEB;
 use std::collections::BTreeMap;

@@ -3,10 +3,9 @@
 use super::FORMAT_VERSION;
 use super::source::{Source, fit};
 use crate::fibre::case::keys::{FileKind, Kind, Value};
-use crate::ground::error::{Fault, Finding, Place, Problem};
+use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
-use crate::ground::units::{Dimension, UnitAdvice};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Fault, Finding, Problem, UnitAdvice, Vec3};
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};

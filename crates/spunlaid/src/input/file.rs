@@ -1,8 +1,7 @@
 //! Reads the text of a file, which may turn out to be no text at all.
 
 use super::LARGEST_FILE;
-use crate::ground::error::{Error, Fault, FileError, FileKind, Position};
-use crate::ground::file;
+use crate::ground::{Error, Fault, FileError, FileKind, Position, file};
 use std::path::Path;
 
 /// Reads a UTF-8 file no larger than [`LARGEST_FILE`].

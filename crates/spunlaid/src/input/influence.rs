@@ -1,13 +1,10 @@
 //! What decides the diameter of a filament: every number of a spinline is changed a little.
 
 use super::spinline::SpinFile;
-use crate::fibre::case::Case;
 use crate::fibre::case::keys::{self, Key, Kind, Sign, Value};
-use crate::fibre::spinline::Solution;
-use crate::ground::effects::{Change, ChangedKey, Effect, Setting, Tried};
+use crate::fibre::{Case, Solution};
 use crate::ground::sort::sort_by_key;
-use crate::ground::statistics::Difference;
-use crate::ground::units::Dimension;
+use crate::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried};
 use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].

@@ -2,7 +2,7 @@
 
 use super::{document, file, spinline};
 use crate::fibre::case::keys;
-use crate::ground::error::FileKind;
+use crate::ground::FileKind;
 use std::path::Path;
 use toml::de::DeTable;
 

@@ -23,7 +23,7 @@ mod web;
 mod write;
 mod written_values;
 
-pub use crate::simulation::layers::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
+pub use crate::simulation::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use data::read_points;
 pub use influence::{Influence, OfFilament};
 pub use kind::kind_of;
@@ -37,10 +37,11 @@ pub use study::{
 pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
 
-use crate::experiment::study::Experiment;
+use crate::experiment::Experiment;
+use crate::fibre::case::keys;
 use crate::fibre::case::keys::{Key, Value};
-use crate::fibre::case::{Case, Note, keys};
-use crate::ground::error::{Error, Fault, FileError, FileKind};
+use crate::fibre::{Case, Note};
+use crate::ground::{Error, Fault, FileError, FileKind};
 use data::DataFiles;
 use open::OpenCase;
 use std::path::Path;

@@ -2,14 +2,11 @@
 
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
-use crate::air::field::FieldLayout;
-use crate::air::motion::{Flow, RecordLayout};
+use crate::air::{FieldLayout, Flow, RecordLayout};
 use crate::fibre::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
-use crate::fibre::case::{Case, Note, Remark};
-use crate::fibre::line::Line;
-use crate::fibre::spinline::Spinline;
-use crate::ground::error::{Error, Fault, FileError};
+use crate::fibre::{Case, Line, Note, Remark, Spinline};
 use crate::ground::sort::sort_by_key;
+use crate::ground::{Error, Fault, FileError};
 use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are

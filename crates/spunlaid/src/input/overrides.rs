@@ -5,7 +5,7 @@ use super::document::Document;
 use super::entry::Entry;
 use super::source::fit;
 use crate::fibre::case::keys::TableList;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";

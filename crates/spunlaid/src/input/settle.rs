@@ -6,12 +6,11 @@ use super::data::DataFiles;
 use super::open::OpenCase;
 use super::written_values::WrittenValues;
 use crate::fibre::case::keys;
-use crate::fibre::case::{Case, Note, Remark};
-use crate::fibre::spinline::End;
-use crate::ground::error::{Error, Fault, Finding};
+use crate::fibre::{Case, End, Note, Remark};
 use crate::ground::threads::{lock, try_each};
-use crate::ground::units::Dimension;
-use crate::simulation::ensemble::{Keep, RunControl, fly};
+use crate::ground::{Dimension, Error, Fault, Finding};
+use crate::simulation::ensemble::fly;
+use crate::simulation::{Keep, RunControl};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 

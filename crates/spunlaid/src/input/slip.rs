@@ -1,6 +1,7 @@
 //! What is wrong with a line that is not TOML, and the line as it should be.
 
-use crate::ground::error::{Fault, shortest};
+use crate::ground::Fault;
+use crate::ground::error::shortest;
 use crate::ground::units::readings;
 use toml::de::DeTable;
 

@@ -1,9 +1,9 @@
 //! The text of a TOML file, with line and column of each position.
 
-use super::slip::Unclosed;
-use super::slip::slip;
-use crate::ground::error::{Fault, Finding, Place, Position, Problem};
+use super::slip::{Unclosed, slip};
+use crate::ground::error::Place;
 use crate::ground::units::excerpt;
+use crate::ground::{Fault, Finding, Position, Problem};
 use std::ops::Range;
 
 /// The name and text of a file.

@@ -5,14 +5,13 @@ use super::data::DataFiles;
 use super::open::{OpenCase, open_part};
 use super::written_values::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, Resources, file, open_values, values_of_case, write};
-use crate::air::field::Hint;
-use crate::air::motion::Flow;
+use crate::air::{Flow, Hint};
 use crate::fibre::case::keys::{self, Key};
-use crate::fibre::case::{Case, Note, Remark};
-use crate::fibre::spinline::{AirTable, End, Failure, Melt, Solution, SpinSpec, Spinline, Surroundings};
-use crate::ground::error::{Error, Fault, FileKind, Place, Problem};
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::fibre::{
+    AirTable, Case, End, Failure, Melt, Note, Remark, Solution, SpinSpec, Spinline, Surroundings,
+};
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Error, Fault, FileKind, Problem, Vec3};
 use std::path::Path;
 
 /// The tables that describe a spinline.

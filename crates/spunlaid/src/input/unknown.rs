@@ -4,8 +4,8 @@ use super::document::Document;
 use super::entry::{Entry, VERSION};
 use super::source::fit;
 use crate::fibre::case::keys::{Key, Kind, Omission, TableList};
-use crate::ground::error::{Fault, Finding, one_of};
-use crate::ground::removed::Removed;
+use crate::ground::error::one_of;
+use crate::ground::{Fault, Finding, Removed};
 use toml::de::DeValue;
 
 impl<T> Document<'_, T> {

@@ -1,9 +1,11 @@
 //! Writes a case as a file that reads back to the same bits.
 
 use super::FORMAT_VERSION;
+use crate::fibre::Case;
 use crate::fibre::case::keys::{self, Key, KeyTable, Kind, Value};
-use crate::fibre::case::{Case, whole_parts};
-use crate::ground::units::{Dimension, shortest};
+use crate::fibre::case::whole_parts;
+use crate::ground::Dimension;
+use crate::ground::units::shortest;
 use std::path::Path;
 
 /// Writes a case as TOML: every key, in SI units.

@@ -1,7 +1,8 @@
 //! The values of a file by key, each with the place where it was written.
 
 use crate::fibre::case::keys::{self, Key, Omission, Value};
-use crate::ground::error::{Fault, Finding, Place, Problem};
+use crate::ground::error::Place;
+use crate::ground::{Fault, Finding, Problem};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

@@ -12,3 +12,22 @@ pub mod ensemble;
 pub mod beam;
 
 pub mod layers;
+
+// The face of the wing: the types that others know by it. Functions are called by their room.
+pub use beam::{Beam, BeamCharge, BeamControl, BeamFindings};
+pub use ensemble::{
+    CellSource, Change, Curtain, Curve, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
+    KeepShapes, LaidCurves, LostFibre, Number, Place, Recorder, Refinement, Results, RunControl, RunPaths,
+    Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
+};
+pub(crate) use layers::SAME;
+pub use layers::{
+    Compared, FewOfWeb, Flights, Flown, FlownWeb, Flyer, LaydownSource, LayerFibres, LayerSpec,
+    PlannedFlight, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec,
+};
+pub use observe::{
+    Aggregate, DECLARED, ErrorRole, Figure, Formula, KELVIN, Kind, LAYDOWN, MEASURES, Measure, Measured,
+    OF_COMPONENTS, OF_FABRIC_PATCHES, OF_FABRICS, OF_LOAD_PLACES, OF_LOADS, OF_PATCHES, OF_RECORDS,
+    OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_STREAKS, OF_STRIPS, OF_THINNEST, OF_WEBS, Observation,
+    Observer, PER_SQUARE_METRE, PERCENT, SURROGATE, Unit, Value,
+};

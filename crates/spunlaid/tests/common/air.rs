@@ -3,8 +3,8 @@
 
 use crate::meshes::{Block, Made, made, noise};
 use crate::vtk::{Data, Mesh};
-use spunlaid::air::field::{Field, Hint, Local};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Field, Hint, Local};
+use spunlaid::ground::Vec3;
 
 /// Samples in and around a unit cube.
 pub fn samples(field: &Field) -> Vec<Local> {

@@ -1,12 +1,9 @@
 //! Cantilevers at rest, under a load at the tip and their weight.
 
 use super::*;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::chain::Strand;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, Lanes, WIDTH};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::ground::{Isa, Lanes, Vec3, WIDTH};
 
 /// A beam along y, so slender that it bends and hardly stretches: `(d/L)² α/16` is a strain of 1e-5 at most.
 pub fn slender_beam(elements: usize) -> Fibre {

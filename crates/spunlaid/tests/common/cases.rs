@@ -1,7 +1,7 @@
 //! Cases that are read and written, and what is remarked on them.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::input::{parse_case, starter_case, write_case};
 use std::sync::LazyLock;
 

@@ -1,14 +1,13 @@
 //! Closed loops: webs of known values are laid, scanned, and fitted.
 #![allow(dead_code)]
 
-use spunlaid::experiment::fit::{Fit, MeasuredWeb, Question, Target, errors_of_model, fit};
-use spunlaid::experiment::study::Journal;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::experiment::fit::{errors_of_model, fit};
+use spunlaid::experiment::{Fit, Journal, MeasuredWeb, Question, Target};
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::{FitFile, Overrides, Resources, parse_fit};
-use spunlaid::simulation::layers::{Flights, Flyer};
-use spunlaid::web::map::{LayControl, Map};
-use spunlaid::web::scan::{Format, Light, Picture, Settings, analyse};
+use spunlaid::simulation::{Flights, Flyer};
+use spunlaid::web::scan::analyse;
+use spunlaid::web::{Format, LayControl, Light, Map, Picture, Settings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A small web that is laid in a tenth of a second.

@@ -1,13 +1,10 @@
 //! Fed fibres for the tests: a spunbond line from its case file, and a heavy thread that coils on a plane.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use spunlaid::air::motion::Air;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::case::{Case, Run};
+use spunlaid::air::Air;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::{Flight, Job, LaidPoint};
-use spunlaid::fibre::line::{Contact, Line};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Case, Contact, Fibre, Flight, Job, LaidPoint, Line, Root, Run};
+use spunlaid::ground::Isa;
 use spunlaid::input::read_case;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -109,7 +106,7 @@ impl Thread {
             gravity: GRAVITY,
             damping: Self::DAMPING * (GRAVITY / self.height).sqrt(),
             shapes: None,
-            checks: spunlaid::fibre::case::Checks::default(),
+            checks: spunlaid::fibre::Checks::default(),
         };
         let line = Line {
             feed_speed,

@@ -1,8 +1,8 @@
 //! Meshes of every kind of cell on one block of points, and air to put there, shared by the tests of fields.
 #![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use spunlaid::air::field::{Cells, Field, Local, Shape, Values};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Cells, Field, Local, Shape, Values};
+use spunlaid::ground::Vec3;
 
 /// Rows of points with rows of cells between them.
 #[derive(Clone, Debug)]

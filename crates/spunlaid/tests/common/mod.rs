@@ -7,15 +7,12 @@ pub mod laying;
 pub mod modes;
 pub mod reference;
 
-use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::case::{Case, Run};
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, Lanes};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{
+    Case, Drag, ElementDrag, Fibre, Flight, FrictionLaw, Growth, NormalLaw, Root, Run, Share, Strand,
+};
+use spunlaid::ground::{Isa, Lanes, Vec3};
 
 pub type V = Vec3<f64>;
 
@@ -63,7 +60,7 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
         gravity: 9.81,
         damping: 0.0,
         shapes: None,
-        checks: spunlaid::fibre::case::Checks::default(),
+        checks: spunlaid::fibre::Checks::default(),
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, spinline: None, run }
 }

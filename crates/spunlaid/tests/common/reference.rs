@@ -2,8 +2,7 @@
 //! arctangent, forces by unit normals, drag by Reynolds numbers. The yardstick of the kernel.
 
 use super::V;
-use spunlaid::fibre::body::Root;
-use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::{Root, Strand};
 use std::f64::consts::PI;
 
 pub struct ReferenceDrag {

@@ -3,9 +3,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::ground::lanes::Isa;
-use spunlaid::web::map::{Fibres, Filaments, LayControl, Layer, Map, Row, Sheet, Web, lay};
-use spunlaid::web::surrogate::Surrogate;
+use spunlaid::ground::Isa;
+use spunlaid::web::map::{Filaments, lay};
+use spunlaid::web::{Fibres, LayControl, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::PI;
 use std::io::Cursor;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -1,8 +1,8 @@
 //! A short case, and studies of it.
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::experiment::study::Point;
-use spunlaid::fibre::case::Case;
+use spunlaid::experiment::Point;
+use spunlaid::fibre::Case;
 use spunlaid::input::{StudyFile, parse_study};
 
 /// Table 1 of the paper, 10 ms of it in steps of 20 µs.

@@ -1,8 +1,7 @@
 //! Points and cells of a field that hold no air, and plane flows on meshes of faces.
 
-use spunlaid::air::field::{Description, Field, Hint};
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Description, Field, Hint};
+use spunlaid::ground::{Fault, Vec3};
 use std::path::Path;
 
 /// 8 m/s at x = −0.2 m and 14 m/s at 1.2 m if the air of the files is whole: their formula, with the mean

@@ -1,6 +1,6 @@
 //! Cases whose air is a field: what may be a slip is told with the key that is to blame, and the way out.
 
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::input::{parse_case, starter_case, write_case};
 use std::fs;
 use tempfile::TempDir;

@@ -4,9 +4,8 @@ use crate::air::{mesh, samples, values};
 use crate::meshes;
 use crate::meshes::Made;
 use crate::vtk::{ASCII, Data, Legacy, Mesh, Place, Squeeze, Style, legacy, vti, vtr, vts, vtu};
-use spunlaid::air::field::{Description, Field, Hint, Local};
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Description, Field, Hint, Local};
+use spunlaid::ground::{Fault, Vec3};
 use std::path::Path;
 
 fn read(bytes: &[u8], name: &str) -> (Field, Vec<Fault>) {

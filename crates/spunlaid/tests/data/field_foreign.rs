@@ -1,6 +1,6 @@
 //! Files that are no fields, or no longer read, are refused by name, with what to write instead.
 
-use spunlaid::air::field::Field;
+use spunlaid::air::Field;
 
 fn refused(bytes: &[u8], name: &str) -> String {
     Field::parse(bytes, name).expect_err(name).to_string()

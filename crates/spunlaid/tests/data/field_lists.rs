@@ -4,9 +4,8 @@
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Made, noise};
 use crate::vtk::{ASCII, Mesh, Place, Squeeze, Style, vti, vtu};
-use spunlaid::air::field::{Description, Field, Hint};
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Description, Field, Hint};
+use spunlaid::ground::{Fault, Vec3};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

@@ -2,8 +2,8 @@
 
 use crate::meshes::{at, at_points, inside, linear, noise, numbers, smooth};
 use proptest::prelude::*;
-use spunlaid::air::field::{Description, Field, Hint};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{Description, Field, Hint};
+use spunlaid::ground::Vec3;
 
 type V = Vec3<f64>;
 

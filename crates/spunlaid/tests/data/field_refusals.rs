@@ -5,7 +5,7 @@ use crate::air::{mesh, samples, values};
 use crate::meshes::{Block, Made};
 use crate::vtk::{ASCII, Place, Squeeze, Style, legacy, vti, vtu};
 use proptest::prelude::*;
-use spunlaid::air::field::Field;
+use spunlaid::air::Field;
 use std::path::Path;
 
 fn refused(bytes: &[u8]) -> String {

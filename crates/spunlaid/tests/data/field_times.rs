@@ -1,6 +1,6 @@
 //! The air of a field is that of one time: several in one file are refused, whether they say so or not.
 
-use spunlaid::air::field::Field;
+use spunlaid::air::Field;
 
 /// A lattice of 6 × 3 × 3 points, 0.5 m long, where the air slows down from this speed by a quarter.
 fn rows(speed: f64) -> Vec<String> {

@@ -3,9 +3,8 @@
 
 use crate::meshes::{ALL, Block, Made, at, at_points, field, inside, linear, noise, numbers, smooth};
 use proptest::prelude::*;
-use spunlaid::air::field::{AirAround, Cells, Field, Hint, Shape, Values};
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{AirAround, Cells, Field, Hint, Shape, Values};
+use spunlaid::ground::{Fault, Vec3};
 
 type V = Vec3<f64>;
 

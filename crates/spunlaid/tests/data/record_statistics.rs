@@ -1,12 +1,11 @@
 //! What a record is said to hold, against records that are known to hold it.
 
 use crate::normal::normal;
-use spunlaid::air::motion::{Air, StreamKey, Wind};
-use spunlaid::air::record::{
-    Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, analyse,
+use spunlaid::air::record::analyse;
+use spunlaid::air::{
+    Air, Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, StreamKey, Wind,
 };
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::Window;
+use spunlaid::ground::{Isa, Window};
 use std::f64::consts::PI;
 
 fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {

@@ -4,9 +4,9 @@ use crate::scans;
 use crate::scans::{DENSITY, Lamp, PIXEL, beside, exposed, file, lens, light, piece, spoiled, spotted, web};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::map::Map;
 use spunlaid::web::map::uniformity::unevenness;
-use spunlaid::web::scan::{Doubt, Findings, Light, Picture, Settings, analyse, parse};
+use spunlaid::web::scan::{Doubt, Findings, analyse, parse};
+use spunlaid::web::{Light, Map, Picture, Settings};
 
 /// A spunbond web of 300 by 400 mm and about 19 g/m².
 fn laid(seed: u64) -> Map {

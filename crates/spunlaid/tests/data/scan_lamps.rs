@@ -2,7 +2,8 @@
 
 use crate::scans::{lens, npy, npy_f64, png, png8, png16, spotted, tiff_f32, waves};
 use png::{BitDepth, ColorType};
-use spunlaid::web::scan::{Doubt, Findings, Light, Picture, Settings, analyse, parse};
+use spunlaid::web::scan::{Doubt, Findings, analyse, parse};
+use spunlaid::web::{Light, Picture, Settings};
 
 const COLUMNS: usize = 150;
 const ROWS: usize = 180;

@@ -2,7 +2,7 @@
 //! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::read_study;
 use std::fs;
 use std::path::Path;

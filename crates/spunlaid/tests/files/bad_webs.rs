@@ -2,7 +2,7 @@
 //! `bad_webs/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::{parse_case, parse_web, read_web};
 use std::fs;
 use std::path::Path;

@@ -2,13 +2,11 @@
 
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
-use spunlaid::air::motion::{Air, Flow};
-use spunlaid::air::record::{Layout, Settings, analyse, read_record};
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::case::{Case, Run};
+use spunlaid::air::record::{analyse, read_record};
+use spunlaid::air::{Air, Flow, Layout, Settings};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
+use spunlaid::ground::Vec3;
 use spunlaid::input::{parse_case, read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
@@ -98,7 +96,7 @@ fn table_1_is_read_in_si_units() {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: spunlaid::fibre::case::Checks::default(),
+            checks: spunlaid::fibre::Checks::default(),
         },
     };
     assert_eq!(bits(&case), bits(&meant));

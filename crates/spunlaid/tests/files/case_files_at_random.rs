@@ -2,13 +2,12 @@
 
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
-use spunlaid::air::motion::{Air, EddyModel, Lateral};
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::case::{Case, Checks, FLIGHT_MEMORY_LIMIT, Run};
+use spunlaid::air::{Air, EddyModel, Lateral};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::{Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::line::{Contact, Line};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{
+    Case, Checks, Contact, Drag, FLIGHT_MEMORY_LIMIT, Fibre, FrictionLaw, Line, NormalLaw, Root, Run,
+};
+use spunlaid::ground::Vec3;
 use spunlaid::input::{parse_case, starter_case, write_case};
 
 /// A number between powers of ten, with all its digits.

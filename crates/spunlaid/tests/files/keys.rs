@@ -1,8 +1,7 @@
 //! The table of keys: what is said of each holds, and a case can be read and set through it.
 
 use spunlaid::fibre::case::keys::{self, Kind, Omission, Value};
-use spunlaid::fibre::case::{Case, ERROR_TOLERANCE};
-use spunlaid::fibre::spinline::{Melt, Polymer};
+use spunlaid::fibre::{Case, ERROR_TOLERANCE, Melt, Polymer};
 use spunlaid::input::{parse_case, read_case, starter_case};
 use std::fs;
 
@@ -32,7 +31,7 @@ fn every_row_is_whole() {
             // Both ends are allowed.
             let mut case = read_case("../../cases/profile.toml".as_ref(), &[]).unwrap().0;
             let set = [least, greatest].map(|end| key.set(&mut case, end));
-            let told = |problem: &spunlaid::ground::error::Problem| {
+            let told = |problem: &spunlaid::ground::Problem| {
                 let text = problem.to_string();
                 text.contains("has no effect") || text.contains("is read from a file")
             };

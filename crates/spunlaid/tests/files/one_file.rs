@@ -1,7 +1,7 @@
 //! A web and the case of its filament in one file, against the same in two.
 
 use crate::web_files::bits;
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::input::{WebFile, parse_case, parse_spinline, parse_web, read_case, read_web};
 
 const WHOLE: &str = "../../cases/whole_line.toml";

@@ -2,7 +2,7 @@
 //! `bad_cases/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
 
 use crate::messages;
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
 use std::fs;
 use std::path::Path;

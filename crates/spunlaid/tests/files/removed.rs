@@ -1,7 +1,7 @@
 //! What was removed is refused by its name, with what to do now.
 
 use spunlaid::fibre::case::keys;
-use spunlaid::ground::removed::{REMOVED, Removed};
+use spunlaid::ground::{REMOVED, Removed};
 use spunlaid::input::{Overrides, parse_case, parse_study, parse_web, starter_case};
 
 const WEB: &str = "

@@ -1,8 +1,8 @@
 //! Values that are most likely slips, of a unit above all: what is said of them, and that something is said of each.
 
-use spunlaid::air::field::Field;
+use spunlaid::air::Field;
 use spunlaid::fibre::case::keys::{self, Kind};
-use spunlaid::ground::error::Error;
+use spunlaid::ground::Error;
 use spunlaid::input::{WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed};
 use std::fmt::Display;
 use std::fs;
@@ -246,8 +246,8 @@ fn a_field_in_other_units_is_told_and_can_be_read() {
     assert_eq!(in_field(&millimetres), "");
     let sample = |table: &str| {
         let (field, _) = Field::parse(table.as_bytes(), "duct.csv").unwrap();
-        let at = spunlaid::ground::vec3::Vec3::new(0.3, 0.11, 0.07);
-        let air = field.sample(at, &mut spunlaid::air::field::Hint::default());
+        let at = spunlaid::ground::Vec3::new(0.3, 0.11, 0.07);
+        let air = field.sample(at, &mut spunlaid::air::Hint::default());
         [air.velocity.x, air.k, air.epsilon]
     };
     let (a, b) = (sample(&millimetres), sample(&duct(HEADS, |_, values| values)));

@@ -4,9 +4,9 @@
 use proptest::prelude::*;
 use spunlaid::fibre::case::keys::Value;
 use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
-use spunlaid::simulation::layers::Flown;
-use spunlaid::web::map::{Defect, Edges, Fibres, Filaments, Row};
-use spunlaid::web::surrogate::Surrogate;
+use spunlaid::simulation::Flown;
+use spunlaid::web::map::Filaments;
+use spunlaid::web::{Defect, Edges, Fibres, Row, Surrogate};
 use std::fs;
 
 pub(super) const KNOWN: &str = "../../cases/web_known.toml";

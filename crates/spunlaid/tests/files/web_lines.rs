@@ -2,7 +2,8 @@
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
 use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
-use spunlaid::web::map::{Fibres, Filaments};
+use spunlaid::web::Fibres;
+use spunlaid::web::map::Filaments;
 use std::path::Path;
 
 /// A line in its own words: 2 dtex, half a gram per minute and hole, 20 g/m².

@@ -1,20 +1,16 @@
 //! Air that varies in space, compared with flows in closed form.
 
-use crate::cases;
-use crate::meshes;
-use spunlaid::air::field::{Field, Hint, Values};
-use spunlaid::air::motion::{
-    Air, Axis, Eddies, FileContent, Flow, FlowNumbers, PlacedField, Profile, StreamKey,
+use crate::{cases, meshes};
+use spunlaid::air::{
+    Air, Atmosphere, Axis, Eddies, Field, FileContent, Flow, FlowNumbers, Hint, PlacedField, Profile,
+    StreamKey, Surroundings, Values, Wind,
 };
-use spunlaid::air::motion::{Atmosphere, Surroundings, Wind};
-use spunlaid::fibre::case::Case;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Case, Flight};
+use spunlaid::ground::{Error, Isa, Vec3};
 use spunlaid::input::parse_case;
-use spunlaid::simulation::ensemble::{Keep, KeepShapes, RunControl, Trajectory, fly};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{Keep, KeepShapes, RunControl, Trajectory};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -2,12 +2,9 @@
 //! has them.
 
 use crate::common::*;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::chain::Strand;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::{BoundaryLayer, Drag, FrictionLaw, NormalLaw};
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{BoundaryLayer, Drag, Fibre, Flight, FrictionLaw, NormalLaw, Root, Strand};
+use spunlaid::ground::Isa;
 use std::f64::consts::PI;
 
 const DENSITY: f64 = 1.204;

@@ -2,12 +2,10 @@
 
 use crate::common::reference::{ReferenceDrag, forces};
 use crate::common::*;
-use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::ground::Isa;
 
 #[test]
 fn analytic_every_element_feels_its_own_eddy() {

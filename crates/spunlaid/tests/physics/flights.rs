@@ -1,11 +1,9 @@
 //! Flights that others step: owned, changed in flight, endless.
 
 use crate::common;
-use spunlaid::fibre::case::Case;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::{Flight, Job};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Case, Flight, Job};
+use spunlaid::ground::{Error, Isa};
 
 /// In steps of 20 µs.
 fn table1() -> Case {

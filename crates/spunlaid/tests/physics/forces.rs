@@ -4,8 +4,7 @@
 use crate::common::reference::{ReferenceDrag, elastic_energy, forces};
 use crate::common::*;
 use proptest::prelude::*;
-use spunlaid::fibre::body::{Fibre, Root};
-use spunlaid::fibre::chain::Strand;
+use spunlaid::fibre::{Fibre, Root, Strand};
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };
 
@@ -161,9 +160,9 @@ fn analytic_terminal_velocity_along_and_across() {
 
 #[test]
 fn analytic_terminal_velocity_is_reached_by_falling() {
+    use spunlaid::fibre::Flight;
     use spunlaid::fibre::chain::schemes::Scheme;
-    use spunlaid::fibre::flight::Flight;
-    use spunlaid::ground::lanes::Isa;
+    use spunlaid::ground::Isa;
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);
         strand.fibre.direction = heading;

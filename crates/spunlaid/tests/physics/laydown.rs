@@ -2,15 +2,12 @@
 
 use crate::common::laying::{GRAVITY, Thread, flight, laid_until, spunbond};
 use crate::common::{X, in_all_lanes, steady_air};
-use spunlaid::air::motion::Air;
-use spunlaid::fibre::body::Fibre;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::Air;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, Lanes};
-use spunlaid::ground::vec3::Vec3;
-use spunlaid::simulation::ensemble::{RunControl, turbulence_spectrum};
+use spunlaid::fibre::{Case, Fibre, Flight, Strand};
+use spunlaid::ground::{Isa, Lanes, Vec3};
+use spunlaid::simulation::RunControl;
+use spunlaid::simulation::ensemble::turbulence_spectrum;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Elements of a fed fibre at its start.

@@ -1,12 +1,11 @@
 //! The statistics of a spunbond line's lay-down: what must not move them, and what must not move a bit.
 
 use crate::common::laying::{flight, laid_until, spunbond};
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::flight::{Flight, Job, LaidPoint};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::simulation::ensemble::{Keep, LaidCurves, RunControl, fly};
-use spunlaid::web::laydown::{Trace, TraceSettings};
+use spunlaid::fibre::{Case, Flight, Job, LaidPoint};
+use spunlaid::ground::{Error, Isa};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{Keep, LaidCurves, RunControl};
+use spunlaid::web::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Mean and standard error over replicates.

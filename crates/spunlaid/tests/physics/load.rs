@@ -1,8 +1,6 @@
 //! The load of filaments on their air, against numbers by hand.
 
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::load::{Load, WayPlace};
-use spunlaid::fibre::spinline::{Station, ZERO_CELSIUS};
+use spunlaid::fibre::{Case, Load, Station, WayPlace, ZERO_CELSIUS};
 use spunlaid::input::read_case;
 use std::path::Path;
 

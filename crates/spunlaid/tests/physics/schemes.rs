@@ -1,13 +1,12 @@
 //! Order of convergence of the schemes, energy ledgers, and bits that never change.
 
 use crate::common::*;
-use spunlaid::air::motion::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::case::{Case, Run};
-use spunlaid::fibre::chain::Strand;
+use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::{Flight, Snapshot};
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::simulation::ensemble::{Job, Keep, RunControl, fly_together};
+use spunlaid::fibre::{Case, Flight, Run, Snapshot, Strand};
+use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::simulation::ensemble::fly_together;
+use spunlaid::simulation::{Job, Keep, RunControl};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;

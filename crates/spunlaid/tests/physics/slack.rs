@@ -2,11 +2,8 @@
 //! finds the fibres whose computation has diverged.
 
 use crate::common::laying::{flight, spunbond};
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::line::Contact;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Lanes;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Case, Contact};
+use spunlaid::ground::{Error, Lanes, Vec3};
 use spunlaid::input::{parse_case, read_case};
 
 /// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-]

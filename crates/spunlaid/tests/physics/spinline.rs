@@ -1,6 +1,7 @@
 //! Spinlines, from the case file to the filament, against values from outside the code.
 
-use spunlaid::fibre::spinline::{AirChange, Curtain, Solution, Station, Surroundings};
+use spunlaid::fibre::spinline::Curtain;
+use spunlaid::fibre::{AirChange, Solution, Station, Surroundings};
 use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
 use std::collections::BTreeMap;
 use std::fs;

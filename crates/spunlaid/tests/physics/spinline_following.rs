@@ -1,6 +1,6 @@
 //! A steady state that is followed from a line nearby is the one that a search finds.
 
-use spunlaid::fibre::spinline::{Failure, Law, Solution, Spinline};
+use spunlaid::fibre::{Failure, Law, Solution, Spinline};
 use spunlaid::input::{SpinFile, read_spinline};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are
 //! not compared.
 
-use spunlaid::fibre::spinline::{FreezingCause, Solution};
+use spunlaid::fibre::{FreezingCause, Solution};
 use spunlaid::input::read_spinline;
 use std::path::Path;
 

@@ -2,9 +2,8 @@
 //! have.
 
 use crate::common::*;
-use spunlaid::air::motion::{Air, Stream, StreamKey, Wind};
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::ground::statistics::{Welch, Window};
+use spunlaid::air::{Air, Stream, StreamKey, Wind};
+use spunlaid::ground::{Isa, WIDTH, Welch, Window};
 use std::f64::consts::PI;
 use std::ops::Range;
 

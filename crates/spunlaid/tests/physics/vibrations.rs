@@ -3,11 +3,9 @@
 
 use crate::common::modes::{frequency_of, vibrations};
 use crate::common::*;
-use spunlaid::fibre::body::{Fibre, Root};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::Flight;
-use spunlaid::ground::lanes::{Isa, WIDTH};
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::{Fibre, Flight, Root};
+use spunlaid::ground::{Isa, Vec3, WIDTH};
 use std::f64::consts::PI;
 
 /// Flies a chain from rest at `start` displaced along each mode (one per lane, by `size` at the largest),

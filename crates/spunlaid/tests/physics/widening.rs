@@ -1,14 +1,11 @@
 //! A mean flow that widens as it slows (`air.widening = "md"`), against the continuity equation and its streamlines.
 
-use spunlaid::air::field::Hint;
-use spunlaid::air::motion::{
-    Air, AirAtPlaces, Extent, FileContent, Flow, Lateral, Profile, StreamKey, Widening,
+use spunlaid::air::{
+    Air, AirAtPlaces, Extent, FileContent, Flow, Hint, Lateral, Profile, StreamKey, Widening,
 };
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::flight::{Flight, Job, Snapshot};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Case, Flight, Job, Snapshot};
 use spunlaid::ground::place::Place;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::ground::{Isa, Vec3};
 use spunlaid::input::parse_case;
 use std::path::PathBuf;
 use std::sync::Arc;

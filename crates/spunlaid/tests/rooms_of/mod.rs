@@ -65,15 +65,15 @@ pub fn code_and_texts(source: &str) -> (String, Vec<String>) {
 }
 
 /// A path of two names or more in the code of a file.
-struct NamePath {
+pub struct NamePath {
     /// Its names: `super`, `super`, `air`, `Air`.
-    names: Vec<String>,
+    pub names: Vec<String>,
     /// Whether it stands in a `use`.
     is_use: bool,
 }
 
 /// The paths of a code, with the groups in braces written out.
-fn paths(code: &str) -> Vec<NamePath> {
+pub fn paths(code: &str) -> Vec<NamePath> {
     let (mut found, mut path, mut groups) = (Vec::new(), Vec::new(), Vec::<Vec<String>>::new());
     let (mut is_use, mut goes_on, mut is_alias) = (false, false, false);
     let mut rest = code;

@@ -3,15 +3,15 @@
 
 use crate::company_cases::{CASES, FIXED, with_files};
 use crate::short::case_of;
-use spunlaid::air::motion::{Air, EddyModel, Flow, FlowNumbers};
-use spunlaid::experiment::study::{Batch, Bundles, Point, fly_batches};
-use spunlaid::fibre::case::Case;
+use spunlaid::air::{Air, EddyModel, Flow, FlowNumbers};
+use spunlaid::experiment::study::fly_batches;
+use spunlaid::experiment::{Batch, Bundles, Point};
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::{parse_case, parse_study, write_case};
-use spunlaid::simulation::ensemble::{Job, Keep, RunControl, Trajectory, fly, fly_together};
-use spunlaid::simulation::observe::Value as Measured;
+use spunlaid::simulation::ensemble::{fly, fly_together};
+use spunlaid::simulation::{Job, Keep, RunControl, Trajectory, Value as Measured};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -3,11 +3,10 @@
 use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::experiment::claim::Verdict::{self, Fails, Holds, Open};
-use spunlaid::experiment::study::{
-    Journal, PointResults, Record, ReplicateOutcome, Study, judge, rankings, results_of_point,
-};
-use spunlaid::simulation::observe::MEASURES;
+use spunlaid::experiment::Verdict::{Fails, Holds, Open};
+use spunlaid::experiment::study::{judge, rankings, results_of_point};
+use spunlaid::experiment::{Journal, PointResults, Record, ReplicateOutcome, Study, Verdict};
+use spunlaid::simulation::MEASURES;
 
 /// The case is never flown; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {

@@ -2,17 +2,12 @@
 
 use crate::common;
 use crate::common::*;
-use spunlaid::fibre::case::Case;
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::flight::{Job, LaidPoint};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::Estimate;
+use spunlaid::fibre::{Case, Job, LaidPoint};
+use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::parse_case;
-use spunlaid::simulation::ensemble::{
-    FinerPlans, Keep, Number, Recorder, Results, RunControl, Sample, Trajectory, Unchecked, fly,
-    fly_for_checks, fly_together, nothing_kept,
-};
+use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together, nothing_kept};
+use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, RunControl, Trajectory, Unchecked};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

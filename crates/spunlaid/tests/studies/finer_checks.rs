@@ -3,18 +3,12 @@
 use crate::common;
 use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
-use spunlaid::fibre::case::{Case, Checks, Run};
 use spunlaid::fibre::chain::schemes::Scheme;
-use spunlaid::fibre::drag::NormalLaw;
-use spunlaid::fibre::flight::Job;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::Estimate;
+use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
+use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::{
-    FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked, fly_for_checks,
-    fly_together, nothing_kept,
-};
+use spunlaid::simulation::ensemble::{fly_for_checks, fly_together, nothing_kept};
+use spunlaid::simulation::{FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

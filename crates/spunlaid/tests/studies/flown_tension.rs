@@ -1,15 +1,15 @@
 //! The tension at the end of a spinline that flights find: a reader says what has to be flown, and whoever
 //! settles the file flies it.
 
-use spunlaid::fibre::case::{Case, Note, keys};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::units::Dimension;
+use spunlaid::fibre::case::keys;
+use spunlaid::fibre::{Case, Note};
+use spunlaid::ground::{Dimension, Error, Isa};
 use spunlaid::input::{
     CaseWithNotes, Overrides, Resources, StudyChanges, StudyFile, parse_case, parse_changed_study,
     parse_spinline, parse_web,
 };
-use spunlaid::simulation::ensemble::{Keep, RunControl, fly};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{Keep, RunControl};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The filament of the whole line, coarse and short.

@@ -1,6 +1,6 @@
 //! The studies of the paper, which are compiled in.
 
-use spunlaid::fibre::body::Root;
+use spunlaid::fibre::Root;
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::input::paper::{Parameter, choices, table1, time_steps};
 use std::fs;

@@ -1,6 +1,6 @@
 //! The study to start from, beside every file of the repository that can be varied.
 
-use spunlaid::ground::error::FileKind;
+use spunlaid::ground::FileKind;
 use spunlaid::input::{kind_of, parse_study, read_text, starter_study};
 use std::path::{Path, PathBuf};
 

@@ -2,17 +2,16 @@
 
 use crate::short;
 use crate::short::{SHORT, case_of};
-use spunlaid::experiment::study::{
-    Batch, Journal, PointResults, Progress, Record, ReplicateOutcome, Replicates, Study, fly_batches,
-    measured, results_of_point, run,
+use spunlaid::experiment::study::{fly_batches, measured, results_of_point, run};
+use spunlaid::experiment::{
+    Batch, Journal, PointResults, Progress, Record, ReplicateOutcome, Replicates, Study,
 };
-use spunlaid::fibre::case::Case;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Value};
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::Estimate;
+use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
-use spunlaid::simulation::ensemble::{Keep, Results, RunControl, Trajectory, fly};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{Keep, Results, RunControl, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

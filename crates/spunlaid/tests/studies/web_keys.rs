@@ -1,18 +1,17 @@
 //! Every key of a web that can vary, varied in a study, gives what single webs give, in every measure.
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
-use spunlaid::experiment::study::{Batch, fly_bundle};
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::units::Dimension;
+use spunlaid::experiment::Batch;
+use spunlaid::experiment::study::fly_bundle;
+use spunlaid::ground::{Dimension, Isa};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
-use spunlaid::simulation::ensemble::RunControl;
-use spunlaid::simulation::layers::{Flights, Flyer, web_key};
-use spunlaid::simulation::observe::{
-    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS, Value, with_errors,
+use spunlaid::simulation::layers::web_key;
+use spunlaid::simulation::observe::with_errors;
+use spunlaid::simulation::{
+    Flights, Flyer, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS, RunControl, Value,
 };
-use spunlaid::web::fabric::Known;
-use spunlaid::web::map::LayControl;
 use spunlaid::web::map::PatchFindings;
+use spunlaid::web::{Known, LayControl};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

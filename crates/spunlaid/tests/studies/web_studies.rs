@@ -1,7 +1,7 @@
 //! Studies of webs: what they vary, and what they refuse.
 
-use spunlaid::experiment::study::Point;
-use spunlaid::ground::error::Error;
+use spunlaid::experiment::Point;
+use spunlaid::ground::Error;
 use spunlaid::input::{
     LaydownSource, Overrides, StudyChanges, StudyFile, WebFile, parse_changed_study, parse_web,
     write_experiment,

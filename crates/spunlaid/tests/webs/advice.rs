@@ -1,12 +1,11 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
-use spunlaid::experiment::advice::{Advice, Change, Tried, advise, judged_by};
-use spunlaid::ground::effects::Setting;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::experiment::advice::{advise, judged_by};
+use spunlaid::experiment::{Advice, Change, Tried};
+use spunlaid::ground::{Error, Isa, Setting};
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
-use spunlaid::simulation::layers::{Flights, Flyer};
-use spunlaid::web::map::LayControl;
+use spunlaid::simulation::{Flights, Flyer};
+use spunlaid::web::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -237,7 +236,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
                     assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");
                 }
                 if let (Some(found), Some(wanted)) = (found.source.case(), wanted.source.case()) {
-                    let air = |case: &spunlaid::fibre::case::Case| {
+                    let air = |case: &spunlaid::fibre::Case| {
                         let key = |name| spunlaid::fibre::case::keys::find(name).unwrap().get(case);
                         let number = |name| key(name).and_then(|value| value.number());
                         [

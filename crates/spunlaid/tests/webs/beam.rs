@@ -1,14 +1,13 @@
 //! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
 
-use spunlaid::air::motion::Lateral;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::air::Lateral;
+use spunlaid::fibre::Case;
 use spunlaid::ground::place::Place;
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::read_case;
-use spunlaid::simulation::beam::{Beam, BeamControl, BeamFindings};
+use spunlaid::simulation::{Beam, BeamControl, BeamFindings};
 use spunlaid::web::map::uniformity::unevenness;
-use spunlaid::web::map::{LaidWeb, Map, Sheet, Window};
+use spunlaid::web::{LaidWeb, Map, Sheet, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -1,13 +1,12 @@
 //! Charged filaments of a web in one air: nothing without charge, and the square of the charge with it.
 
 use super::beam::{case_in, sheet};
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::charge::Charge;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::fibre::{Case, Charge};
+use spunlaid::ground::Isa;
 use spunlaid::ground::place::Place;
 use spunlaid::input::read_case;
-use spunlaid::simulation::beam::{Beam, BeamCharge, BeamControl, BeamFindings};
-use spunlaid::web::map::{LaidWeb, Window};
+use spunlaid::simulation::{Beam, BeamCharge, BeamControl, BeamFindings};
+use spunlaid::web::{LaidWeb, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -84,7 +83,7 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
         let charge = charge(per_mass, &places);
         let (_, flown) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
         let belt = case.line.unwrap().belt_speed;
-        let of_filament = |(filament, points): &(usize, Vec<spunlaid::fibre::flight::LaidPoint>)| {
+        let of_filament = |(filament, points): &(usize, Vec<spunlaid::fibre::LaidPoint>)| {
             let points: Vec<f64> = points.iter().map(|point| point.md + belt * point.time).collect();
             let mean = points.iter().sum::<f64>() / points.len() as f64;
             mean * places[*filament].y.signum()

@@ -1,9 +1,9 @@
 //! Filaments that are filled in between flown ones, against the same filaments as they are flown.
 
 use super::beam::{case_in, cv, lay_by, row, sheet as sheet_of};
-use spunlaid::ground::lanes::Isa;
-use spunlaid::web::curtain::{Belt, Curtain, FlownCurves, lay};
-use spunlaid::web::map::{Map, Window};
+use spunlaid::ground::Isa;
+use spunlaid::web::curtain::lay;
+use spunlaid::web::{Belt, Curtain, FlownCurves, Map, Window};
 use std::sync::atomic::AtomicBool;
 
 /// Correlation of the basis weights of two maps, in cells of a size.

@@ -1,10 +1,11 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::input::parse_web;
-use spunlaid::simulation::layers::{Flyer, WebSpec};
-use spunlaid::web::map::{Defect, LaidWeb, LayControl, Map, lay, strands};
+use spunlaid::simulation::{Flyer, WebSpec};
+use spunlaid::web::map::{lay, strands};
+use spunlaid::web::{Defect, LaidWeb, LayControl, Map};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const KNOWN: &str = "

@@ -1,9 +1,9 @@
 //! How many filaments of a web in one air are flown for all of them.
 
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::input::parse_web;
-use spunlaid::simulation::layers::{Flyer, WebSpec};
-use spunlaid::web::map::{FewDoubt, LayControl, LayerFew};
+use spunlaid::simulation::{Flyer, WebSpec};
+use spunlaid::web::{FewDoubt, LayControl, LayerFew};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A row on so short a way that neighbours hardly know of each other.

@@ -4,11 +4,11 @@
 mod closed_loops;
 
 use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, read, scanned};
-use spunlaid::experiment::fit::{KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
-use spunlaid::experiment::study::{Journal, seed_of_point};
+use spunlaid::experiment::study::seed_of_point;
+use spunlaid::experiment::{Journal, KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
 use spunlaid::ground::statistics::student_t_95;
 use spunlaid::input::{Overrides, parse_fit};
-use spunlaid::web::map::Map;
+use spunlaid::web::Map;
 use spunlaid::web::map::uniformity::cv_of_piece;
 
 /// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code;

@@ -1,11 +1,12 @@
 //! Guesses: what half and twice of a number that nobody has measured does to the CV.
 
 use crate::advice::cases;
-use spunlaid::experiment::advice::{Change, advise, are_tried};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::experiment::Change;
+use spunlaid::experiment::advice::{advise, are_tried};
+use spunlaid::ground::Isa;
 use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
-use spunlaid::simulation::layers::Flyer;
-use spunlaid::web::map::LayControl;
+use spunlaid::simulation::Flyer;
+use spunlaid::web::LayControl;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {

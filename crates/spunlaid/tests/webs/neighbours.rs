@@ -1,10 +1,10 @@
 //! The correlation of neighbours in a web whose filaments fly together.
 
 use super::beam::{case_in, lay_by, row, sheet};
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::ground::place::Place;
-use spunlaid::simulation::beam::BeamFindings;
-use spunlaid::web::map::{Correlation, NeighbourCorrelation, Row, Sheet};
+use spunlaid::simulation::BeamFindings;
+use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
 fn flown(lateral: &str, sheet: &Sheet, places: &[Place], threads: usize) -> BeamFindings {
     lay_by((&case_in(lateral), sheet), places, Isa::detect(), threads).1

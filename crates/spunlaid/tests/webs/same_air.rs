@@ -1,8 +1,8 @@
 //! Webs of a few filaments each in the same air.
 
 use spunlaid::input::{Overrides, WebFile, parse_web};
-use spunlaid::simulation::layers::{Compared, Flights, Flyer};
-use spunlaid::web::map::LayerFew;
+use spunlaid::simulation::{Compared, Flights, Flyer};
+use spunlaid::web::LayerFew;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

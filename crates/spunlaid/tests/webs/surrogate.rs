@@ -1,9 +1,9 @@
 //! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid
 //! curve to it.
 
-use spunlaid::ground::lanes::{Isa, Lanes};
-use spunlaid::web::laydown::{LaidCurve, Trace, TraceSettings};
-use spunlaid::web::surrogate::{PathKey, Paths, Surrogate, identify};
+use spunlaid::ground::{Isa, Lanes};
+use spunlaid::web::surrogate::identify;
+use spunlaid::web::{LaidCurve, PathKey, Paths, Surrogate, Trace, TraceSettings};
 
 const SIGMA: f64 = 0.018;
 

@@ -1,10 +1,10 @@
 //! The unevenness of a web in one air from what two of its filaments have in common.
 
 use crate::beam::{case_in, cv, lay_by, row, sheet};
-use spunlaid::air::motion::Lateral;
-use spunlaid::fibre::flight::LaidPoint;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::web::map::Sheet;
+use spunlaid::air::Lateral;
+use spunlaid::fibre::LaidPoint;
+use spunlaid::ground::Isa;
+use spunlaid::web::Sheet;
 
 /// Lags along the filament, in elements.
 const LAGS: usize = 60;

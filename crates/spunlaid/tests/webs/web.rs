@@ -1,13 +1,12 @@
 //! The web: nothing is lost, and its unevenness is that of the laws.
 
 use proptest::prelude::*;
-use spunlaid::ground::lanes::Isa;
+use spunlaid::ground::Isa;
 use spunlaid::web::map::uniformity::unevenness;
-use spunlaid::web::map::{
-    Edges, Fibres, Filaments, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Strand, Web, Window,
-    find, lay, one_fibre, orientation, pieces, straight_fibres, strands,
+use spunlaid::web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
+use spunlaid::web::{
+    Edges, Fibres, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Strand, Surrogate, Web, Window,
 };
-use spunlaid::web::surrogate::Surrogate;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

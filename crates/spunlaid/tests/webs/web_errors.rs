@@ -1,13 +1,10 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
-use spunlaid::ground::error::Error;
-use spunlaid::ground::lanes::Isa;
 use spunlaid::ground::statistics::difference_of_deviations;
+use spunlaid::ground::{Error, Isa};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
-use spunlaid::web::map::{
-    Clouds, Edges, Fibres, Filaments, Findings, LayControl, Layer, Row, Sheet, Web, find, lay,
-};
-use spunlaid::web::surrogate::Surrogate;
+use spunlaid::web::map::{Filaments, Findings, find, lay};
+use spunlaid::web::{Clouds, Edges, Fibres, LayControl, Layer, Row, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const WEBS: u64 = 80;

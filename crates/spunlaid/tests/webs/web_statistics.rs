@@ -2,8 +2,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use spunlaid::web::map::autocorrelation;
 use spunlaid::web::map::uniformity::unevenness;
-use spunlaid::web::map::{Clouds, Map, autocorrelation};
+use spunlaid::web::{Clouds, Map};
 use std::f64::consts::TAU;
 
 const MEAN: f64 = 1e6;

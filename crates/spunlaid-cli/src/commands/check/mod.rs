@@ -10,8 +10,8 @@ use crate::commands::flown::settled_with;
 use crate::commands::stem;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::fibre::case::Note;
-use spunlaid::ground::error::{Error, FileKind};
+use spunlaid::fibre::Note;
+use spunlaid::ground::{Error, FileKind};
 use spunlaid::input::{Resources, kind_of};
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {

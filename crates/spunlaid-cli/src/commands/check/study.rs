@@ -6,7 +6,7 @@ use crate::args::{Check, overrides};
 use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::experiment::study::{Point, Study};
+use spunlaid::experiment::{Point, Study};
 use spunlaid::input::{StudyChanges, read_changed_study};
 
 /// Checks the file of a study.

@@ -6,7 +6,7 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::ground::error::Fault;
+use spunlaid::ground::Fault;
 use std::io::BufRead;
 
 /// The numbers with those that were missing, from a person's answers. Where nobody answers, those that cannot be missing

@@ -1,9 +1,8 @@
 //! The files of a line: one of its web and its filament, and the air between slot and belt.
 
 use crate::args::{Given, LineNumbers};
-use spunlaid::fibre::spinline::Polymer;
-use spunlaid::ground::error::Fault;
-use spunlaid::ground::units::Dimension;
+use spunlaid::fibre::Polymer;
+use spunlaid::ground::{Dimension, Fault};
 use spunlaid_results::numbers::significant;
 use std::f64::consts::PI;
 

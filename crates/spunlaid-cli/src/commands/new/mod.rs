@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::say;
 use ask::complete;
 use line::Line;
-use spunlaid::ground::error::{Error, Fault};
+use spunlaid::ground::{Error, Fault};
 use spunlaid::input::{read_web, starter_case, starter_case_of_fed, starter_study};
 use std::fs::{OpenOptions, remove_file};
 use std::io::{ErrorKind, Write, stdin};

@@ -1,8 +1,8 @@
 //! Draws the figures of a velocity record.
 
 use crate::numbers::significant;
-use spunlaid::air::record::{Analysis, Record};
-use spunlaid::ground::statistics::Spectrum;
+use spunlaid::air::{Analysis, Record};
+use spunlaid::ground::Spectrum;
 use spunlaid_charts::palette::{BLUE, GREEN, GREY, INK, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
 

@@ -2,10 +2,10 @@
 
 use super::MM;
 use crate::numbers::range;
-use spunlaid::air::field::Hint;
-use spunlaid::air::motion::LocalAir;
-use spunlaid::fibre::case::Case;
-use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
+use spunlaid::air::{Hint, LocalAir};
+use spunlaid::fibre::Case;
+use spunlaid_charts::palette::GREEN;
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;

@@ -3,14 +3,11 @@
 use super::MM;
 use crate::figures::run::measured::one_of;
 use crate::numbers::significant;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::flight::LaidPoint;
-use spunlaid::simulation::ensemble::{Results, Trajectory};
-use spunlaid_charts::{
-    Axis, Chart, Drawing, Figure, Map, Series, Shades, Table,
-    palette::{Colour, GREY, INK, VERMILION},
-    picture::{Anchor, Picture, Stroke, Text},
-};
+use spunlaid::fibre::{Case, LaidPoint};
+use spunlaid::simulation::{Results, Trajectory};
+use spunlaid_charts::palette::{Colour, GREY, INK, VERMILION};
+use spunlaid_charts::picture::{Anchor, Picture, Stroke, Text};
+use spunlaid_charts::{Axis, Chart, Drawing, Figure, Map, Series, Shades, Table};
 use std::f64::consts::TAU;
 
 /// The figures, without those of the measured curves.

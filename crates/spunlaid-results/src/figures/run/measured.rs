@@ -2,12 +2,9 @@
 
 use crate::figures::with_unit;
 use crate::numbers::significant;
-use spunlaid::simulation::ensemble::{Curve, Place, Results};
-use spunlaid::simulation::observe::{self, Kind, Measure};
-use spunlaid_charts::{
-    Axis, Chart, Figure, Rose, Series, even,
-    palette::{BLUE, GREEN, PURPLE, VERMILION},
-};
+use spunlaid::simulation::{Curve, Kind, Measure, Place, Results, observe};
+use spunlaid_charts::palette::{BLUE, GREEN, PURPLE, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Rose, Series, even};
 
 /// Most places along the fibre that get markers of their own, and that a line is drawn through.
 const MARKED: usize = 41;

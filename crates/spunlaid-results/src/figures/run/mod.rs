@@ -6,8 +6,8 @@ pub(super) mod measured;
 mod motion;
 mod spectra;
 
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::ensemble::{Results, SpectrumPoint};
+use spunlaid::fibre::Case;
+use spunlaid::simulation::{Results, SpectrumPoint};
 use spunlaid_charts::Figure;
 
 /// Millimetres per metre.

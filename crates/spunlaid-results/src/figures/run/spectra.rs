@@ -1,10 +1,11 @@
 //! What happens at which frequency: the motion of the free end, the turbulence.
 
 use crate::numbers::significant;
-use spunlaid::air::motion::SpectrumShape;
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::ensemble::SpectrumPoint;
-use spunlaid_charts::{Axis, Chart, Figure, Series, palette::GREEN};
+use spunlaid::air::SpectrumShape;
+use spunlaid::fibre::Case;
+use spunlaid::simulation::SpectrumPoint;
+use spunlaid_charts::palette::GREEN;
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// The spectrum of the turbulence, as made and as asked for.
 pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {

@@ -1,7 +1,7 @@
 //! The figures of a spinline.
 
 use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
-use spunlaid::fibre::spinline::{Solution, Station, ZERO_CELSIUS};
+use spunlaid::fibre::{Solution, Station, ZERO_CELSIUS};
 use spunlaid::input::{Influence, OfFilament};
 use spunlaid_charts::label::plain;
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, VERMILION};

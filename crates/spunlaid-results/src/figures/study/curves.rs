@@ -2,11 +2,9 @@
 
 use super::quantity::{FactorAxis, Group, name_of_key};
 use super::{FAMILY, file_name};
-use spunlaid::experiment::study::{PointResults, Study};
-use spunlaid_charts::{
-    Chart, Figure, Marker, Series,
-    palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION},
-};
+use spunlaid::experiment::{PointResults, Study};
+use spunlaid_charts::palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION};
+use spunlaid_charts::{Chart, Figure, Marker, Series};
 
 const COLOURS: [Colour; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 

@@ -2,12 +2,10 @@
 
 use super::quantity::{FactorAxis, Group, label_of_key, name_of_key};
 use crate::numbers::significant;
-use spunlaid::experiment::study::{PointResults, Study};
-use spunlaid_charts::{
-    Drawing, Figure, Table,
-    palette::{Colour, INK, PAPER},
-    picture::{Anchor, Picture, Stroke, Text},
-};
+use spunlaid::experiment::{PointResults, Study};
+use spunlaid_charts::palette::{Colour, INK, PAPER};
+use spunlaid_charts::picture::{Anchor, Picture, Stroke, Text};
+use spunlaid_charts::{Drawing, Figure, Table};
 
 /// Width on the screen, and room around the map [px].
 const WIDTH: f64 = 640.0;

@@ -3,7 +3,7 @@
 use super::curves::BARS;
 use super::file_name;
 use super::quantity::{FactorAxis, Group, name_of_key};
-use spunlaid::experiment::study::{Factor, PointResults, Ranking, Study};
+use spunlaid::experiment::{Factor, PointResults, Ranking, Study};
 use spunlaid_charts::{Chart, Figure, Series, even};
 
 /// Most points of a study that are drawn; the file of numbers has them all.

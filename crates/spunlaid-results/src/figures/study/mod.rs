@@ -9,7 +9,7 @@ mod ranking;
 mod tests;
 
 use quantity::Group;
-use spunlaid::experiment::study::{Design, PointResults, Ranking, Study};
+use spunlaid::experiment::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
 pub(super) use quantity::FactorAxis;

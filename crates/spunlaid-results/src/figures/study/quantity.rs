@@ -1,13 +1,12 @@
 //! The axes of a study's figures: quantities and readable units.
 
 use crate::figures::with_unit;
-use spunlaid::experiment::study;
-use spunlaid::experiment::study::{Design, Factor, PointResults, Study};
+use spunlaid::experiment::{Design, Factor, PointResults, Study, study};
+use spunlaid::fibre::ZERO_CELSIUS;
 use spunlaid::fibre::case::keys;
-use spunlaid::fibre::spinline::ZERO_CELSIUS;
-use spunlaid::ground::units::Dimension;
+use spunlaid::ground::Dimension;
 use spunlaid::simulation::layers::{place_in_web, web_key};
-use spunlaid::simulation::observe::{self, Unit};
+use spunlaid::simulation::{Unit, observe};
 use spunlaid_charts::Axis;
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.

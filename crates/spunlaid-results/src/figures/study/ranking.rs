@@ -4,8 +4,8 @@ use super::quantity::{FactorAxis, Group, label_of_key};
 use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
 use crate::figures::with_unit;
 use crate::numbers::range;
-use spunlaid::experiment::study::{Contrast, Ranking, Study};
-use spunlaid::ground::effects::Effect;
+use spunlaid::experiment::{Contrast, Ranking, Study};
+use spunlaid::ground::Effect;
 use spunlaid_charts::{Axis, Figure, Table};
 
 /// What is compared: `5 to 30 m/s`, `sakiadis instead of matsui`.

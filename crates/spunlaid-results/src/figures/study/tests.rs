@@ -2,11 +2,9 @@
 
 use super::super::sample;
 use super::*;
-use spunlaid::experiment::study::{Contrast, Factor, Levels, Point, Replicates, Spacing};
-use spunlaid::ground::effects::Effect;
-use spunlaid::ground::statistics::Difference;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::observe::MEASURES;
+use spunlaid::experiment::{Contrast, Factor, Levels, Point, Replicates, Spacing};
+use spunlaid::ground::{Difference, Dimension, Effect};
+use spunlaid::simulation::MEASURES;
 use spunlaid_charts::png;
 
 /// A study with synthetic factors and results.

@@ -1,11 +1,9 @@
 //! Where charged filaments hang between inlet and belt, as they are seen from the side.
 
 use super::MM;
-use spunlaid::web::map::ChargedCurtain;
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREEN, ORANGE, VERMILION},
-};
+use spunlaid::web::ChargedCurtain;
+use spunlaid_charts::palette::{BLUE, GREEN, ORANGE, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// Colours of the first layer and of others.
 const COLOURS: [spunlaid_charts::palette::Colour; 4] = [BLUE, VERMILION, GREEN, ORANGE];

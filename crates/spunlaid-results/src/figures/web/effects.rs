@@ -3,11 +3,9 @@
 use super::PER_CENT;
 use crate::effects::{describe, name};
 use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
-use spunlaid::experiment::advice::{Advice, Tried};
-use spunlaid::ground::effects::Setting;
-use spunlaid::ground::statistics::Difference;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::layers::WebSpec;
+use spunlaid::experiment::{Advice, Tried};
+use spunlaid::ground::{Difference, Dimension, Setting};
+use spunlaid::simulation::WebSpec;
 use spunlaid_charts::{Figure, Table};
 
 /// What changes of a web do to its CV over the patches by which they are judged, the largest effect at the

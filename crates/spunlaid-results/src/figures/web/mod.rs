@@ -12,8 +12,8 @@ pub use clouds::SEEN;
 pub use effects::effects_figure;
 pub use overlaid::{ComparedPatch, ComparedSpectrum, overlaid_spectra, overlaid_webs};
 
-use spunlaid::web::map::{Findings, Web};
-use spunlaid::web::scan;
+use spunlaid::web::map::Findings;
+use spunlaid::web::{Web, scan};
 use spunlaid_charts::{Figure, Rose};
 
 const MM: f64 = 1e3;

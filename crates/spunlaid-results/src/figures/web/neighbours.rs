@@ -1,11 +1,9 @@
 //! How filaments that hang side by side in one air come down together.
 
 use super::MM;
-use spunlaid::web::map::{Correlation, NeighbourCorrelation};
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, Colour, GREEN, ORANGE, VERMILION},
-};
+use spunlaid::web::{Correlation, NeighbourCorrelation};
+use spunlaid_charts::palette::{BLUE, Colour, GREEN, ORANGE, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// Colours in machine and in cross direction, of the first layer and of the others.
 const COLOURS: [[Colour; 2]; 2] = [[BLUE, VERMILION], [GREEN, ORANGE]];

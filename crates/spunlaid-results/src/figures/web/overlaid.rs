@@ -5,8 +5,9 @@ use super::clouds::{density, empty_spectrum};
 use super::unevenness::empty_chart;
 use super::{MM, PER_CENT};
 use crate::numbers::significant;
-use spunlaid::web::map::Clouds;
-use spunlaid_charts::{Figure, Series, palette::GREY};
+use spunlaid::web::Clouds;
+use spunlaid_charts::palette::GREY;
+use spunlaid_charts::{Figure, Series};
 
 /// The unevenness of a web over patches of one size.
 #[derive(Clone, Debug, PartialEq)]

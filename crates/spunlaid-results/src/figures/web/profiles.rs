@@ -2,11 +2,10 @@
 
 use super::{GRAMS, MM, PER_CENT, Weights};
 use crate::numbers::significant;
-use spunlaid::web::map::{Edges, Findings, Map, Web};
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREY, VERMILION},
-};
+use spunlaid::web::map::Findings;
+use spunlaid::web::{Edges, Map, Web};
+use spunlaid_charts::palette::{BLUE, GREY, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 /// Most points of a profile; more cells are averaged.
 const POINTS: usize = 1000;

@@ -3,12 +3,10 @@
 use super::{MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Edges, Findings, Map, Web, straight_fibres};
-use spunlaid::web::scan;
-use spunlaid_charts::{
-    Axis, Chart, Figure, Series,
-    palette::{BLUE, GREY, VERMILION},
-};
+use spunlaid::web::map::{Findings, straight_fibres};
+use spunlaid::web::{Edges, Map, Web, scan};
+use spunlaid_charts::palette::{BLUE, GREY, VERMILION};
+use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 pub(super) fn empty_chart() -> Chart {
     Chart::new(

@@ -3,7 +3,7 @@
 use super::web::{Web, WebNumber, are_alike};
 use crate::numbers::significant;
 use serde_json::Value as Json;
-use spunlaid::simulation::observe::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS, Unit};
+use spunlaid::simulation::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS, Unit};
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;

@@ -5,7 +5,7 @@ use super::web::Web;
 use crate::figures::{ComparedSpectrum, overlaid_spectra};
 use crate::output::web::{MapFile, Pictures};
 use crate::report::ComparedPictures;
-use spunlaid::web::map::Clouds;
+use spunlaid::web::Clouds;
 use spunlaid::web::scan::shortest_sharp_wave;
 use spunlaid_charts::Figure;
 

@@ -14,7 +14,7 @@ use crate::output::comparison::{self, Comparison};
 use crate::output::folder::Staging;
 use crate::output::origin::ORIGIN;
 use crate::report::{ComparedPictures, comparison_report};
-use spunlaid::ground::error::Fault;
+use spunlaid::ground::Fault;
 use spunlaid_charts::Figure;
 use std::path::{Path, PathBuf};
 

@@ -5,8 +5,8 @@ use super::run::Run;
 use crate::Failure;
 use crate::figures::overlaid_figures;
 use crate::output::comparison::{ComparedMeasure, Comparison};
-use spunlaid::ground::statistics::{Difference, Estimate};
-use spunlaid::simulation::observe::{MEASURES, Measure};
+use spunlaid::ground::{Difference, Estimate};
+use spunlaid::simulation::{MEASURES, Measure};
 use std::path::PathBuf;
 
 /// What two runs must have in common for their replicates to fly in the same turbulence: where it stands in

@@ -2,8 +2,9 @@
 
 use crate::output::web::MapFile;
 use serde_json::Value as Json;
-use spunlaid::ground::statistics::NORMAL_95;
-use spunlaid::web::scan::{Doubt, FEWEST};
+use spunlaid::ground::NORMAL_95;
+use spunlaid::web::FEWEST;
+use spunlaid::web::scan::Doubt;
 use std::path::{Path, PathBuf};
 
 /// The results of a web.

@@ -9,8 +9,8 @@ use crate::Failure;
 use crate::figures::{ComparedPatch, SEEN, overlaid_webs};
 use crate::numbers::significant;
 use crate::output::comparison::{ComparedMeasure, Comparison};
-use spunlaid::ground::error::{Error, Fault};
-use spunlaid::ground::statistics::{Difference, Estimate, difference_of_logarithms};
+use spunlaid::ground::statistics::difference_of_logarithms;
+use spunlaid::ground::{Difference, Error, Estimate, Fault};
 use spunlaid::web::scan::shortest_sharp_wave;
 use std::path::PathBuf;
 

@@ -15,9 +15,9 @@ use crate::output::versioned_json;
 pub use pictures::{PLANES, pictures};
 
 use serde_json::{Value as Json, json};
-use spunlaid::air::motion::{AirAtPlaces, LocalAir};
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::air::{AirAtPlaces, LocalAir};
+use spunlaid::fibre::Case;
+use spunlaid::ground::Vec3;
 use spunlaid_charts::shortest;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 pub use vtk::write_vtk;
@@ -90,7 +90,7 @@ impl Slices {
         let mut velocities = [Vec::new(), Vec::new()];
         for time in &times {
             if stop.load(Ordering::Relaxed) {
-                return Err(spunlaid::ground::error::Error::Interrupted);
+                return Err(spunlaid::ground::Error::Interrupted);
             }
             for (velocities, places) in velocities.iter_mut().zip(&places) {
                 velocities.push(air.velocities(*time, places)?);
@@ -161,7 +161,7 @@ impl PlaneFindings {
         let (plane, velocities): (&Plane, &[Vec<Vec3<f64>>]) =
             (&slices.planes[plane], &slices.velocities[plane]);
         let places = plane.places();
-        let mut hint = spunlaid::air::field::Hint::default();
+        let mut hint = spunlaid::air::Hint::default();
         let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();
         let count = (velocities.len() * places.len()).max(1) as f64;
         let axes: [fn(&Vec3<f64>) -> f64; 3] = [|v| v.x, |v| v.y, |v| v.z];

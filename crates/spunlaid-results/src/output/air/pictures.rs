@@ -2,8 +2,8 @@
 
 use super::Slices;
 use crate::numbers::significant;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::fibre::Case;
+use spunlaid::ground::Vec3;
 use spunlaid_charts::{Axis, Chart, Figure, Map, Shades};
 
 /// Names of the planes, and of the pictures of them.

@@ -4,7 +4,7 @@ use super::{Plane, Slices};
 use crate::Failure;
 use crate::output::folder::Staging;
 use crate::output::paraview::AppendedArrays;
-use spunlaid::ground::vec3::Vec3;
+use spunlaid::ground::Vec3;
 use std::fmt::Write;
 
 /// Writes each instant of each plane, and the collections with their times.

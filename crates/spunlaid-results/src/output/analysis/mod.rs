@@ -10,8 +10,9 @@ use crate::output::table::{self, number};
 use crate::output::versioned_json;
 pub use air::air_block;
 use serde_json::{Value as Json, json};
-use spunlaid::air::record::{Analysis, Component, Interval, Record};
-use spunlaid::simulation::observe::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value, measured};
+use spunlaid::air::{Analysis, Component, Interval, Record};
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value};
 
 /// Half the width of an interval: the error of the value.
 pub fn half_width(interval: &Interval) -> f64 {

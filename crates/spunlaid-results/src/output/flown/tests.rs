@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::output::folder::ENTRIES;
-use spunlaid::ground::lanes::{Isa, WIDTH};
+use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::parse_case;
-use spunlaid::simulation::ensemble::{KeepShapes, RunControl, fly};
+use spunlaid::simulation::ensemble::fly;
+use spunlaid::simulation::{KeepShapes, RunControl};
 use std::path::Path;
 
 const FIXED: &str = "version = 1

@@ -15,11 +15,9 @@ use crate::output::versioned_json;
 pub use openfoam::{OPENFOAM, has_order_of_openfoam, write_openfoam};
 
 use serde_json::json;
-use spunlaid::fibre::case::Case;
-use spunlaid::fibre::spinline::ZERO_CELSIUS;
-use spunlaid::ground::statistics::Estimate;
-use spunlaid::ground::units::Dimension;
-use spunlaid::simulation::ensemble::Sources;
+use spunlaid::fibre::{Case, ZERO_CELSIUS};
+use spunlaid::ground::{Dimension, Estimate};
+use spunlaid::simulation::Sources;
 pub use vtk::{VTK, write_vtk};
 
 /// What is said of flights that are not steady: no field is written for a CFD program, which would read it without a

@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use crate::output::folder::Staging;
-use spunlaid::air::field::Description;
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::ensemble::{CellSource, Sources};
+use spunlaid::air::Description;
+use spunlaid::fibre::Case;
+use spunlaid::simulation::{CellSource, Sources};
 use std::fmt::Write;
 
 /// Folder of the fields.

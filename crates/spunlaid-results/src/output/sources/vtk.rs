@@ -3,9 +3,9 @@
 use crate::Failure;
 use crate::output::folder::Staging;
 use crate::output::paraview::AppendedArrays;
-use spunlaid::air::field::BlockKind;
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::ensemble::{CellSource, Sources};
+use spunlaid::air::BlockKind;
+use spunlaid::fibre::Case;
+use spunlaid::simulation::{CellSource, Sources};
 
 /// Name of the file.
 pub const VTK: &str = "sources.vtu";

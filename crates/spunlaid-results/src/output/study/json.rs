@@ -3,9 +3,8 @@
 use super::super::table::Value;
 use super::inputs_of;
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::claim::Claim;
-use spunlaid::experiment::study::{Contrast, PointResults, Ranking, Rankings, Study};
-use spunlaid::ground::effects::Effect;
+use spunlaid::experiment::{Claim, Contrast, PointResults, Ranking, Rankings, Study};
+use spunlaid::ground::Effect;
 use std::io::Write;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.

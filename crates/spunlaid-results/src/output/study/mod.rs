@@ -7,9 +7,8 @@ use crate::Failure;
 use crate::output::folder::Staging;
 use crate::output::table::{Column, ColumnValues, Value, whole};
 pub use json::write_json;
-use spunlaid::experiment::study::{
-    Journal, PointResults, Quantity, Record, ReplicateOutcome, Study, results_of_point,
-};
+use spunlaid::experiment::study::results_of_point;
+use spunlaid::experiment::{Journal, PointResults, Quantity, Record, ReplicateOutcome, Study};
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///

@@ -1,9 +1,9 @@
 //! Quantities as tables for readers show them.
 
 use crate::numbers::plus_minus;
-use spunlaid::experiment::study::{Experiment, PointResults, Quantity, Study};
-use spunlaid::fibre::case::Case;
-use spunlaid::simulation::observe::{DECLARED, Measure};
+use spunlaid::experiment::{Experiment, PointResults, Quantity, Study};
+use spunlaid::fibre::Case;
+use spunlaid::simulation::{DECLARED, Measure};
 
 /// The quantities that tables show, by their indices: those of a figure together, which are the patches of all sizes.
 pub fn quantities(study: &Study) -> Vec<usize> {

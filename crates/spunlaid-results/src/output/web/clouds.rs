@@ -2,7 +2,7 @@
 
 use super::map::light_table_of;
 use super::pieces::MEAN;
-use spunlaid::web::map::Map;
+use spunlaid::web::Map;
 
 /// Largest side of the piece that is shown [m].
 const SIDE: f64 = 0.12;

@@ -4,8 +4,8 @@
 use crate::command::web_command;
 use crate::output::measured::{joined, known};
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::advice::{Advice, Change, ChangedWeb, Tried};
-use spunlaid::ground::effects::{ChangedKey, Effect};
+use spunlaid::experiment::{Advice, Change, ChangedWeb, Tried};
+use spunlaid::ground::{ChangedKey, Effect};
 use spunlaid::web::map::Findings;
 
 /// Seconds of an hour.

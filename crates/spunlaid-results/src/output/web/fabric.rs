@@ -3,10 +3,11 @@
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
 use crate::output::measured::{joined, json, known};
 use serde_json::{Value as Json, json};
-use spunlaid::simulation::observe::{
-    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value, measured,
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{
+    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value,
 };
-use spunlaid::web::fabric::{Fabric, Known};
+use spunlaid::web::{Fabric, Known};
 
 /// The fabric in `summary.json`: all numbers that are known.
 pub(super) fn summary(fabric: &Fabric) -> Json {

@@ -5,7 +5,7 @@ use crate::Failure;
 use crate::failure::undrawable;
 use crate::numbers::{HARD, THIN, number, plus_minus};
 use crate::output::pictures::SOFTWARE;
-use spunlaid::web::fabric::Fabric;
+use spunlaid::web::Fabric;
 use spunlaid::web::map::Findings;
 use spunlaid_charts::label::lines;
 use spunlaid_charts::palette::{GREY, GRID, INK};

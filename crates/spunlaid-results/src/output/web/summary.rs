@@ -6,14 +6,14 @@ use crate::output::measured::{joined, json, known, mean, values, with_errors};
 use crate::output::{load, versioned_json};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::advice::Advice;
-use spunlaid::fibre::load::Load;
-use spunlaid::ground::lanes::Isa;
-use spunlaid::ground::statistics::{Estimate, interval_of_deviation};
-use spunlaid::simulation::observe::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
-use spunlaid::web::fabric::Fabric;
-use spunlaid::web::map::{ChargedCurtain, Clouds, Edges, Findings, LayerFew, Map, NeighbourCorrelation, Web};
+use spunlaid::experiment::Advice;
+use spunlaid::fibre::Load;
+use spunlaid::ground::statistics::interval_of_deviation;
+use spunlaid::ground::{Estimate, Isa};
+use spunlaid::simulation::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
+use spunlaid::web::map::Findings;
 use spunlaid::web::scan::{self, Doubt};
+use spunlaid::web::{ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, Web};
 use std::time::Instant;
 
 /// What a layer was laid from.

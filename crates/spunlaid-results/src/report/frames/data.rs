@@ -3,10 +3,9 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::fibre::body::Root;
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::vec3::Vec3;
-use spunlaid::simulation::ensemble::Trajectory;
+use spunlaid::fibre::{Case, Root};
+use spunlaid::ground::Vec3;
+use spunlaid::simulation::Trajectory;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
 pub(super) const POSITIONS: usize = 375_000;

@@ -3,9 +3,9 @@
 use super::data::{Data, Frames, POSITIONS};
 use crate::figures::swing_frequency;
 use crate::report::words::{count, time};
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::error::Error;
-use spunlaid::simulation::ensemble::{Results, Shapes, Trajectory};
+use spunlaid::fibre::Case;
+use spunlaid::ground::Error;
+use spunlaid::simulation::{Results, Shapes, Trajectory};
 use spunlaid_charts::even;
 
 /// Most nodes of a fibre in a picture.

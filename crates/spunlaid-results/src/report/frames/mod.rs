@@ -6,9 +6,9 @@ mod fixed;
 
 pub(super) use data::Frames;
 
-use spunlaid::fibre::case::Case;
-use spunlaid::ground::error::Error;
-use spunlaid::simulation::ensemble::Results;
+use spunlaid::fibre::Case;
+use spunlaid::ground::Error;
+use spunlaid::simulation::Results;
 
 /// Chooses and packs the shapes of a run; `None` where none were kept.
 ///

@@ -1,7 +1,7 @@
 //! The cells of a field: where they are, how large they are, and in which one a place lies.
 
 use super::{FARTHEST, Field, Hint, Support, vector};
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// The cells of a field, numbered from 0 in the order of its file without those that were left out.
 ///

@@ -1,7 +1,7 @@
 //! Along which axes the air of a field is the same.
 
 use super::{Field, Hint, vector};
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// Pairs of points of the field that are compared.
 const PAIRS: usize = 256;
@@ -128,7 +128,7 @@ impl Field {
 mod tests {
     use super::*;
     use crate::air::field::Values;
-    use crate::ground::vec3::Vec3;
+    use crate::ground::Vec3;
 
     /// A lattice of the unit cube with a velocity.
     fn cube(velocity: impl Fn(f64, f64, f64) -> Vec3<f64>) -> Field {

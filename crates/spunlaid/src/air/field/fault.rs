@@ -1,6 +1,7 @@
 //! Faults that several readers and makers of fields find.
 
-use crate::ground::error::{Fault, memory};
+use crate::ground::Fault;
+use crate::ground::error::memory;
 use crate::ground::units::excerpt;
 
 /// Something else is written where a certain item is expected.

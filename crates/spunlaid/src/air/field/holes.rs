@@ -2,8 +2,7 @@
 
 use super::tree::Tree;
 use super::{FARTHEST, Field, Hint};
-use crate::ground::error::Fault;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, Vec3};
 
 /// The places of a file that have no numbers.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use super::cells_of_file::{BlockKind, Blocks};
 use super::fault;
 use super::node::{Node, Quantities, check_range};
-use crate::ground::error::{Fault, FileError};
+use crate::ground::{Fault, FileError};
 
 /// Coordinates that differ by less than this share of the extent count as equal.
 const ROUNDING: f64 = 1e-9;

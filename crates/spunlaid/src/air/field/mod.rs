@@ -54,8 +54,7 @@ mod points;
 mod read;
 mod tree;
 
-use crate::ground::error::{Fault, FileError};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, Vec3};
 pub use bricks::AirAround;
 use bricks::Bricks;
 pub use cells_of_file::{BlockKind, FieldCells};

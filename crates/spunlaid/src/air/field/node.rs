@@ -2,9 +2,9 @@
 
 use super::fault::several_times;
 use super::{fault, mean};
-use crate::ground::error::{Fault, FileError, Position, by_count, counted};
+use crate::ground::error::{by_count, counted};
 use crate::ground::units::shortest;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, Position, Vec3};
 use std::cmp::Ordering;
 
 /// A point and its values. It fills one cache line.

@@ -3,10 +3,7 @@
 use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Extent, Flow, LocalAir, StreamKey};
 use crate::air::field::Hint;
-use crate::ground::error::{Error, Fault};
-use crate::ground::lanes::{Isa, Lanes, Register, Task, WIDTH};
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Error, Fault, Isa, Lanes, Register, Task, Vec3, WIDTH};
 
 /// Latest time of a look [s].
 const LATEST: f64 = 1e6;
@@ -227,9 +224,8 @@ mod tests {
     use super::*;
     use crate::air::motion::in_space::AirInSpace;
     use crate::air::motion::{EddyModel, Lateral};
-    use crate::ground::company::PerLane;
-    use crate::ground::lanes::Plain;
     use crate::ground::place::Place;
+    use crate::ground::{PerLane, Plain};
     use std::sync::Arc;
 
     const DISTANCE: f64 = 0.2;

@@ -14,8 +14,7 @@ use super::in_space::InstantStations;
 use super::surroundings::InstantFlow;
 use super::wind::EddyVelocities;
 use super::{AirInSpace, Eddies, Stations, Surroundings, Wind};
-use crate::ground::lanes::{Lanes, Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Register, Vec3, Wide};
 
 /// The air in which up to eight fibres fly.
 // A flight has one, so its size does not matter.

@@ -2,7 +2,7 @@
 
 use super::{Air, Spectrum};
 use crate::air::field::Hint;
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// How the turbulence at one place of the fibre is related to that at the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

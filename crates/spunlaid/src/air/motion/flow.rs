@@ -2,7 +2,7 @@
 
 use super::{Air, FileContent, PlacedField, Profile};
 use crate::air::field::{AirAround, Hint, Local};
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// Where the mean flow comes from.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -8,11 +8,8 @@
 use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Surroundings};
 use crate::air::field::Hint;
-use crate::ground::company::PerLane;
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide};
-use crate::ground::nodes::Nodes;
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Nodes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 use std::array::from_fn;
 use std::sync::Arc;
 

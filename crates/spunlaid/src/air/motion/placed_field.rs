@@ -2,8 +2,7 @@
 
 use super::FileContent;
 use crate::air::field::{AirAround, Field, Hint, Local};
-use crate::ground::error::Fault;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, Vec3};
 
 /// A direction along an axis of a field, forwards or backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

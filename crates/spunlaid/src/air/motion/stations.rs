@@ -10,10 +10,10 @@
 use super::in_space::{AirAtElements, InstantStations};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
 use crate::air::field::Hint;
-use crate::ground::company::{PerLane, shared};
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide, indices};
+use crate::ground::company::shared;
+use crate::ground::lanes::indices;
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 
 /// Looks in the time in which fibre or air passes a length scale.
 const LOOKS: f64 = 4.0;

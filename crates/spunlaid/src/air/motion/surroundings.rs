@@ -2,12 +2,8 @@
 
 use super::Air;
 use crate::air::field::{AirAround, Hint};
-use crate::ground::company::PerLane;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide};
-use crate::ground::nodes::Nodes;
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, Lanes, Nodes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 
 /// Mean velocity and rms where an element is, of eight fibres.
 ///

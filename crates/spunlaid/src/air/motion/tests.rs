@@ -2,12 +2,12 @@
 
 use super::{StationGrid, Stations, Way};
 use crate::air::field::Hint;
-use crate::air::motion::{Air, EddyModel, FileContent, Flow, Profile, Stream, StreamKey, Widening, Wind};
-use crate::air::motion::{Atmosphere, Instant, Velocities};
-use crate::ground::company::PerLane;
-use crate::ground::lanes::{Isa, Lanes, Plain, WIDTH};
+use crate::air::motion::{
+    Air, Atmosphere, EddyModel, FileContent, Flow, Instant, Profile, Stream, StreamKey, Velocities, Widening,
+    Wind,
+};
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Isa, Lanes, PerLane, Plain, Vec3, WIDTH};
 use std::sync::Arc;
 
 const SPEED: f64 = 35.0;

@@ -3,8 +3,7 @@
 use super::flat::FlatPart;
 use super::interval::Interval;
 use super::{Autocorrelation, IntegralRule, Trend};
-use crate::ground::error::Fault;
-use crate::ground::statistics::{Spectrum, Window};
+use crate::ground::{Fault, Spectrum, Window};
 
 /// Fewest and most blocks of a record.
 pub(super) const BLOCKS: (usize, usize) = (8, 64);

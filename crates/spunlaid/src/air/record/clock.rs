@@ -1,8 +1,8 @@
 //! Finds the rate of a clock, and the rows that are missing, from the times of the rows.
 
 use super::grid::{JITTER, Known, TimeGrid};
-use crate::ground::error::Fault;
-use crate::ground::units::{Dimension, shortest};
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault};
 
 /// Largest deviation that the rounding of written times may explain, as a share of a step.
 const ROUNDING: f64 = 0.25;

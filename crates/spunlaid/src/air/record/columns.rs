@@ -1,10 +1,11 @@
 //! Finds the column of time, the columns of velocity and their units.
 
 use super::Layout;
-use crate::ground::error::{Fault, FileError, listed};
+use crate::ground::error::listed;
 use crate::ground::sort::sort_by_key;
-use crate::ground::table::{FORMS, FirstCell, Head, scale};
-use crate::ground::units::{Dimension, excerpt};
+use crate::ground::table::scale;
+use crate::ground::units::excerpt;
+use crate::ground::{Dimension, FORMS, Fault, FileError, FirstCell, Head};
 
 /// Most components of a velocity.
 const COMPONENTS: usize = 3;

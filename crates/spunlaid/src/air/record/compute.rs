@@ -8,9 +8,8 @@ use super::interval::{Interval, error};
 use super::jackknife::{Blocks, Estimates};
 use super::limits::{LEAST_SAMPLES, number, rate_fault, too_few_samples};
 use super::{Analysis, Autocorrelation, Component, IntegralRule, Moments, Record, Samples, Settings, Trend};
-use crate::ground::error::{Fault, FileError};
-use crate::ground::statistics::Welch;
-use crate::ground::units::{Dimension, shortest};
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault, FileError, Welch};
 use std::ops::Range;
 
 /// Largest number of lags of an autocorrelation.

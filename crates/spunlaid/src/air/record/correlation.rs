@@ -1,9 +1,6 @@
 //! Computes the autocorrelation of the fluctuation and its integral.
 
-use crate::ground::error::Fault;
-use crate::ground::fft::{Complex, InverseTransform};
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::units::Dimension;
+use crate::ground::{Complex, Dimension, Fault, InverseTransform, Lanes, WIDTH};
 use std::ops::Range;
 
 /// Rule for the largest lag of the integral of the autocorrelation.

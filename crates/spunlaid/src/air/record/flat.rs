@@ -2,7 +2,7 @@
 
 use super::Interval;
 use super::interval::chi_square;
-use crate::ground::statistics::{NORMAL_95, Spectrum};
+use crate::ground::{NORMAL_95, Spectrum};
 use std::f64::consts::PI;
 
 /// By default the flat part ends at the cut-off over this. At this frequency the spectrum of an exponential correlation

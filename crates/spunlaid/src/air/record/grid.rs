@@ -4,8 +4,7 @@
 //! straight line over the number of the sample. Its slope is the interval. A missing sample lifts all later
 //! times by an interval, out of the strip.
 
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Rows whose time is known, with the time [s].
 pub(super) type Known = Vec<(usize, f64)>;

@@ -1,6 +1,7 @@
 //! Computes 95 % confidence intervals, by the block jackknife or from the number of independent values.
 
-use crate::ground::statistics::{NORMAL_95, student_t_95};
+use crate::ground::NORMAL_95;
+use crate::ground::statistics::student_t_95;
 
 /// Half width of an interval from which that of the logarithm has no meaning: a factor of ten.
 const LARGEST_LOGARITHM: f64 = std::f64::consts::LN_10;

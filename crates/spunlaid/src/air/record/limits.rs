@@ -1,7 +1,8 @@
 //! What a record must have, whichever way it comes.
 
-use crate::ground::error::{Fault, counted};
-use crate::ground::units::{Dimension, shortest};
+use crate::ground::error::counted;
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault};
 
 /// Least number of samples.
 pub(super) const LEAST_SAMPLES: usize = 64;

@@ -52,8 +52,7 @@ mod parquet;
 mod rows;
 mod text;
 
-use crate::ground::error::{Fault, FileError, FileKind};
-use crate::ground::file;
+use crate::ground::{Fault, FileError, FileKind, file};
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings};
 pub use compute::analyse;
 pub(crate) use compute::analyse_fluctuation;

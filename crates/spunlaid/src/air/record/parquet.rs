@@ -3,9 +3,8 @@
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
-use crate::ground::error::{Fault, FileError, Position};
-use crate::ground::table::{FirstCell, Head, Meaning, ParquetTable};
 use crate::ground::units::excerpt;
+use crate::ground::{Fault, FileError, FirstCell, Head, Meaning, ParquetTable, Position};
 use bytes::Bytes;
 use parquet::errors::ParquetError;
 

@@ -3,8 +3,9 @@
 use super::clock::{Spacing, place};
 use super::columns::Roles;
 use super::{Layout, MOST_NUMBERS, Reading, Record, Samples};
-use crate::ground::error::{Fault, FileError, Position, memory};
+use crate::ground::error::memory;
 use crate::ground::units::shortest;
+use crate::ground::{Fault, FileError, Position};
 
 /// Collects rows.
 pub(super) struct Rows {

@@ -3,9 +3,8 @@
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
-use crate::ground::error::{Fault, FileError, FileKind};
-use crate::ground::table::{FORMS, Stamp, Table};
 use crate::ground::units::excerpt;
+use crate::ground::{FORMS, Fault, FileError, FileKind, Stamp, Table};
 use std::io::Read;
 
 /// Reads a record from text; messages call it `name`.

@@ -1,9 +1,7 @@
 //! What settings of a web are judged by: the CV over patches of some size, which is that of what a buyer sees.
 
-use crate::ground::error::{Error, Fault};
-use crate::ground::removed::Removed;
-use crate::ground::units::Dimension;
-use crate::simulation::layers::WebSpec;
+use crate::ground::{Dimension, Error, Fault, Removed};
+use crate::simulation::WebSpec;
 
 /// Something that follows the CV over patches of its size.
 #[derive(Debug)]

@@ -1,9 +1,8 @@
 //! Webs of which a few filaments were flown in the same air, compared block by block.
 
-use crate::ground::effects::Effect;
-use crate::ground::statistics::Difference;
-use crate::simulation::layers::WebSpec;
-use crate::web::map::{ExpectedCv, FewDoubt, LayerFew};
+use crate::ground::{Difference, Effect};
+use crate::simulation::WebSpec;
+use crate::web::{ExpectedCv, FewDoubt, LayerFew};
 
 /// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
 /// shares of the CV.

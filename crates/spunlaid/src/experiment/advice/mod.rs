@@ -15,15 +15,13 @@ pub use setting::ChangedWeb;
 
 use self::few::WebOfFew;
 use crate::experiment::study::Experiment;
-use crate::fibre::case::Case;
-use crate::ground::effects::{self, Effect, Outcome, RACING, Setting, Trials};
-use crate::ground::error::{Error, Fault};
+use crate::fibre::Case;
 use crate::ground::threads::try_each;
-use crate::ground::units::Dimension;
-use crate::simulation::layers::{
-    Compared, FewOfWeb, Flights, Flyer, WebSpec, fits_memory, steps_in_same_air,
-};
-use crate::web::map::{ExpectedCv, Findings, LayControl, PatchFindings, Web, expected_cv, nearest_to_seen};
+use crate::ground::{Dimension, Effect, Error, Fault, Outcome, RACING, Setting, Trials, effects};
+use crate::simulation::layers::{fits_memory, steps_in_same_air};
+use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
+use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
+use crate::web::{ExpectedCv, LayControl, Web};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A change of a web.

@@ -1,7 +1,7 @@
 //! Settings of the machine that change how even a web is, and webs in which one of them is changed.
 
-use crate::ground::effects::Setting;
-use crate::simulation::layers::WebSpec;
+use crate::ground::Setting;
+use crate::simulation::WebSpec;
 
 impl Setting {
     const fn new(name: &'static str, words: &'static str) -> Self {

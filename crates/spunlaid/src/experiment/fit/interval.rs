@@ -7,7 +7,7 @@ use super::surface::Surface;
 use super::values::{Values, least_misfit};
 use super::webs::Webs;
 use super::weights::{Matrix, gain};
-use crate::ground::error::Error;
+use crate::ground::Error;
 use crate::ground::statistics::{dot, student_t_95};
 
 /// Most trials that seek an end.

@@ -46,9 +46,9 @@ pub use texture::Texture;
 pub use webs::{MOST_TRIALS, WebInProgress};
 
 use crate::experiment::study::{Experiment, Journal};
-use crate::ground::error::{Error, Fault};
-use crate::simulation::layers::{Flyer, WebSpec};
-use crate::web::map::LayControl;
+use crate::ground::{Error, Fault};
+use crate::simulation::{Flyer, WebSpec};
+use crate::web::LayControl;
 use simulator::{Simulator, WebSimulator};
 use webs::Webs;
 

@@ -1,6 +1,6 @@
 //! A key whose value is sought.
 
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 
 /// A key whose value is sought, with the range in which it may lie.
 ///

@@ -2,8 +2,8 @@
 
 use super::webs::{Trial, Webs};
 use super::weights::{Matrix, gain, information, misfit, weights};
-use crate::ground::error::{Error, Fault};
 use crate::ground::statistics::{dot, inverse};
+use crate::ground::{Error, Fault};
 
 /// Step of a slope, as a coordinate: at the beginning, and then a standard error between these ends. The mean
 /// of the webs jumps a little between trials, because a key may change which random numbers a filament takes;

@@ -4,9 +4,10 @@ use super::target::Target;
 use super::texture::Texture;
 use super::weights::Matrix;
 use crate::experiment::study::seed_of_web;
-use crate::ground::error::{Error, Fault};
-use crate::simulation::layers::{Flown, Flyer, WebSpec};
-use crate::web::map::{LayControl, PatchFindings, inner_columns};
+use crate::ground::{Error, Fault};
+use crate::simulation::{Flown, Flyer, WebSpec};
+use crate::web::LayControl;
+use crate::web::map::{PatchFindings, inner_columns};
 
 /// Webs of a few filaments that are compared with those of all in the same air.
 const TWINS: u64 = 3;

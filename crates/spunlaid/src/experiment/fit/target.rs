@@ -1,10 +1,9 @@
 //! The web that the simulation shall be like: what is compared, and how well the scan knows it.
 
 use super::texture::{Texture, Textures, bands};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
-use crate::web::map::{Map, Sheet};
+use crate::ground::{Dimension, Fault};
 use crate::web::scan::{Findings, PatchFindings};
+use crate::web::{Map, Sheet};
 
 /// A web that has been made and scanned, or laid, as its results tell it.
 #[derive(Clone, Debug)]

@@ -8,8 +8,7 @@ use super::webs::Webs;
 use super::weights::Matrix;
 use super::{Fit, IntervalEnd, KeyDoubt, find};
 use crate::experiment::study::Journal;
-use crate::ground::error::Error;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Error};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 

@@ -2,8 +2,8 @@
 
 use crate::ground::threads::each;
 use crate::web::map::uniformity::cv_of_piece;
-use crate::web::map::{Clouds, Map};
 use crate::web::scan::flattened;
+use crate::web::{Clouds, Map};
 
 /// A number by which two webs are compared.
 #[derive(Clone, Copy, Debug, PartialEq)]

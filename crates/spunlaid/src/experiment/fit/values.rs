@@ -6,7 +6,7 @@ use super::search::{Place, residuals_of};
 use super::surface::Surface;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained};
-use crate::ground::error::Error;
+use crate::ground::Error;
 use crate::ground::statistics::inverse;
 
 /// Other values of a key are tried at these distances from the place [standard errors].

@@ -5,7 +5,7 @@ use super::simulator::Simulator;
 use super::target::Target;
 use super::weights::mean_of;
 use crate::experiment::study::{Journal, Record, ReplicateOutcome};
-use crate::ground::error::Error;
+use crate::ground::Error;
 
 /// A trial: values of the keys, and the numbers of the webs that were laid with them.
 #[derive(Clone, Debug)]

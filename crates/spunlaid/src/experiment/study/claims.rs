@@ -4,8 +4,7 @@ use super::effects::Ranking;
 use super::journal::Journal;
 use super::{PointResults, Quantity, Study};
 use crate::experiment::claim::{CHANCE, Claim, REAL, Verdict};
-use crate::ground::error::Error;
-use crate::ground::statistics::Difference;
+use crate::ground::{Difference, Error};
 use std::borrow::Cow;
 
 /// A claim about a result of a study.

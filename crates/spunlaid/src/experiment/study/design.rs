@@ -1,8 +1,8 @@
 //! Designs: how the values of the factors are combined into points.
 
 use super::{Input, RandomUse, stream};
+use crate::ground::Dimension;
 use crate::ground::random::uniform;
-use crate::ground::units::Dimension;
 use rand_chacha::rand_core::Rng;
 
 /// A key that varies.

@@ -1,8 +1,8 @@
 //! What a point of a study repeats: flights of a case, webs, or a spinline.
 
-use crate::fibre::case::{Case, keys};
-use crate::fibre::spinline::SpinSpec;
-use crate::simulation::layers::{WEB_KEYS, WebSpec};
+use crate::fibre::case::keys;
+use crate::fibre::{Case, SpinSpec};
+use crate::simulation::{WEB_KEYS, WebSpec};
 
 /// What a point repeats, with its seed.
 #[derive(Clone, Debug, PartialEq)]

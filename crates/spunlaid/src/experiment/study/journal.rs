@@ -9,8 +9,7 @@
 //! replicate is made again.
 
 use super::measures::{Record, ReplicateOutcome};
-use crate::ground::error::{Error, Fault};
-use crate::ground::log::Log;
+use crate::ground::{Error, Fault, Log};
 use std::fs::File;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};

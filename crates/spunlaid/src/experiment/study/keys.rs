@@ -4,7 +4,7 @@
 use super::{Design, Spacing, Study};
 use crate::fibre::case::keys::row::{choose, key};
 use crate::fibre::case::keys::{Key, KeyTable, Kind, Sign, Value};
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 
 /// Largest number of points of a study, and of values of a range.
 pub(crate) const MOST_POINTS: u64 = 10_000_000;

@@ -1,15 +1,14 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
-use crate::fibre::spinline::Solution;
+use crate::fibre::Solution;
 use crate::ground::units::shortest;
-use crate::simulation::ensemble::Trajectory;
-use crate::simulation::layers::WebSpec;
-use crate::simulation::observe::{
+use crate::simulation::observe::with_errors;
+use crate::simulation::{
     ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES,
-    OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Unit, Value, with_errors,
+    OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Trajectory, Unit, Value, WebSpec,
 };
-use crate::web::fabric::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES};
 use crate::web::map::Findings;
+use crate::web::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES};
 
 /// A number that a study keeps, as its measure is declared in [`observe`](crate::simulation::observe). That of patches
 /// has their side in its name.

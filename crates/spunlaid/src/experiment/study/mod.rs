@@ -38,9 +38,9 @@ pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
 pub(crate) use webs::seed_of_web;
 
-use crate::fibre::case::Case;
-use crate::ground::units::{Dimension, Expression};
-use crate::simulation::layers::WebSpec;
+use crate::fibre::Case;
+use crate::ground::{Dimension, Expression};
+use crate::simulation::WebSpec;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 

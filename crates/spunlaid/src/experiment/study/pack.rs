@@ -2,11 +2,11 @@
 //! lanes stay empty.
 
 use super::{Experiment, Point};
-use crate::fibre::flight::Common;
-use crate::ground::error::Error;
-use crate::ground::lanes::WIDTH;
+use crate::fibre::Common;
 use crate::ground::sort::sort_by_key;
-use crate::simulation::ensemble::{Job, Keep, RunControl, Trajectory, fly_each, in_order};
+use crate::ground::{Error, WIDTH};
+use crate::simulation::ensemble::{fly_each, in_order};
+use crate::simulation::{Job, Keep, RunControl, Trajectory};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -195,9 +195,8 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
 mod tests {
     use super::*;
     use crate::experiment::study::tests::table1;
-    use crate::fibre::case::Case;
-    use crate::fibre::drag::{FrictionLaw, NormalLaw};
-    use crate::simulation::layers::{LaydownSource, LayerSpec, WebSpec};
+    use crate::fibre::{Case, FrictionLaw, NormalLaw};
+    use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
     use std::sync::Arc;
 
     fn points(velocities: &[f64], lengths: &[f64]) -> Vec<Point> {

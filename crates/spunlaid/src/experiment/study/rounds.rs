@@ -4,9 +4,8 @@ use super::journal::Journal;
 use super::measures::Quantity;
 use super::pack::Batch;
 use super::{Replicates, Study};
-use crate::ground::error::Error;
-use crate::ground::statistics::Estimate;
-use crate::simulation::observe::{ErrorRole, MEASURES};
+use crate::ground::{Error, Estimate};
+use crate::simulation::{ErrorRole, MEASURES};
 
 /// Statistics of a point over its replicates.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,9 @@
 use super::Point;
 use super::measures::{Record, ReplicateOutcome, measured_of_spinline};
 use super::pack::Batch;
-use crate::ground::error::Error;
-use crate::simulation::ensemble::{RunControl, in_order};
+use crate::ground::Error;
+use crate::simulation::RunControl;
+use crate::simulation::ensemble::in_order;
 use std::sync::atomic::Ordering;
 
 /// Solves the spinlines of some batches. One without a steady state is a lost replicate.

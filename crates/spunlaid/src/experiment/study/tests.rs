@@ -1,11 +1,9 @@
 //! A case that the tests of this module share.
 
-use crate::air::motion::Air;
-use crate::fibre::body::{Fibre, Root};
-use crate::fibre::case::{Case, Run};
+use crate::air::Air;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::drag::{Drag, FrictionLaw, NormalLaw};
-use crate::ground::vec3::Vec3;
+use crate::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
+use crate::ground::Vec3;
 
 /// Table 1 of the paper, short and coarse in time.
 pub(crate) fn table1() -> Case {
@@ -36,7 +34,7 @@ pub(crate) fn table1() -> Case {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: crate::fibre::case::Checks::default(),
+            checks: crate::fibre::Checks::default(),
         },
     }
 }

@@ -3,10 +3,9 @@
 use super::measures::{Record, ReplicateOutcome, measured_of_web};
 use super::pack::Batch;
 use super::{Point, seed_of_point};
-use crate::ground::error::Error;
-use crate::simulation::ensemble::RunControl;
-use crate::simulation::layers::{Flights, Flyer, WebSpec};
-use crate::web::map::LayControl;
+use crate::ground::Error;
+use crate::simulation::{Flights, Flyer, RunControl, WebSpec};
+use crate::web::LayControl;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments

@@ -2,16 +2,15 @@
 
 use super::Case;
 use super::keys::{self, FLOWN, finding};
-use super::limits::FLIGHT_MEMORY_LIMIT;
-use super::limits::{MOST_INSTANTS, MOST_STEPS};
+use super::limits::{FLIGHT_MEMORY_LIMIT, MOST_INSTANTS, MOST_STEPS};
 use super::note::Note;
 use super::step::{FEEDING, StepLimit};
-use crate::air::motion::{FileContent, Flow, Lateral, Measured};
+use crate::air::{FileContent, Flow, Lateral, Measured};
 use crate::fibre::body::Root;
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::line::Contact;
-use crate::ground::error::{self, Fault, Finding, Place, Problem};
-use crate::ground::units::Dimension;
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Fault, Finding, Problem, error};
 
 impl Case {
     /// Checks everything that must hold for the case to be run.

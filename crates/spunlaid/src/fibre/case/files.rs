@@ -1,7 +1,7 @@
 //! The files that a case names.
 
 use super::{Case, Run};
-use crate::air::motion::{Air, FileContent};
+use crate::air::{Air, FileContent};
 use crate::fibre::body::Fibre;
 use crate::fibre::drag::{Drag, FrictionLaw, NormalLaw};
 use crate::fibre::spinline::{PolymerSource, SpinSpec, Spinline, Surroundings};

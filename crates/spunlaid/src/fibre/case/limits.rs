@@ -1,8 +1,8 @@
 //! How large a case may be.
 
 use super::Case;
-use crate::air::motion::{EddyField, EddyModel, Wind};
-use crate::ground::lanes::WIDTH;
+use crate::air::{EddyField, EddyModel, Wind};
+use crate::ground::WIDTH;
 
 /// Largest number of steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;

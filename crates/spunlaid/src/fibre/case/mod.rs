@@ -13,27 +13,23 @@ mod usual;
 pub(crate) use check::too_many_steps;
 pub use checks::Checks;
 pub(crate) use limits::whole_parts;
-pub use limits::{FLIGHT_MEMORY_LIMIT, FlightMemory};
-pub use limits::{MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS};
+pub use limits::{
+    FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS,
+};
 pub use note::{Note, Remark};
 use step::FEEDING;
 pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
 pub(crate) use usual::unusual;
 
-use crate::air::field::Hint;
-use crate::air::motion::{
-    Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, StationGrid, StreamKey, time_between_looks,
-};
+use crate::air::motion::time_between_looks;
+use crate::air::{Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, StationGrid, StreamKey};
 use crate::fibre::body::Fibre;
 use crate::fibre::chain::Strand;
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::drag::Drag;
 use crate::fibre::line::Line;
 use crate::fibre::spinline::{Solution, Spinline};
-use crate::ground::error::Error;
-use crate::ground::lanes::WIDTH;
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Error, Vec3, WIDTH};
 
 /// A fibre, the air it flies in and how the flight is computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -212,7 +208,7 @@ impl Case {
     /// * `threads` – that make its turbulence; they do not change it
     ///
     /// # Errors
-    /// If the turbulence is the same everywhere across, see [`crate::air::motion::Lateral`].
+    /// If the turbulence is the same everywhere across, see [`crate::air::Lateral`].
     pub fn air_at_places(&self, replicate: u64, threads: usize) -> Result<AirAtPlaces, Error> {
         let key = StreamKey { seed: self.run.seed, replicate };
         AirAtPlaces::new(&self.air, self.way_of_air(), self.extent_of_air(), key, threads)

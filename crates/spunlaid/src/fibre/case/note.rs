@@ -1,6 +1,6 @@
 //! Notes and warnings about a case that can be run.
 
-use crate::ground::error::{Fault, Finding, Problem};
+use crate::ground::{Fault, Finding, Problem};
 use std::fmt;
 use std::panic::Location;
 

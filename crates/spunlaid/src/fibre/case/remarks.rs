@@ -3,12 +3,11 @@
 use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
-use crate::air::field::{Hint, is_even};
-use crate::air::motion::{Flow, SpectrumShape};
+use crate::air::field::is_even;
+use crate::air::{Flow, Hint, SpectrumShape};
 use crate::fibre::drag::NormalLaw;
 use crate::ground::error::Place;
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Vec3};
 
 /// Share of the measured drag across a fibre below which a case is warned [-].
 const LOW_DRAG: f64 = 0.5;

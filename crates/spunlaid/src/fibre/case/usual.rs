@@ -3,10 +3,9 @@
 use super::Case;
 use super::keys::{self, Key, Value, finding};
 use super::note::{Note, Remark};
-use crate::air::field::Hint;
-use crate::air::motion::Flow;
-use crate::ground::error::{Place, Problem};
-use crate::ground::units::Dimension;
+use crate::air::{Flow, Hint};
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Problem};
 
 /// Pressure of the atmosphere [Pa], and ratio of the specific heats of air [-]. The speed of sound is √(1.4 p/ρ).
 const ATMOSPHERE: f64 = 101_325.0;

@@ -4,9 +4,7 @@ use super::{Common, Strand};
 use crate::fibre::body::Root;
 use crate::fibre::drag::DragLanes;
 use crate::fibre::line::Contact;
-use crate::ground::company::PerLane;
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, PerLane, Vec3, WIDTH};
 
 /// The constants of eight fibres that a step needs.
 #[derive(Clone, Debug)]

@@ -14,9 +14,8 @@ use super::forces::Element;
 use super::laying::LayingState;
 use super::work::{Charged, Kick, Supports, WorkDone, WorkRegisters};
 use super::{Chain, Stride};
-use crate::air::motion::Velocities;
-use crate::ground::lanes::{Lanes, Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::air::Velocities;
+use crate::ground::{Lanes, Register, Vec3, Wide};
 
 /// Advances eight chains by one step.
 ///

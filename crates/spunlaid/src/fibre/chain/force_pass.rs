@@ -2,10 +2,9 @@
 
 use super::constants::{Constants, ElementConstants};
 use super::forces::{Element, couple, internal};
-use crate::air::motion::{LastEddy, Velocities, VelocityAt, VelocityTask};
+use crate::air::{LastEddy, Velocities, VelocityAt, VelocityTask};
 use crate::fibre::drag::{DragLanes, Split};
-use crate::ground::lanes::{Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Register, Vec3, Wide};
 
 /// What a time-integration scheme gives to a force pass, and what it does with the forces.
 pub(crate) trait Integrator<S: Register> {

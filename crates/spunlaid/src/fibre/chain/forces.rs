@@ -1,7 +1,7 @@
 //! Forces inside the chain: tension of the elements, bending at the nodes.
 
-use crate::ground::lanes::{Register, Simd, Wide, bend_ratio};
-use crate::ground::vec3::Vec3;
+use crate::ground::lanes::bend_ratio;
+use crate::ground::{Register, Simd, Vec3, Wide};
 
 /// Geometry of an element.
 #[derive(Clone, Copy)]

@@ -16,10 +16,8 @@ use self::work::Charged;
 use crate::fibre::body::Fibre;
 use crate::fibre::drag::{Curve, ElementDrag};
 use crate::fibre::line::Line;
-use crate::ground::company::{PerLane, shared};
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::nodes::Nodes;
-use crate::ground::vec3::Vec3;
+use crate::ground::company::shared;
+use crate::ground::{Lanes, Nodes, PerLane, Vec3, WIDTH};
 
 /// One fibre and what acts on it, without the wind: the content of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 use super::Chain;
 use super::constants::Constants;
 use crate::fibre::charge::SheetField;
-use crate::ground::lanes::{Lanes, Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Register, Vec3, Wide};
 use std::sync::Arc;
 
 /// Running sums of `F·v` over nodes and steps, with the velocities before and after each kick.

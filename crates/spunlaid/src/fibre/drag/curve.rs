@@ -2,7 +2,8 @@
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{Form, NormalLaw};
-use crate::ground::lanes::{Register, WIDTH, Wide, exp2, indices};
+use crate::ground::lanes::{exp2, indices};
+use crate::ground::{Register, WIDTH, Wide};
 use std::sync::{LazyLock, OnceLock};
 
 /// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
@@ -121,7 +122,7 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::{Curve, FURTHEST, Form, NormalLaw};
-    use crate::ground::lanes::{Lanes, Plain, Register, Wide};
+    use crate::ground::{Lanes, Plain, Register, Wide};
 
     /// Ends of the tables.
     const REACH: f64 = 63.0;

@@ -3,7 +3,7 @@
 use super::Flight;
 use crate::fibre::chain::work::Charged;
 use crate::fibre::charge::{ChargedNode, SheetField};
-use crate::ground::lanes::Lanes;
+use crate::ground::Lanes;
 use std::sync::Arc;
 
 impl Flight {
@@ -30,7 +30,7 @@ impl Flight {
 
 #[cfg(test)]
 mod tests {
-    use crate::air::motion::{Air, Eddies, StreamKey, Wind};
+    use crate::air::{Air, Eddies, StreamKey, Wind};
     use crate::fibre::body::{Fibre, Root};
     use crate::fibre::case::{Case, Checks, Run};
     use crate::fibre::chain::Strand;
@@ -39,9 +39,8 @@ mod tests {
     use crate::fibre::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
     use crate::fibre::flight::{Flight, Job};
     use crate::fibre::line::{Contact, Line};
-    use crate::ground::lanes::{Isa, Lanes, WIDTH};
     use crate::ground::place::Place;
-    use crate::ground::vec3::Vec3;
+    use crate::ground::{Isa, Lanes, Vec3, WIDTH};
     use std::sync::Arc;
 
     const PER_MASS: f64 = 1e-3;

@@ -3,10 +3,7 @@
 use super::{Entry, Flight};
 use crate::fibre::body::Root;
 use crate::fibre::chain::Chain;
-use crate::ground::error::{Error, Fault};
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide};
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Error, Fault, Lanes, Register, Task, Vec3, WIDTH, Wide};
 
 /// By how much an element may be off from the length that belongs to its tension, in parts of its rest length
 /// [-]. Where the tensions are found it is a hundredth at most, after a landing in a single step some

@@ -31,7 +31,7 @@ mod set;
 mod start;
 mod steps;
 
-use crate::air::motion::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
+use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::fibre::case::Case;
 use crate::fibre::chain::Chain;
 use crate::fibre::chain::laying::Feed;
@@ -39,9 +39,8 @@ pub use crate::fibre::chain::laying::LaidPoint;
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
 use crate::fibre::energy::Energy;
-use crate::ground::lanes::{Isa, Lanes, Register, WIDTH, Wide};
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Isa, Lanes, Register, Vec3, WIDTH, Wide};
 pub(crate) use start::{Clock, Common};
 use std::sync::Arc;
 

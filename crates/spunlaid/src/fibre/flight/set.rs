@@ -4,8 +4,7 @@ use super::start::surrounded;
 use super::{Common, Entry, Flight, SurroundingRun};
 use crate::fibre::case::keys::{self, Value};
 use crate::fibre::energy::Energy;
-use crate::ground::company::PerLane;
-use crate::ground::error::Error;
+use crate::ground::{Error, PerLane};
 
 impl Flight {
     /// Changes a key of the cases of all fibres while they fly: `flight.set("air.velocity", "20 m/s")`, or 20.0 as a

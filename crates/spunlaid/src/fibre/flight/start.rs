@@ -1,7 +1,7 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
 use super::{EndNodeStatistics, Entry, Flight, Job, Start, SurroundingRun};
-use crate::air::motion::{
+use crate::air::{
     AirInSpace, Atmosphere, Eddies, EddyField, EddyWind, Sampling, Stations, StreamKey, Surroundings, Way,
     Wind,
 };
@@ -11,10 +11,8 @@ use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
 use crate::fibre::chain::{self, Chain, Strand};
 use crate::fibre::energy::Energy;
-use crate::ground::company::{Bits, PerLane, shared};
-use crate::ground::error::{Error, Fault};
-use crate::ground::lanes::{Isa, Lanes};
-use crate::ground::vec3::Vec3;
+use crate::ground::company::shared;
+use crate::ground::{Bits, Error, Fault, Isa, Lanes, PerLane, Vec3};
 use std::sync::Arc;
 
 impl Flight {

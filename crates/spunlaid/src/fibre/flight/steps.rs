@@ -1,15 +1,12 @@
 //! Steps of a flight, and what is seen of it between them.
 
 use super::{Flight, Snapshot};
-use crate::air::motion::Instant;
-use crate::fibre::chain::Stride;
+use crate::air::Instant;
 use crate::fibre::chain::force_pass::ElementBlock;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::chain::{explicit, implicit};
+use crate::fibre::chain::{Stride, explicit, implicit};
 use crate::fibre::energy::Energy;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, Lanes, Register, Task, Vec3, WIDTH, Wide};
 
 /// Number of steps between two checks that no fibre is lost.
 const STEPS_UNSEEN: u64 = 256;

@@ -20,9 +20,10 @@ mod surroundings;
 mod tests;
 mod thread;
 
-use crate::air::motion::{Air, FileContent, HEAT_CAPACITY_OF_AIR, density_at};
+use crate::air::motion::density_at;
+use crate::air::{Air, FileContent, HEAT_CAPACITY_OF_AIR};
 use crate::fibre::drag::{Drag, FrictionLaw};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 pub(crate) use cooling::{Cooled, SolidFilament};
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
 pub use solution::{Freezing, FreezingCause, Solution, Station};
@@ -314,8 +315,7 @@ impl PartialEq for Crystals {
 
 #[cfg(test)]
 mod equality_tests {
-    use super::Polymer;
-    use super::*;
+    use super::{Polymer, *};
 
     #[test]
     fn polymers_are_equal_also_where_a_constant_is_not_known() {

@@ -5,8 +5,7 @@ use super::solution::{Freezing, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
 use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};
 use crate::fibre::drag::FrictionLaw;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Parts of the line between its stations, which are evenly spaced in the root of the distance.
 const PARTS: usize = 400;

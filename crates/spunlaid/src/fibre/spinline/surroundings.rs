@@ -1,6 +1,6 @@
 //! The air along the spinline.
 
-use crate::air::motion::FileContent;
+use crate::air::FileContent;
 
 /// The air along the spinline.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,9 +9,8 @@ pub(crate) use crate::ground::error::{excerpt, shortest};
 pub(crate) use expression::unknown_name;
 pub use expression::{Expression, Powers};
 pub use si::{si_unit_of, udunits};
-pub(crate) use spelling::plain_spelling;
-pub(crate) use spelling::readings;
 pub use spelling::with_decimal_point;
+pub(crate) use spelling::{plain_spelling, readings};
 pub use table::Dimension;
 
 use crate::ground::error::Fault;

@@ -3,15 +3,15 @@
 mod polymer;
 mod profile;
 
-use crate::air::field::{FieldLayout, ReadField};
-use crate::air::motion::{FileContent, Measured, RecordLayout, RecordNumbers};
-use crate::air::record::{Interval, LONGEST_GAP, Layout, Record, Settings, analyse_fluctuation, read_record};
-use crate::fibre::case::Remark;
+use crate::air::record::{analyse_fluctuation, read_record};
+use crate::air::{
+    FieldLayout, FileContent, Interval, LONGEST_GAP, Layout, Measured, ReadField, Record, RecordLayout,
+    RecordNumbers, Settings,
+};
+use crate::fibre::Remark;
 use crate::fibre::case::keys::{Content, FileKind as Kind};
-use crate::ground::error::{FileError, FileKind};
-use crate::ground::file;
 use crate::ground::threads::lock;
-use crate::ground::vec3::Vec3;
+use crate::ground::{FileError, FileKind, Vec3, file};
 use crate::input::file::text as text_of;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,9 @@
 //! Reads the file of a polymer: the table `[spinline.material]` with every constant, as in a case.
 
-use crate::fibre::case::Case;
 use crate::fibre::case::keys::{self, Key};
-use crate::fibre::spinline::{Material, Polymer, PolymerFile, PolymerSource, Spinline};
-use crate::ground::error::{Fault, FileError, Finding, Place, Position};
+use crate::fibre::{Case, Material, Polymer, PolymerFile, PolymerSource, Spinline};
+use crate::ground::error::Place;
+use crate::ground::{Fault, FileError, Finding, Position};
 use crate::input::document;
 use crate::input::write::toml_value;
 

@@ -1,14 +1,13 @@
 //! Reads profiles of the air and spectra: small tables with units in their headers.
 
-use crate::air::motion::{Profile, SpectrumTable};
+use crate::air::{Profile, SpectrumTable};
 use crate::fibre::case::keys::Kind;
 use crate::fibre::case::keys::Sign::{self, Any, NotNegative, Positive};
-use crate::fibre::spinline::{AirTable, ZERO_CELSIUS};
-use crate::ground::error::{Fault, FileError, FileKind, Problem, listed};
-use crate::ground::table::{Head, Table};
-use crate::ground::units::Dimension::{self, Frequency, Length, Ratio, Temperature, Velocity};
+use crate::fibre::{AirTable, ZERO_CELSIUS};
+use crate::ground::Dimension::{Frequency, Length, Ratio, Temperature, Velocity};
+use crate::ground::error::listed;
 use crate::ground::units::excerpt;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Fault, FileError, FileKind, Head, Problem, Table, Vec3};
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;

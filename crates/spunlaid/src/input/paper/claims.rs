@@ -1,7 +1,7 @@
 //! The paper's claims. Each gets its evidence and a verdict from the data.
 
 use super::{LateralEstimates, Parameter, TrendPoint};
-use crate::experiment::claim::{CHANCE, Claim, REAL, Verdict};
+use crate::experiment::{CHANCE, Claim, REAL, Verdict};
 use std::borrow::Cow;
 
 /// Share of the variance that a straight line must explain for a trend to count as almost linear.
@@ -248,7 +248,7 @@ fn slopes(spots: &[Spot]) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::study::Point;
+    use crate::experiment::Point;
 
     fn points(parameter: Parameter, law: impl Fn(f64) -> f64) -> Vec<TrendPoint> {
         let point = |point: &Point| {

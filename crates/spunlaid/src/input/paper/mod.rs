@@ -8,10 +8,10 @@ mod claims;
 
 pub use claims::{claims_of_step_errors, claims_of_trend};
 
-use crate::experiment::study::{PointResults, Study};
-use crate::fibre::case::{Case, ERROR_TOLERANCE};
+use crate::experiment::{PointResults, Study};
 use crate::fibre::chain::schemes::Scheme;
-use crate::ground::error::Error;
+use crate::fibre::{Case, ERROR_TOLERANCE};
+use crate::ground::Error;
 use crate::input::{parse_case, parse_study};
 
 /// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases`

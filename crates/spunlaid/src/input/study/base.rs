@@ -1,18 +1,16 @@
 //! The case that a study varies.
 
-use super::super::Resources;
 use super::super::open::{self, OpenCase};
 use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
-use super::super::{Overrides, values_of_case};
-use super::advice;
+use super::super::{Overrides, Resources, values_of_case};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, VariedKey, level};
-use crate::experiment::study::{Experiment, Point, Quantity, Study};
+use super::{Base, ExperimentWithNotes, VariedKey, advice, level};
+use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value};
-use crate::fibre::case::{Note, Remark};
-use crate::fibre::spinline::{SpinSpec, Spinline};
-use crate::ground::error::{Error, Fault, FileKind, Place, Problem};
+use crate::fibre::{Note, Remark, SpinSpec, Spinline};
+use crate::ground::error::Place;
+use crate::ground::{Error, Fault, FileKind, Problem};
 
 /// The case as it is written, with the files that it names.
 pub(super) struct CaseBase {

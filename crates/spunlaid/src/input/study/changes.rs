@@ -5,9 +5,8 @@ use super::super::{Overrides, Resources, file};
 use super::line::{OpenWeb, changes_of_line};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::experiment::advice::Change;
-use crate::ground::effects::{ChangedKey, Setting};
-use crate::ground::error::{Error, FileKind};
+use crate::experiment::Change;
+use crate::ground::{ChangedKey, Error, FileKind, Setting};
 use std::path::Path;
 
 /// Which changes of a web are made.

@@ -2,14 +2,14 @@
 
 use super::super::document::Named;
 use super::super::entry::{Entry, kind};
-use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, VariedKey, level};
-use super::{Reader, not_varied, not_written};
-use crate::experiment::study::{
+use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, VariedKey, level, not_varied, not_written};
+use crate::experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
     Way,
 };
 use crate::fibre::case::keys::Value;
-use crate::ground::error::{Fault, Finding, nearest_word};
+use crate::ground::error::nearest_word;
+use crate::ground::{Fault, Finding};
 use toml::de::{DeTable, DeValue};
 
 impl<'a> Reader<'a> {

@@ -4,9 +4,10 @@ use super::super::web::WebFile;
 use super::super::{Overrides, Resources, file};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::experiment::fit::{Parameter, USUAL_FACTOR};
+use crate::experiment::{Parameter, USUAL_FACTOR};
 use crate::fibre::case::keys::{Kind, Sign};
-use crate::ground::error::{Error, Fault, FileKind, Finding, Place, Problem};
+use crate::ground::error::Place;
+use crate::ground::{Error, Fault, FileKind, Finding, Problem};
 use std::path::Path;
 
 /// The web of a fit, with the keys that are sought in it.

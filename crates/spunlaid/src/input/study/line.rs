@@ -6,13 +6,12 @@ use super::super::influence::{Step, changed_key};
 use super::super::web::{WebFile, replaces};
 use super::web::WebBase;
 use super::{Base, VariedKey};
-use crate::air::motion::{Air, Flow};
-use crate::experiment::advice::{Change, ChangedWeb};
+use crate::air::{Air, Flow};
 use crate::experiment::plausible::leads_outside;
-use crate::ground::effects::{ChangedKey, Setting};
-use crate::ground::error::Error;
-use crate::ground::units::Dimension;
-use crate::simulation::layers::{LayerSpec, WebSpec, web_key};
+use crate::experiment::{Change, ChangedWeb};
+use crate::ground::{ChangedKey, Dimension, Error, Setting};
+use crate::simulation::layers::web_key;
+use crate::simulation::{LayerSpec, WebSpec};
 use crate::web::map::Filaments;
 
 /// How settings are changed.

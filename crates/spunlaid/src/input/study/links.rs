@@ -2,11 +2,10 @@
 
 use super::super::document::Named;
 use super::super::entry::Entry;
-use super::{Base, VariedKey};
-use super::{Reader, not_written};
-use crate::experiment::study::{Factor, Link};
-use crate::ground::error::{Fault, Finding};
-use crate::ground::units::{Expression, Powers, unknown_name};
+use super::{Base, Reader, VariedKey, not_written};
+use crate::experiment::{Factor, Link};
+use crate::ground::units::unknown_name;
+use crate::ground::{Expression, Fault, Finding, Powers};
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =

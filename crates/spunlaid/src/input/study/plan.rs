@@ -6,11 +6,11 @@ use super::super::entry::Entry;
 use super::super::overrides::AUTO;
 use super::super::write::quoted;
 use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice};
-use crate::experiment::study::{
+use crate::experiment::{
     Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim,
 };
 use crate::fibre::case::keys::{self, Kind};
-use crate::ground::error::{Fault, FileKind, Finding};
+use crate::ground::{Fault, FileKind, Finding};
 use crate::simulation::layers::full_names::{are_alternatives, is_replaced};
 use toml::de::DeValue;
 

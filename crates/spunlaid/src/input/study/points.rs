@@ -3,9 +3,11 @@
 use super::super::Resources;
 use super::plan::{Plan, base_value};
 use super::{Base, VariedKey, links};
-use crate::experiment::study::{Point, seed_of_point};
-use crate::fibre::case::Note;
-use crate::ground::error::{Error, Place};
+use crate::experiment::Point;
+use crate::experiment::study::seed_of_point;
+use crate::fibre::Note;
+use crate::ground::Error;
+use crate::ground::error::Place;
 use std::fmt;
 
 /// A remark that applies to one or more points of a study.

@@ -1,18 +1,16 @@
 //! The web that a study varies, with the cases that it flies.
 
-use super::super::Overrides;
-use super::super::Resources;
-use super::super::document;
 use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web_to_vary};
 use super::super::written_values::WrittenValues;
-use super::TAKE_A_NUMBER;
+use super::super::{Overrides, Resources, document};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, VariedKey, level};
-use crate::experiment::study::{Experiment, Point, Quantity, Study};
+use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, VariedKey, level};
+use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value};
-use crate::ground::error::{Error, Place, nearest_word};
+use crate::ground::Error;
+use crate::ground::error::{Place, nearest_word};
 use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
-use crate::simulation::layers::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
+use crate::simulation::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {

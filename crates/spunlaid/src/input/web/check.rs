@@ -2,13 +2,14 @@
 
 use super::read::{BELT_SPEED, Reading};
 use crate::experiment::plausible::implausible;
-use crate::fibre::case::{Note, Remark};
-use crate::fibre::charge::{BREAKDOWN, STRONG};
-use crate::ground::error::{Fault, Place};
-use crate::ground::units::Dimension;
+use crate::fibre::{BREAKDOWN, Note, Remark, STRONG};
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::keys::{NUMBERS, WEB};
-use crate::simulation::layers::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec, too_small};
-use crate::web::map::{Defect, Edges, Filaments, Row, Sheet, holes};
+use crate::simulation::layers::too_small;
+use crate::simulation::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec};
+use crate::web::map::{Filaments, holes};
+use crate::web::{Defect, Edges, Row, Sheet};
 
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;

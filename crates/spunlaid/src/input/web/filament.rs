@@ -6,11 +6,11 @@ use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, document, file, open_values};
 use super::read::{CASE, Reading, THROUGHPUT};
 use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
-use crate::fibre::case::{Case, Note, Remark};
-use crate::ground::error::{Error, Fault, FileKind, Place, Problem};
-use crate::ground::units::Dimension;
+use crate::fibre::{Case, Note, Remark};
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Error, Fault, FileKind, Problem};
 use crate::simulation::layers::keys::{EITHER, WEB};
-use crate::simulation::layers::{LaydownSource, LayerSpec, WebKey};
+use crate::simulation::{LaydownSource, LayerSpec, WebKey};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

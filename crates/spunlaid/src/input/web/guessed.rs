@@ -3,11 +3,11 @@
 use super::read::Reading;
 use super::{flies_none, is_of_case};
 use crate::fibre::case::keys::{self, Kind};
-use crate::ground::error::{Fault, nearest_word};
-use crate::ground::units::Dimension;
+use crate::ground::error::nearest_word;
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::full_names::{full_name, value, web_key};
 use crate::simulation::layers::keys::WEB;
-use crate::simulation::layers::{SAME, WEB_KEYS, WebKey, WebSpec};
+use crate::simulation::{SAME, WEB_KEYS, WebKey, WebSpec};
 
 /// The key whose value names them.
 const GUESSED: &str = "web.guessed";

@@ -20,13 +20,14 @@ pub(super) use of_case::{flies_none, is_of_case, replaces};
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 
-use super::Resources;
 use super::written_values::WrittenValues;
-use super::{Overrides, document, file};
-use crate::fibre::case::{Note, keys};
-use crate::ground::error::{Error, Fault, FileKind, Problem};
+use super::{Overrides, Resources, document, file};
+use crate::fibre::Note;
+use crate::fibre::case::keys;
+use crate::ground::{Error, Fault, FileKind, Problem};
+use crate::simulation::WebSpec;
 use crate::simulation::layers::keys::WEB_FILE;
-use crate::simulation::layers::{WebSpec, web_key};
+use crate::simulation::layers::web_key;
 use std::path::Path;
 
 /// The file of a web, read.

@@ -6,11 +6,12 @@ use super::super::{Overrides, Resources};
 use super::filament::Filament;
 use super::flies_none;
 use super::read::{CASE, Reading, THROUGHPUT, as_web};
-use crate::fibre::case::Note;
+use crate::fibre::Note;
 use crate::fibre::case::keys::{self, Value};
-use crate::ground::error::{Error, Fault, Place};
+use crate::ground::error::Place;
+use crate::ground::{Error, Fault};
 use crate::simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
-use crate::simulation::layers::{LaydownSource, LayerSpec, WebSpec};
+use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::map::Filaments;
 use std::path::PathBuf;
 

@@ -2,13 +2,15 @@
 
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, Resources};
+use crate::fibre::Note;
 use crate::fibre::case::keys::Value;
-use crate::fibre::case::{Note, unusual};
-use crate::ground::error::{Fault, Finding};
+use crate::fibre::case::unusual;
+use crate::ground::{Fault, Finding};
 use crate::simulation::layers::full_names::{web_key, without_numbers};
 use crate::simulation::layers::keys::{NUMBERS, WEB, in_rows};
-use crate::simulation::layers::{LaydownSource, LayerSpec, WebKey, WebSpec};
-use crate::web::map::{Defect, Filaments, Row};
+use crate::simulation::{LaydownSource, LayerSpec, WebKey, WebSpec};
+use crate::web::map::Filaments;
+use crate::web::{Defect, Row};
 use std::path::PathBuf;
 
 /// The keys of a file that has the case of a layer, of the throughput of a hole, and of the belt on which all

@@ -3,12 +3,11 @@
 use super::open::{Layer, Way};
 use super::read::{BELT_SPEED, Reading};
 use crate::fibre::case::whole_parts;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::full_names::without_numbers;
 use crate::simulation::layers::keys::EITHER;
-use crate::simulation::layers::{LayerSpec, SAME, WebSpec};
-use crate::web::map::Sheet;
+use crate::simulation::{LayerSpec, SAME, WebSpec};
+use crate::web::Sheet;
 
 /// Sides of the cells and of the patches that are chosen if the file gives none [m].
 const CELLS: [f64; 5] = [0.5e-3, 1e-3, 2e-3, 5e-3, 10e-3];

@@ -5,8 +5,9 @@ use super::super::write::{in_lines, lines, lines_of_case, toml_value};
 use super::super::written_values::WrittenValues;
 use crate::fibre::case::keys::{self, Key};
 use crate::simulation::layers::keys::WEB;
-use crate::simulation::layers::{LaydownSource, LayerSpec, WebSpec};
-use crate::web::map::{Defect, Filaments};
+use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
+use crate::web::Defect;
+use crate::web::map::Filaments;
 
 /// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the
 /// same web to the last bit.

@@ -1,9 +1,9 @@
 //! What the charge of all filaments of a beam does to each of them, found anew after every block of time.
 
 use super::Beam;
-use crate::fibre::charge::{Charge, ChargedNode, Curtain, SheetField, Sheets};
-use crate::fibre::flight::Flight;
-use crate::web::map::ChargedCurtain;
+use crate::fibre::charge::Curtain;
+use crate::fibre::{Charge, ChargedNode, Flight, SheetField, Sheets};
+use crate::web::ChargedCurtain;
 use std::sync::Arc;
 
 /// Blocks in the time over which the charge is averaged. The field is that of the block before.

@@ -20,14 +20,11 @@ mod flying;
 mod neighbours;
 mod pack;
 
-use crate::fibre::case::Case;
-use crate::fibre::flight::LaidPoint;
-use crate::fibre::load::WayPlace;
-use crate::ground::error::Error;
-use crate::ground::lanes::Isa;
+use crate::fibre::{Case, LaidPoint, WayPlace};
 use crate::ground::place::Place;
 use crate::ground::sort::sort_by_key;
-use crate::web::map::{
+use crate::ground::{Error, Isa};
+use crate::web::{
     Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand,
     TimeSpent, Titres, Window,
 };

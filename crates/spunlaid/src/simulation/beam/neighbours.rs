@@ -9,7 +9,7 @@
 
 use super::Beam;
 use crate::ground::place::{Place, rows};
-use crate::web::map::{Correlation, Edges, NeighbourCorrelation, Sheet};
+use crate::web::{Correlation, Edges, NeighbourCorrelation, Sheet};
 
 /// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten
 /// length scales.

@@ -3,15 +3,13 @@
 use super::charge::BeamField;
 use super::neighbours::Neighbours;
 use super::{Beam, BeamFindings};
-use crate::air::motion::EddyField;
-use crate::fibre::flight::{Flight, Job, LaidPoint, SurroundingRun};
-use crate::fibre::line::Line;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Isa, WIDTH};
+use crate::air::EddyField;
+use crate::fibre::{Flight, Job, LaidPoint, Line, SurroundingRun};
 use crate::ground::place::Place;
 use crate::ground::sort::sort_by_key;
+use crate::ground::{Error, Isa, WIDTH};
 use crate::simulation::observe::{NodeStates, StretchedBalance};
-use crate::web::map::{Brush, Sheet, Strands, Window, WindowOnSheet};
+use crate::web::{Brush, Sheet, Strands, Window, WindowOnSheet};
 use std::sync::Arc;
 
 /// Neighbours across the web that are shared out to packs by their places in the slot.

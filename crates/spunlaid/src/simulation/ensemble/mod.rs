@@ -8,14 +8,10 @@ mod sources;
 mod trajectory;
 mod turbulence;
 
-use crate::fibre::case::Case;
-pub use crate::fibre::flight::Job;
-use crate::fibre::flight::LaidPoint;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Isa, WIDTH};
-use crate::ground::statistics::EvenSample;
+pub use crate::fibre::Job;
+use crate::fibre::{Case, LaidPoint};
 use crate::ground::threads::lock;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, EvenSample, Isa, Vec3, WIDTH};
 pub use crate::simulation::observe::Sample;
 pub use finer::{
     Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Statistic,

@@ -1,6 +1,7 @@
 //! Distributes work over threads and takes the results in order.
 
-use crate::ground::threads::{OnDrop, lock};
+use crate::ground::OnDrop;
+use crate::ground::threads::lock;
 use std::sync::{Condvar, Mutex, PoisonError};
 
 /// Computes `work(0) … work(count−1)` on `threads` threads and passes the results in that order to `take` on

@@ -1,9 +1,9 @@
 //! The results of an ensemble.
 
 use super::Trajectory;
-use crate::fibre::load::WayPlace;
-use crate::ground::error::Error;
-use crate::ground::statistics::{Estimate, median};
+use crate::fibre::WayPlace;
+use crate::ground::statistics::median;
+use crate::ground::{Error, Estimate};
 use crate::simulation::observe::{Aggregate, FIBRE_ON_WAY, FORCE_ON_AIR, Measure, Value};
 
 /// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the

@@ -1,8 +1,7 @@
 //! The whole shapes of a fibre over time.
 
-use crate::ground::error::Error;
 use crate::ground::threads::lock;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, Vec3};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

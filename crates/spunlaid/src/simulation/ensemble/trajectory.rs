@@ -1,12 +1,10 @@
 //! The trajectory of one replicate.
 
 use super::{EndPath, RunControl, Shapes};
-use crate::air::motion::Flow;
-use crate::fibre::case::Case;
-use crate::fibre::flight::{Flight, Job, LaidPoint, SurroundingRun};
-use crate::ground::error::Error;
-use crate::ground::lanes::{Isa, WIDTH};
+use crate::air::Flow;
+use crate::fibre::{Case, Flight, Job, LaidPoint, SurroundingRun};
 use crate::ground::sort::sort_by_key;
+use crate::ground::{Error, Isa, WIDTH};
 use crate::simulation::observe::{Measure, Observation, Observers, Sample, Value};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -79,7 +77,7 @@ impl KeepShapes {
 
     /// As many shapes as fit into `positions` node positions, of one to eight replicates. If they do not fit, the
     /// number of replicates is reduced first, then the number of instants. A case that says how many shapes are kept
-    /// ([`Run::shapes`](crate::fibre::case::Run)) has at least one replicate with so many.
+    /// ([`Run::shapes`](crate::fibre::Run)) has at least one replicate with so many.
     pub fn within(case: &Case, positions: u64) -> Self {
         let nodes = case.fibre.elements as u64 + 1;
         let instants = case.run.steps / case.run.output_steps + 1;

@@ -1,11 +1,9 @@
 //! The turbulence around the fibres, measured as a hot wire at a fixed point would.
 
 use super::{Job, RunControl};
-use crate::air::motion::{Spectrum, Stream, StreamKey, Wind};
-use crate::fibre::case::Case;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Isa, WIDTH};
-use crate::ground::statistics::{Welch, Window};
+use crate::air::{Spectrum, Stream, StreamKey, Wind};
+use crate::fibre::Case;
+use crate::ground::{Error, Isa, WIDTH, Welch, Window};
 
 /// A point of the spectrum of the turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]

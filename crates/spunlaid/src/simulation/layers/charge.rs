@@ -2,11 +2,11 @@
 
 use super::few::FewPlan;
 use super::{LayerSpec, WebSpec};
-use crate::fibre::case::Case;
-use crate::fibre::charge::{Charge, ChargeEstimate};
+use crate::fibre::{Case, Charge, ChargeEstimate};
 use crate::ground::place::Place;
 use crate::simulation::beam::BeamCharge;
-use crate::web::map::{Arrangement, Filaments, Sheet};
+use crate::web::map::Filaments;
+use crate::web::{Arrangement, Sheet};
 
 /// Parts of a filament in which those are counted for which it stands.
 const PARTS: f64 = 1e3;

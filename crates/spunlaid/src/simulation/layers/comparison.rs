@@ -9,14 +9,12 @@
 use super::few::Compared;
 use super::shared_air::{LayerBeam, beam_on};
 use super::{Flyer, WebSpec};
-use crate::fibre::flight::LaidPoint;
-use crate::fibre::line::{Contact, Line};
-use crate::ground::error::{Error, Fault};
-use crate::ground::lanes::Isa;
+use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::each;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Error, Fault, Isa};
 use crate::simulation::beam::{Beam, BeamControl, BeamFindings, fly_abreast, memory_abreast};
-use crate::web::map::{Arrangement, LayerFew, Sheet, blocks_on};
+use crate::web::map::blocks_on;
+use crate::web::{Arrangement, LayerFew, Sheet};
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 

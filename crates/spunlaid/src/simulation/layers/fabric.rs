@@ -1,9 +1,10 @@
 //! The fabric that a web becomes.
 
 use super::WebSpec;
-use crate::web::fabric::{Fabric, Filaments, Laid, StreakSource, tell};
+use crate::web::fabric::{Filaments, tell};
 use crate::web::map::uniformity::Unevenness;
-use crate::web::map::{Defect, Findings, Layer, PatchFindings, Web, holes};
+use crate::web::map::{Findings, PatchFindings, holes};
+use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
 
 impl WebSpec {
     /// What a buyer wants to know of the fabric.

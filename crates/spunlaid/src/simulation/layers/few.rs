@@ -1,14 +1,15 @@
 //! Which few filaments of a layer are flown for all of them, and on which sheet.
 
 use super::{Flown, WebSpec};
-use crate::fibre::flight::LaidPoint;
-use crate::ground::error::Error;
+use crate::fibre::LaidPoint;
+use crate::ground::Error;
 use crate::ground::place::{Place, rows};
 use crate::simulation::beam::{Beam, BeamFindings};
-use crate::web::curtain::{Belt, Covariances, Filling, FlownCurves, lay};
-use crate::web::map::{
-    Arrangement, Edges, FEWEST_OF_FEW, FewFilaments, Filaments, FilledMaps, LEAST_SAVING, LayerFew, Row,
-    Sheet, Window, inlets, small_patch,
+use crate::web::curtain::lay;
+use crate::web::map::{Filaments, inlets, small_patch};
+use crate::web::{
+    Arrangement, Belt, Covariances, Edges, FEWEST_OF_FEW, FewFilaments, FilledMaps, Filling, FlownCurves,
+    LEAST_SAVING, LayerFew, Row, Sheet, Window,
 };
 use std::sync::atomic::AtomicBool;
 

@@ -1,12 +1,12 @@
 //! What a few filaments of each layer have laid, and all filaments of any stretch of the sheet that follow from it.
 
 use super::{LayerFibres, WebSpec};
-use crate::ground::error::Error;
+use crate::ground::Error;
 use crate::ground::place::Place;
 use crate::ground::sort::sort_by_key;
 use crate::web::curtain::drawing::draw;
-use crate::web::curtain::{Belt, FlownCurves, Library};
-use crate::web::map::{Brush, Canvas, Edges, SharedAirFindings, Strand, inlets};
+use crate::web::map::inlets;
+use crate::web::{Belt, Brush, Canvas, Edges, FlownCurves, Library, SharedAirFindings, Strand};
 use std::sync::atomic::AtomicBool;
 
 /// The curves of a few filaments of a layer, from which those of all others follow.

@@ -5,16 +5,11 @@
 //! ```
 
 use super::{LaydownSource, WebSpec};
-use crate::fibre::case::Case;
-use crate::fibre::flight::LaidPoint;
-use crate::fibre::load::WayPlace;
-use crate::ground::error::{Error, Fault};
-use crate::ground::statistics::Estimate;
-use crate::web::laydown::{Trace, TraceSettings};
-use crate::web::map::{
-    Curves, Doubt, Fibres, Findings, LaidWeb, LayControl, Map, Web, find_laid, lay, pieces,
-};
-use crate::web::surrogate::{Residual, Surrogate, identify};
+use crate::fibre::{Case, LaidPoint, WayPlace};
+use crate::ground::{Error, Estimate, Fault};
+use crate::web::map::{Doubt, Findings, find_laid, lay, pieces};
+use crate::web::surrogate::identify;
+use crate::web::{Curves, Fibres, LaidWeb, LayControl, Map, Residual, Surrogate, Trace, TraceSettings, Web};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -4,16 +4,15 @@ use super::few::{FewFlight, FewPlan, FlownSheet};
 use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, WebSpec};
-use crate::air::motion::Lateral;
-use crate::fibre::case::Case;
-use crate::ground::error::{Error, Fault, Place as ErrorPlace, Problem};
-use crate::ground::lanes::Isa;
+use crate::air::Lateral;
+use crate::fibre::Case;
+use crate::ground::error::Place as ErrorPlace;
 use crate::ground::place::Place;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Error, Fault, Isa, Problem};
 use crate::simulation::beam::{Beam, BeamCharge, BeamControl, BeamFindings};
-use crate::web::curtain::FlownCurves;
-use crate::web::map::{
-    Brush, Canvas, Curves, Fibres, LaidWeb, LayerFew, OneAir, Sheet, TRIED, TimeSpent, blocks_on, inlets,
+use crate::web::map::{blocks_on, inlets};
+use crate::web::{
+    Brush, Canvas, Curves, Fibres, FlownCurves, LaidWeb, LayerFew, OneAir, Sheet, TRIED, TimeSpent,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};

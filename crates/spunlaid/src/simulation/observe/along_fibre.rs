@@ -4,10 +4,9 @@ use super::{
     Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, PER_METRE, Value, figure,
     fixed, number_of_each,
 };
+use crate::fibre::Flight;
 use crate::fibre::chain::forces::Element;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Isa, Lanes, Register, Task, Vec3, WIDTH, Wide};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[

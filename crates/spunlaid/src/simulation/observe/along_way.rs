@@ -5,9 +5,9 @@ use super::{
     Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, RATIO, Unit, Value, fed,
     figure, number_of_each,
 };
+use crate::fibre::Flight;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::WIDTH;
+use crate::ground::WIDTH;
 
 /// Classes of distance from the inlet.
 const CLASSES: usize = 50;

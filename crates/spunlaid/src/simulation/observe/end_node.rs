@@ -5,10 +5,9 @@ use super::{
     Declaration, Figure, HERTZ, Kind, MILLIMETRES, Measure, Observation, Observer,
     SQUARE_MILLIMETRES_PER_HERTZ, Value, figure, fixed,
 };
-use crate::fibre::case::Run;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::WIDTH;
-use crate::ground::statistics::{EvenSample, Welch, Window, quantile};
+use crate::fibre::{Flight, Run};
+use crate::ground::statistics::quantile;
+use crate::ground::{EvenSample, WIDTH, Welch, Window};
 
 pub(super) const MOTION: Declaration = Declaration {
     measures: &[

@@ -4,10 +4,10 @@ use super::{
     Aggregate, Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observation, Observer, Sample, Value,
     always, figure,
 };
+use crate::fibre::Flight;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::WIDTH;
-use crate::ground::statistics::{EvenSample, median};
+use crate::ground::statistics::median;
+use crate::ground::{EvenSample, WIDTH};
 
 /// The paper's work check. Under implicit tension it does not apply: there it is tens of per cent where the amplitudes
 /// agree with those of the other schemes.

@@ -1,8 +1,9 @@
 //! What is told of a fabric, of its patches and strips.
 
-use super::{Figure, Formula::Told, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit, figure};
-use crate::web::fabric::Known::Exact;
-use crate::web::fabric::{Fabric, FabricPatch, Marked, Streak, Strips};
+use super::Formula::Told;
+use super::{Figure, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit, figure};
+use crate::web::Known::Exact;
+use crate::web::{Fabric, FabricPatch, Marked, Streak, Strips};
 
 const THIN_PLACES: Figure =
     figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin places");

@@ -4,11 +4,10 @@ use super::{
     Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
     figure, number_of_each,
 };
-use crate::fibre::case::Case;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::WIDTH;
-use crate::web::laydown::{LaidCurve, Trace, TraceSettings};
+use crate::fibre::{Case, Flight};
+use crate::ground::WIDTH;
 use crate::web::surrogate::identify;
+use crate::web::{LaidCurve, Trace, TraceSettings};
 
 /// The laid fibre.
 pub const LAYDOWN: Group = Group { name: "laydown", title: "laid fibre" };

@@ -4,10 +4,10 @@
 //! a list of measures + what was found → rows of values with their errors → JSON, tables, studies, Python
 //! ```
 
-use crate::air::record::Interval;
-use crate::fibre::flight::Flight;
+use crate::air::Interval;
+use crate::fibre::Flight;
 use crate::ground::units::{si_unit_of, udunits};
-use crate::web::fabric::Known;
+use crate::web::Known;
 use std::fmt;
 
 /// Something measured of a `T`: of a web, of its patches of one size, of a scan, of a velocity record or a

@@ -27,9 +27,8 @@ mod spinline;
 mod strain;
 mod web;
 
-use crate::fibre::case::Case;
-use crate::fibre::flight::{Flight, LaidPoint, Snapshot};
-use crate::ground::lanes::WIDTH;
+use crate::fibre::{Case, Flight, LaidPoint, Snapshot};
+use crate::ground::WIDTH;
 pub use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use laydown::{LAYDOWN, SURROGATE};

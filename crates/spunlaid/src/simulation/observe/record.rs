@@ -1,8 +1,8 @@
 //! What is measured of a velocity record. `analysis.json`, the terminal, the report and Python follow from it.
 
 use super::{Formula, HERTZ, METRES_PER_SECOND, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
-use crate::air::record::{Analysis, Component};
-use crate::ground::units::Dimension;
+use crate::air::{Analysis, Component};
+use crate::ground::Dimension;
 use Formula::{Interval, Number};
 
 /// The measures of a record, in the order of the tables: what the `[air]` of a case needs.

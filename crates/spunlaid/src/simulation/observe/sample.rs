@@ -1,8 +1,7 @@
 //! The record of a fibre at an instant.
 
-use crate::fibre::energy::Energy;
-use crate::fibre::flight::Snapshot;
-use crate::ground::vec3::Vec3;
+use crate::fibre::{Energy, Snapshot};
+use crate::ground::Vec3;
 
 /// One recorded instant of a fibre.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,8 +2,7 @@
 
 use super::Formula::{Known, Mean, Number};
 use super::{KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, PERCENT, RATIO, Unit, figure};
-use crate::fibre::load::{Heat, Load, LoadPlace};
-use crate::fibre::spinline::{FreezingCause, Solution, ZERO_CELSIUS};
+use crate::fibre::{FreezingCause, Heat, Load, LoadPlace, Solution, ZERO_CELSIUS};
 
 /// The measures of a spinline, in the order of its tables and of studies.
 pub const OF_SPINLINES: &[Measure<Solution>] = &[

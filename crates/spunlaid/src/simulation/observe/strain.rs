@@ -4,11 +4,10 @@ use super::{
     Aggregate, Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observation, Observer, PERCENT, Value,
     figure, fixed, number_of_each,
 };
-use crate::air::motion::Flow;
-use crate::fibre::body::Root;
-use crate::fibre::flight::Flight;
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::statistics::{EvenSample, quantile};
+use crate::air::Flow;
+use crate::fibre::{Flight, Root};
+use crate::ground::statistics::quantile;
+use crate::ground::{EvenSample, Lanes, WIDTH};
 use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.

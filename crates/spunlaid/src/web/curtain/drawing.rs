@@ -1,8 +1,8 @@
 //! Curves of a curtain on the sheet.
 
 use super::Curtain;
-use crate::ground::error::{Error, Fault};
 use crate::ground::threads::try_each;
+use crate::ground::{Error, Fault};
 use crate::web::map::{
     Brush, Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Titres, Window, WindowOnSheet,
 };

@@ -1,7 +1,7 @@
 //! The curves that were flown.
 
 use super::Curtain;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::place::{Place, rows};
 
 /// Curves that some filaments of a curtain have laid in one air.

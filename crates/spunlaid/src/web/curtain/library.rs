@@ -3,7 +3,7 @@
 use super::filling::Covariances;
 use super::flown_curves::farthest;
 use super::{Curtain, FlownCurves};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::place::Place;
 
 /// Most places along the machine direction that are rows; more are a slot.

@@ -3,7 +3,7 @@
 use super::Curtain;
 use super::filling::add;
 use super::library::Library;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::place::Place;
 use crate::ground::random::{stream, uniform};
 use std::f64::consts::FRAC_PI_2;

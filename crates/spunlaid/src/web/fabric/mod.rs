@@ -21,7 +21,7 @@ mod tell;
 mod tests;
 mod usable;
 
-use crate::ground::statistics::Estimate;
+use crate::ground::Estimate;
 pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
 pub use light::{bare_area, formation, local_weights, opacity, scattering};
 pub use marks::Marks;

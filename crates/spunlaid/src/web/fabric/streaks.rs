@@ -1,7 +1,7 @@
 //! Streaks that defects of the line leave in the web, and whether they show.
 
 use super::Known;
-use crate::ground::statistics::NORMAL_95;
+use crate::ground::NORMAL_95;
 use crate::web::map::Map;
 use std::f64::consts::SQRT_2;
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)]
 
 use super::*;
-use crate::ground::statistics::{Estimate, NORMAL_95};
+use crate::ground::{Estimate, NORMAL_95};
 use crate::web::map::uniformity::{Unevenness, unevenness};
 use crate::web::map::{Canvas, Edges, Map, Sheet, straight_fibres};
 use crate::web::scan::{Format, Light, Picture, Settings, analyse};

@@ -4,7 +4,7 @@ use super::laid_web::{HIGHEST, LaidWeb, too_full};
 use super::map::Map;
 use super::window::floor;
 use super::{Edges, Sheet};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::threads::lock;
 use std::ops::Range;
 use std::sync::Mutex;

@@ -3,7 +3,7 @@
 use super::map::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
-use crate::ground::statistics::Estimate;
+use crate::ground::Estimate;
 use crate::ground::threads::each;
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! What must be known of the numbers of a web before they are believed, and how it is said.
 
 use super::few_findings::FewDoubt;
-use crate::fibre::charge::BREAKDOWN;
-use crate::ground::units::Dimension;
+use crate::fibre::BREAKDOWN;
+use crate::ground::Dimension;
 use std::fmt::{Display, Formatter, Result};
 
 /// A reason to doubt numbers of a web, or to read them with care. It is shown as a sentence without a full stop.

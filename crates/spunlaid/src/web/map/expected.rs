@@ -4,10 +4,8 @@ use super::laid_web::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::ground::effects::Effect;
-use crate::ground::error::{Error, Fault};
-use crate::ground::statistics::{Difference, Estimate};
 use crate::ground::threads::try_each;
+use crate::ground::{Difference, Effect, Error, Estimate, Fault};
 use std::ops::Range;
 
 /// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre

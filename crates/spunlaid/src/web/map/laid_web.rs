@@ -3,10 +3,9 @@
 use super::few_findings::{FewDoubt, LayerFew};
 use super::map::Map;
 use super::window::Strand;
-use crate::fibre::charge::SheetHeight;
-use crate::ground::error::Fault;
-use crate::ground::lanes::Isa;
+use crate::fibre::SheetHeight;
 use crate::ground::statistics::student_t_95_at;
+use crate::ground::{Fault, Isa};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Duration;
 

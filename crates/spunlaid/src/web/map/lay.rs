@@ -5,9 +5,8 @@ use super::canvas::{Canvas, CanvasPart};
 use super::laid_web::{LaidWeb, LayControl};
 use super::plan::{Plan, plans};
 use super::window::{Strand, Strands, Window, WindowOnSheet};
-use crate::ground::error::Error;
-use crate::ground::lanes::{Lanes, WIDTH};
 use crate::ground::threads::{lock, try_each};
+use crate::ground::{Error, Lanes, WIDTH};
 use std::ops::Range;
 use std::sync::Mutex;
 

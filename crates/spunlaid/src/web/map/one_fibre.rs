@@ -4,9 +4,8 @@ use super::laid_web::LayControl;
 use super::lay::lay;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
-use crate::ground::error::Error;
-use crate::ground::statistics::Estimate;
 use crate::ground::threads::try_each;
+use crate::ground::{Error, Estimate};
 use crate::web::surrogate::Surrogate;
 
 /// How the unevenness is found from single fibres.

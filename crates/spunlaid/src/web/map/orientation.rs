@@ -4,9 +4,7 @@ use super::laid_web::LayControl;
 use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};
-use crate::ground::error::Error;
-use crate::ground::lanes::WIDTH;
-use crate::ground::statistics::Estimate;
+use crate::ground::{Error, Estimate, WIDTH};
 use std::f64::consts::PI;
 
 /// Directions of the pieces of some filaments on the belt, each piece with its mass: of curves that were flown,

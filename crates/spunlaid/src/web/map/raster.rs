@@ -1,7 +1,7 @@
 //! Draws curves into cells, eight at a time.
 
 use super::canvas::CanvasPart;
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide};
+use crate::ground::{Lanes, Register, Task, WIDTH, Wide};
 
 /// Columns and rows of a part beyond what is drawn on, on each side. A wrapped coordinate may be off by a rounding
 /// error, and its piece a cell further.

@@ -77,7 +77,8 @@ impl SharedError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ground::statistics::{Estimate, student_t_95_at};
+    use crate::ground::Estimate;
+    use crate::ground::statistics::student_t_95_at;
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 

@@ -1,8 +1,7 @@
 //! Waves: the powers of a field on a rectangle, and how much of its variance is chance.
 
-use crate::ground::fft::{Complex, InverseTransform};
-use crate::ground::lanes::{Lanes, WIDTH};
 use crate::ground::threads::each;
+use crate::ground::{Complex, InverseTransform, Lanes, WIDTH};
 
 /// What is known of the places at which the filaments of a sheet come down.
 ///

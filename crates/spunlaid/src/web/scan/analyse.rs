@@ -11,8 +11,8 @@ use super::picture::Picture;
 use super::spots::{ForeignParts, Spots};
 use super::weigh::{Correction, Light, WeighedPicture, beside, weigh};
 use super::{Doubt, FEWEST};
-use crate::ground::error::{Fault, FileError};
-use crate::ground::units::{Dimension, shortest};
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault, FileError};
 use crate::web::map::uniformity::Unevenness;
 use crate::web::map::{Clouds, autocorrelation};
 

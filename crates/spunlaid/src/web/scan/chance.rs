@@ -1,6 +1,7 @@
 //! How far the CV of one piece of web may be from that of the web.
 
-use crate::ground::statistics::{Estimate, NORMAL_95, student_t_95};
+use crate::ground::statistics::student_t_95;
+use crate::ground::{Estimate, NORMAL_95};
 use crate::web::map::Map;
 use std::f64::consts::PI;
 

@@ -4,7 +4,7 @@ use super::Doubt;
 use super::picture::Picture;
 use super::spots::ForeignParts;
 use super::weigh::{Light, Pixels};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::web::map::uniformity::Unevenness;
 use crate::web::map::{Clouds, Map};
 

@@ -6,8 +6,7 @@ use super::levels::{FILLED, per_cent};
 use super::picture::{Picture, Rectangle};
 use super::spots::{FEWEST, KEPT, Level, largest, region, widen};
 use super::weigh::Light;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Blocks of a map with less of its median weight are bare: a web that becomes thin towards its edge is a web
 /// down to that.

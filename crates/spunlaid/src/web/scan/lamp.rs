@@ -3,7 +3,7 @@
 use super::Doubt;
 use super::levels::per_cent;
 use super::picture::Picture;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::statistics::quantile;
 use crate::ground::units::shortest;
 

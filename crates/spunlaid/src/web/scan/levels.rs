@@ -1,7 +1,7 @@
 //! The light of a picture, pixel by pixel: what is missing, the level of the lamp, and its shading.
 
 use super::picture::Picture;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::units::shortest;
 use crate::web::map::Map;
 

@@ -6,8 +6,8 @@ use super::levels::per_cent;
 use super::picture::Picture;
 use super::spots::ForeignParts;
 use super::weigh::{Light, WeighedPicture};
-use crate::ground::error::Fault;
-use crate::ground::units::{Dimension, shortest};
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault};
 
 /// A larger difference between two sides of a pixel is not one of rounding.
 const OTHER: f64 = 0.01;

@@ -1,7 +1,7 @@
 //! Finds the parts of a picture that are not web: the bare lamp beside it, dust and blots.
 
 use super::picture::{Picture, Rectangle, cut};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::sort::sort_by_key;
 use crate::ground::statistics::{median, quantile};
 use std::cmp::Reverse;

@@ -4,7 +4,7 @@ use super::Doubt;
 use super::levels::{Shading, above_zero, believed_shading, logs, mean_of, unusable, white_level};
 use super::picture::Picture;
 use super::spots::{Spots, spots};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::units::shortest;
 use crate::web::map::Map;
 

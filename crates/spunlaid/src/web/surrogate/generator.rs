@@ -15,7 +15,7 @@
 //! Turning α by half a turn changes the sign of H only. Therefore, with e and o the parts of `e^{Ls/2} x₁` with k even
 //! and odd, `C(s) = |e|² − |o|²`: it is enough to follow x₁ along half the lag.
 
-use crate::ground::lanes::{Isa, Lanes, Register, Simd, Task, WIDTH, Wide};
+use crate::ground::{Isa, Lanes, Register, Simd, Task, WIDTH, Wide};
 
 /// How many functions are taken: m+n up to `degree`, k up to `harmonic`.
 #[derive(Clone, Copy, Debug)]

@@ -18,8 +18,7 @@
 mod generator;
 mod paths;
 
-use crate::ground::lanes::WIDTH;
-use crate::ground::statistics::Estimate;
+use crate::ground::{Estimate, WIDTH};
 use generator::{Correlations, Size};
 pub(crate) use paths::BLOCK as PATH_POINTS;
 pub use paths::{PathKey, Paths};

@@ -1,8 +1,9 @@
 //! Paths of the surrogate, eight abreast.
 
 use super::Surrogate;
-use crate::ground::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn, log2};
+use crate::ground::lanes::{cos_sin_turn, log2};
 use crate::ground::random::stream;
+use crate::ground::{Isa, Lanes, Register, Task, WIDTH, Wide};
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::array::from_fn;

@@ -1,6 +1,6 @@
 //! The cells of a mesh and their faces.
 
-use crate::ground::error::{Fault, FileError, Position};
+use crate::ground::{Fault, FileError, Position};
 
 /// The shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

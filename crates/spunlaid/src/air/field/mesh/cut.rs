@@ -9,7 +9,7 @@
 use super::cells::Cells;
 use crate::air::field::node::{Node, bounding_box};
 use crate::air::field::{mean, vector};
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// Smallest volume of a tetrahedron or a cell, divided by the cube of the cell's diagonal. Less is rounding.
 const FLAT: f64 = 1e-12;

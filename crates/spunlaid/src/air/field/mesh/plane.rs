@@ -4,8 +4,7 @@
 use super::Mesh;
 use super::cells::{Cells, Shape};
 use crate::air::field::node::{Node, Quantities, bounding_box};
-use crate::ground::error::{Fault, FileError};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, Vec3};
 
 /// Coordinates that differ by less than this share of the extent count as equal.
 const ROUNDING: f64 = 1e-9;

@@ -8,7 +8,8 @@
 use super::mean;
 use super::node::{Node, Quantities, bounding_box};
 use super::tree::Tree;
-use crate::ground::error::{Fault, FileError, counted};
+use crate::ground::error::counted;
+use crate::ground::{Fault, FileError};
 
 /// Number of points in the mean. The distance of the next one is where the weights become zero.
 const NEAREST: usize = 8;

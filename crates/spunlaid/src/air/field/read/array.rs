@@ -2,7 +2,7 @@
 
 use super::encoding::{self, Budget, Packing};
 use crate::air::field::fault;
-use crate::ground::error::{Fault, FileError, Position};
+use crate::ground::{Fault, FileError, Position};
 use std::str::FromStr;
 
 /// A type of number.

@@ -3,7 +3,8 @@
 use super::array::Array;
 use super::names::{COMPONENTS, ENDINGS, EPSILON, K, Measure, Name, OMEGA, ScaledColumn, VECTORS, first};
 use crate::air::field::FieldLayout;
-use crate::ground::error::{FileError, listed};
+use crate::ground::FileError;
+use crate::ground::error::listed;
 use crate::ground::units::excerpt;
 
 /// Where the velocity is.

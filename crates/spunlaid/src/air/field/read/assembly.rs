@@ -9,7 +9,8 @@ use super::names::Measure;
 use super::piece::{Piece, Range, Reader};
 use super::times::one_time;
 use crate::air::field::{Field, FieldLayout};
-use crate::ground::error::{Fault, FileError, IS, by_count, counted};
+use crate::ground::error::{by_count, counted};
+use crate::ground::{Fault, FileError, IS};
 
 /// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
 const ROUNDING: f64 = 1e-3;

@@ -16,9 +16,8 @@ use super::array::Array;
 use super::encoding::Budget;
 use super::grid::Grid;
 use super::names::Name;
-use crate::ground::error::{Fault, FileError};
 use crate::ground::units::{excerpt, shortest};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, Vec3};
 
 /// `vtkGhostType` of a point or a cell that another piece has too.
 const COPY: u32 = 1;

@@ -1,7 +1,7 @@
 //! Decodes the blocks of bytes in VTK's XML files. They have a header and may be compressed and in base 64.
 
 use crate::air::field::fault;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};

@@ -1,7 +1,7 @@
 //! Files of other programs and kinds, which are refused by name with what to write instead.
 
 use super::xml;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use std::path::Path;
 
 const PARAVIEW: &str = "open it in ParaView and save one time, or the mean over time, as .vtu";

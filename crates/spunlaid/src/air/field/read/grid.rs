@@ -2,8 +2,7 @@
 
 use super::unstructured::{MeshLists, MeshParts};
 use crate::air::field::fault;
-use crate::ground::error::FileError;
-use crate::ground::vec3::Vec3;
+use crate::ground::{FileError, Vec3};
 use std::borrow::Cow;
 
 /// How the points of a piece are arranged.

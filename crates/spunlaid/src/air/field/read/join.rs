@@ -6,8 +6,8 @@ use crate::air::field::holes::Holes;
 use crate::air::field::lattice::order;
 use crate::air::field::node::{bounding_box, compare};
 use crate::air::field::{Cells, Field, Shape, Values, fault};
-use crate::ground::error::{Fault, FileError, by_count, counted};
-use crate::ground::vec3::Vec3;
+use crate::ground::error::{by_count, counted};
+use crate::ground::{Fault, FileError, Vec3};
 use std::borrow::Cow;
 
 /// A piece with its values at points.

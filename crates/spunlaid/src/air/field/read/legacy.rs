@@ -7,10 +7,8 @@ use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
 use super::times;
 use super::unstructured::{MeshLists, Polyhedra};
-use crate::air::field::fault;
-use crate::air::field::{Field, FieldLayout};
-use crate::ground::error::{Fault, FileError, Position};
-use crate::ground::vec3::Vec3;
+use crate::air::field::{Field, FieldLayout, fault};
+use crate::ground::{Fault, FileError, Position, Vec3};
 
 /// How such files begin.
 pub(super) const START: &[u8] = b"# vtk DataFile Version";

@@ -6,11 +6,9 @@
 
 use super::assembly::Assembly;
 use super::{ReadField, xml};
-use crate::air::field::FieldLayout;
-use crate::air::field::fault;
-use crate::ground::error::{Fault, FileError, FileKind, Position};
-use crate::ground::file;
+use crate::air::field::{FieldLayout, fault};
 use crate::ground::units::excerpt;
+use crate::ground::{Fault, FileError, FileKind, Position, file};
 use roxmltree::Node;
 use std::fs;
 use std::path::{Component, Path, PathBuf};

@@ -2,7 +2,8 @@
 
 use super::arrays::Arrays;
 use super::names::{ENDINGS, EPSILON, K, Measure};
-use crate::ground::error::{Fault, nearest_word, one_of};
+use crate::ground::Fault;
+use crate::ground::error::{nearest_word, one_of};
 use crate::ground::units::excerpt;
 
 /// Longest name of an array that a message proposes.

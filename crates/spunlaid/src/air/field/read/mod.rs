@@ -22,8 +22,7 @@ mod unstructured;
 mod xml;
 
 use super::{Field, FieldLayout};
-use crate::ground::error::{Fault, FileError, FileKind};
-use crate::ground::file;
+use crate::ground::{Fault, FileError, FileKind, file};
 use std::path::{Path, PathBuf};
 
 /// A field with what is known of its files.

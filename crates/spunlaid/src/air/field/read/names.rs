@@ -1,7 +1,7 @@
 //! The names that CFD programs use.
 
 use crate::air::field::{FieldLayout, fault};
-use crate::ground::error::FileError;
+use crate::ground::FileError;
 use crate::ground::units::plain_spelling;
 
 /// Names of the velocity vector, the preferred ones first. The mean comes before the velocity that a transient

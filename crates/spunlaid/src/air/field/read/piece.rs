@@ -9,8 +9,7 @@ use super::missing;
 use super::names::Measure;
 use crate::air::field::node::C_MU;
 use crate::air::field::{FieldLayout, Values};
-use crate::ground::error::{Fault, FileError};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, Vec3};
 
 /// A piece of a file.
 pub(super) struct Piece<'a> {

@@ -10,10 +10,9 @@ use super::names::{self, Measure, Name, ScaledColumn};
 use super::piece::Piece;
 use super::times::{self, Times};
 use crate::air::field::{Field, FieldLayout};
-use crate::ground::error::{Fault, FileError, FileKind, Position, listed};
-use crate::ground::table::Table;
+use crate::ground::error::listed;
 use crate::ground::units::excerpt;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Fault, FileError, FileKind, Position, Table, Vec3};
 
 /// An example of a valid header.
 const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";

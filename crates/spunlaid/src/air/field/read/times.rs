@@ -3,9 +3,8 @@
 use super::array::Array;
 use super::names::Name;
 use crate::air::field::fault::several_times;
-use crate::ground::error::FileError;
-use crate::ground::table::Table;
 use crate::ground::units::{excerpt, shortest};
+use crate::ground::{FileError, Table};
 
 /// Names of columns of time, with or without a unit of time at their end.
 const COLUMNS: [&str; 13] = [

@@ -1,8 +1,7 @@
 //! The cells of an unstructured grid, from VTK’s lists to [`Cells`].
 
-use crate::air::field::fault;
-use crate::air::field::{Cells, Shape};
-use crate::ground::error::{Fault, FileError, Position};
+use crate::air::field::{Cells, Shape, fault};
+use crate::ground::{Fault, FileError, Position};
 
 /// The lists.
 #[derive(Default)]

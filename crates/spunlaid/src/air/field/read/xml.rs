@@ -9,10 +9,9 @@ use super::grid::{Grid, counted, vectors};
 use super::piece::Piece;
 use super::times;
 use super::unstructured::{MeshLists, Polyhedra};
-use crate::air::field::fault;
-use crate::air::field::{Field, FieldLayout};
-use crate::ground::error::{Fault, FileError, Position};
+use crate::air::field::{Field, FieldLayout, fault};
 use crate::ground::units::excerpt;
+use crate::ground::{Fault, FileError, Position};
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 
@@ -221,7 +220,7 @@ impl<'a> File<'a> {
         piece: Node<'a, '_>,
         count: usize,
         budget: &mut Budget,
-    ) -> Result<Vec<crate::ground::vec3::Vec3<f64>>, FileError> {
+    ) -> Result<Vec<crate::ground::Vec3<f64>>, FileError> {
         let arrays = self.arrays(piece, "Points")?;
         let array = arrays.first().ok_or_else(|| Fault::cut_off("the points"))?;
         if array.components != 3 {

@@ -8,8 +8,8 @@ use super::EddyField;
 use super::lattice::{BEFORE, NEEDED, READ};
 use super::plan::Plan;
 use super::tape::{Rows, Tape};
-use crate::ground::lanes::{Lanes, Register, Singles, WIDTH, Wide, indices, integers, singles};
-use crate::ground::vec3::Vec3;
+use crate::ground::lanes::{indices, integers, singles};
+use crate::ground::{Lanes, Register, Singles, Vec3, WIDTH, Wide};
 
 /// Eight fields, one of each place that is looked at, and what does not depend on the place.
 pub(crate) struct EddyFields<'a> {

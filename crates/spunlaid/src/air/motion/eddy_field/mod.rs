@@ -31,7 +31,7 @@ use self::synthesis::Synthesis;
 use self::tape::Tape;
 use self::way::EddyPath;
 use super::{Air, SpectrumShape, StreamKey};
-use crate::ground::lanes::Isa;
+use crate::ground::Isa;
 pub use lattice::Extent;
 use lattice::{BEFORE, Lattice, NEEDED, samples};
 pub(crate) use look::EddyFields;

@@ -11,7 +11,7 @@ use super::lattice::Lattice;
 use super::plan::{Harmonic, Plan, projection};
 use super::transform::{ABREAST, Numbers, Transform, Turned, root};
 use crate::air::motion::StreamKey;
-use crate::ground::lanes::Isa;
+use crate::ground::Isa;
 use crate::ground::random::stream;
 use crate::ground::threads::each;
 use rand_chacha::ChaCha8Rng;

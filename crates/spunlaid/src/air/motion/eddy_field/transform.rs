@@ -2,7 +2,7 @@
 //!
 //! Sums and products are rounded one by one, so every machine gives the same bits.
 
-use crate::ground::lanes::{Isa, Register, Sixteen, Task};
+use crate::ground::{Isa, Register, Sixteen, Task};
 use std::f64::consts::TAU;
 
 /// Signals side by side.

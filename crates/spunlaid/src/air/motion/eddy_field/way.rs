@@ -2,7 +2,7 @@
 
 use crate::air::field::Hint;
 use crate::air::motion::{Air, EddyModel, LocalAir};
-use crate::ground::vec3::Vec3;
+use crate::ground::Vec3;
 
 /// Pieces of the way. The travel time is then exact to 1e-4 of the shortest period.
 const PIECES: usize = 2048;

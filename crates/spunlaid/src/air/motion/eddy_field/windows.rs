@@ -3,7 +3,7 @@
 use super::lattice::{BRICK, REPEATED, ROW, line_size};
 use super::synthesis::LineMaker;
 use super::transform::{ABREAST, Numbers};
-use crate::ground::lanes::{Isa, Register, Sixteen, Task};
+use crate::ground::{Isa, Register, Sixteen, Task};
 use half::f16;
 use std::f64::consts::FRAC_PI_2;
 

@@ -17,10 +17,7 @@ use self::stretches::Stretches;
 use self::synthesis::{SPREAD, Taper};
 use self::windows::Windows;
 use super::Air;
-use crate::ground::company::PerLane;
-use crate::ground::error::Error;
-use crate::ground::lanes::{Isa, Lanes, Register, Task, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, Isa, Lanes, PerLane, Register, Task, Vec3, Wide};
 pub(crate) use sampling::Sampling;
 pub use sampling::{Stream, StreamKey};
 
@@ -383,7 +380,7 @@ impl<S: Register> EddyVelocities<'_, S> {
 mod tests {
     use super::*;
     use crate::air::motion::{Air, StreamKey};
-    use crate::ground::lanes::{Plain, WIDTH};
+    use crate::ground::{Plain, WIDTH};
 
     #[test]
     fn analytic_the_wind_among_its_samples_is_that_of_the_cubics() {

@@ -1,9 +1,9 @@
 //! What the winds of one flight have in common: when samples are made, and what they are made of.
 
 use super::super::{Air, EddyTurbulence, FileContent, Measured};
-use crate::ground::company::{Bits, PerLane, shared};
-use crate::ground::error::{Error, Fault};
+use crate::ground::company::shared;
 use crate::ground::random::stream;
+use crate::ground::{Bits, Error, Fault, PerLane};
 use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
 use std::ops::Deref;

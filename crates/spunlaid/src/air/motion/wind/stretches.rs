@@ -2,8 +2,7 @@
 
 use super::super::{EddyTurbulence, Measured};
 use super::sampling::{Sampling, Stream};
-use crate::ground::company::PerLane;
-use crate::ground::lanes::{Lanes, Register, WIDTH, Wide};
+use crate::ground::{Lanes, PerLane, Register, WIDTH, Wide};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use std::sync::Arc;

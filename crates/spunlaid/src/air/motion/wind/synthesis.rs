@@ -1,10 +1,10 @@
 //! A window of turbulence by random-phase synthesis.
 
 use super::sampling::{Sampling, Stream};
-use crate::ground::company::PerLane;
-use crate::ground::fft::{Complex, InverseTransform, WideComplex, unit};
-use crate::ground::lanes::{Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
+use crate::ground::fft::unit;
+use crate::ground::lanes::cos_sin_turn;
 use crate::ground::random::uniform;
+use crate::ground::{Complex, InverseTransform, Lanes, PerLane, Register, Task, WIDTH, Wide, WideComplex};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use std::f64::consts::{PI, SQRT_2};

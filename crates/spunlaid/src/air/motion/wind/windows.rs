@@ -17,8 +17,7 @@
 use super::super::Air;
 use super::sampling::{Sampling, Stream};
 use super::synthesis::{SPREAD, SampleGrid, Share, Synthesis};
-use crate::ground::company::PerLane;
-use crate::ground::lanes::{Isa, Lanes};
+use crate::ground::{Isa, Lanes, PerLane};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -7,7 +7,7 @@ mod tell;
 
 use super::rows::fill;
 use super::{LONGEST_GAP, Record};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::ground::statistics::quantile;
 use apart::{Apart, apart, clipped};
 use equal::{Equal, equal};

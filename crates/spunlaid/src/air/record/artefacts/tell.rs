@@ -3,7 +3,8 @@
 use super::super::limits::{hertz, number, time};
 use super::apart::Apart;
 use super::{Record, Robust};
-use crate::ground::error::{Fault, counted, listed};
+use crate::ground::Fault;
+use crate::ground::error::{counted, listed};
 use std::ops::Range;
 
 /// Number of stretches whose place is told.

@@ -33,9 +33,8 @@ pub use refusal::Refusal;
 
 use super::journal::Journal;
 use super::{Design, Study};
-use crate::ground::effects::Effect;
-use crate::ground::error::Error;
 use crate::ground::sort::sort_by_key;
+use crate::ground::{Effect, Error};
 use fit::{Fit, fits};
 use solution::Solution;
 use std::cmp::Reverse;

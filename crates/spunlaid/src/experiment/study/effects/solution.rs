@@ -6,9 +6,8 @@ use crate::experiment::study::PointResults;
 use crate::experiment::study::journal::Journal;
 use crate::experiment::study::measures::Record;
 use crate::experiment::study::rounds::results_of_point;
-use crate::ground::effects::Effect;
-use crate::ground::error::Error;
-use crate::ground::statistics::{Difference, add, dot};
+use crate::ground::statistics::{add, dot};
+use crate::ground::{Difference, Effect, Error};
 
 /// The solution of a fit for all measures.
 pub(super) struct Solution {

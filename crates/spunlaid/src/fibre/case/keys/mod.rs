@@ -20,9 +20,8 @@ pub use relations::{Condition, Relations};
 pub use value::{Content, FileKind, Kind, Sign, Value};
 
 use super::Case;
-use crate::ground::error::{Fault, Finding, Place, Problem};
-use crate::ground::removed::Removed;
-use crate::ground::units::Dimension;
+use crate::ground::error::Place;
+use crate::ground::{Dimension, Fault, Finding, Problem, Removed};
 
 /// The tables of a case file, in order.
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;

@@ -2,7 +2,7 @@
 
 use super::{Key, Omission, Value};
 use crate::fibre::case::Case;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 
 /// A circumstance in which a key is needed, or has another default.
 #[derive(Debug)]

@@ -2,12 +2,10 @@
 
 use super::value::{FileKind, Kind, SWITCH, Sign, Value};
 use super::{Condition, Key, Omission, Relations};
-use crate::air::motion::{Flow, PlacedField};
+use crate::air::{Flow, PlacedField};
 use crate::fibre::case::Case;
 use crate::fibre::line::Line;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Dimension, Fault, Vec3};
 
 /// How to get and set the value of a key in a case or another input.
 pub(crate) struct AccessTo<T: 'static> {
@@ -75,7 +73,7 @@ macro_rules! named_fields {
                 Some(self.name().into())
             }
 
-            fn take(&mut self, value: &$crate::fibre::case::keys::Value) -> Result<(), $crate::ground::error::Fault> {
+            fn take(&mut self, value: &$crate::fibre::case::keys::Value) -> Result<(), $crate::ground::Fault> {
                 $crate::fibre::case::keys::row::change(self, value, &Self::ALL, |one| one.name())
             }
         })+
@@ -122,7 +120,8 @@ macro_rules! within {
     };
 }
 
-pub(crate) use {at, within};
+pub(crate) use at;
+pub(crate) use within;
 
 /// Access to a number of the air that the flow may give instead.
 macro_rules! of_air {

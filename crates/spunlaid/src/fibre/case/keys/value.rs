@@ -1,11 +1,10 @@
 //! The kinds of values that keys take, and what each kind allows.
 
-use crate::air::field::Field;
-use crate::air::motion::{FileContent, Measured, Profile, SpectrumTable};
+use crate::air::{Field, FileContent, Measured, Profile, SpectrumTable};
 use crate::fibre::spinline::{AirTable, Polymer, PolymerFile};
-use crate::ground::error::{Fault, nearest_word, one_of};
-use crate::ground::units::{Dimension, UnitAdvice, shortest};
-use crate::ground::vec3::Vec3;
+use crate::ground::error::{nearest_word, one_of};
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault, UnitAdvice, Vec3};
 use std::path::{Path, PathBuf};
 
 /// The value of a key.

@@ -5,8 +5,7 @@ use crate::fibre::chain::constants::{Constants, ElementConstants, Node};
 use crate::fibre::chain::force_pass::Integrator;
 use crate::fibre::chain::forces::Element;
 use crate::fibre::chain::work::Charged;
-use crate::ground::lanes::{Lanes, Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Register, Vec3, Wide};
 
 /// Largest `s = h²λ/(ℓm)` of a tension `λ` that the predictor takes from the last step [-]: of fibres of
 /// fixed length the one that belongs to the limit of (55), of fed fibres, which fold, less. Pulling along the

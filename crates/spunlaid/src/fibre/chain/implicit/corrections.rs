@@ -1,8 +1,7 @@
 //! The system of the corrections of the tensions.
 
 use crate::fibre::chain::Chain;
-use crate::ground::lanes::{Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Register, Vec3, Wide};
 
 /// From the free end to the root: replaces the accelerations by the predicted velocities, and eliminates the
 /// rows `(λ+δ)/k_a = ℓ_{k+1} − l`.

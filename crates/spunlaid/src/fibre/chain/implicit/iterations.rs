@@ -7,8 +7,7 @@
 
 use crate::fibre::chain::Chain;
 use crate::fibre::chain::work::WorkDone;
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Vec3, WIDTH};
 
 /// By how much the squared length of an element may be off from the one that belongs to its tension without more
 /// iterations, in parts of it [-].

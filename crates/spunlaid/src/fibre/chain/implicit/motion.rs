@@ -5,8 +5,7 @@ use crate::fibre::chain::Chain;
 use crate::fibre::chain::constants::Constants;
 use crate::fibre::chain::laying::LayingState;
 use crate::fibre::chain::work::{Kick, Supports, WorkRegisters};
-use crate::ground::lanes::{Lanes, Register, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Register, Vec3, Wide};
 
 /// From the root to the free end: corrects the tensions and moves the nodes. Returns by how much the squared
 /// length of an element of a fed fibre is off at most from the one that belongs to its tension, in parts of

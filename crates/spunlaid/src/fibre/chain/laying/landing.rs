@@ -2,8 +2,7 @@
 
 use super::{LaidPoint, LayingState};
 use crate::fibre::chain::Chain;
-use crate::ground::lanes::{Lanes, Register, WIDTH, Wide};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Register, Vec3, WIDTH, Wide};
 
 /// Nodes that stay in the chain after they have left it in every lane, because they hold the bending of the last one.
 const HOLDING: usize = 2;

@@ -17,9 +17,7 @@ use super::Chain;
 use super::constants::{Constants, Friction, Node};
 use crate::fibre::body::{Fibre, Root};
 use crate::fibre::line::Line;
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::nodes::Nodes;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Lanes, Nodes, Vec3, WIDTH};
 
 /// A point of a fibre that has been laid.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::flights::{Flight, Path};
 use super::{Change, FinerCheck, FinerPlan, OF_THE_END, OF_THE_LAID, Unchecked};
-use crate::ground::statistics::Estimate;
+use crate::ground::Estimate;
 
 /// Amplitude below which the fibre does not move but for rounding, as a share of its length.
 const ROUNDING: f64 = 1e-12;

@@ -2,9 +2,8 @@
 
 use super::plan::case_of_air;
 use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
-use crate::fibre::case::Case;
-use crate::fibre::flight::{Job, LaidPoint, SurroundingRun};
-use crate::ground::error::Error;
+use crate::fibre::{Case, Job, LaidPoint, SurroundingRun};
+use crate::ground::Error;
 use crate::ground::threads::{lock, unlock};
 use crate::simulation::ensemble::trajectory::fly_in_air;
 use crate::simulation::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory, in_order};

@@ -15,9 +15,9 @@ mod flights;
 mod plan;
 
 use super::Trajectory;
-use crate::fibre::case::Run;
+use crate::fibre::Run;
 use crate::fibre::chain::schemes::Scheme;
-use crate::ground::statistics::Estimate;
+use crate::ground::Estimate;
 pub(super) use flights::Paths;
 pub use flights::RunPaths;
 pub use plan::{FinerPlan, FinerPlans};

@@ -1,11 +1,10 @@
 //! What is flown again for the checks of a run, and how much of it is worth its computing time.
 
 use super::{Refinement, Refinements, Unchecked};
-use crate::air::motion::EddyModel;
-use crate::fibre::case::{Case, Checks, ERROR_TOLERANCE, MOST_STEPS};
+use crate::air::EddyModel;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::line::{Contact, Line};
-use crate::ground::lanes::WIDTH;
+use crate::fibre::{Case, Checks, Contact, ERROR_TOLERANCE, Line, MOST_STEPS};
+use crate::ground::WIDTH;
 
 /// Largest share of the computing time of a run that all its checks take together, and the share that each
 /// takes if that is enough for it. They are counted in steps of elements, so that they do not depend on the

@@ -2,10 +2,9 @@
 
 use super::watch::CellSums;
 use super::{CellSource, Fitting, HeatSums, Sources};
-use crate::air::field::Hint;
-use crate::fibre::case::Case;
-use crate::ground::statistics::Estimate;
-use crate::ground::vec3::Vec3;
+use crate::air::Hint;
+use crate::fibre::Case;
+use crate::ground::{Estimate, Vec3};
 use crate::simulation::ensemble::LostFibre;
 use std::collections::HashMap;
 

@@ -14,16 +14,12 @@ mod tests;
 mod watch;
 
 use super::{Job, LostFibre, RunControl, in_order};
-use crate::air::field::FieldCells;
-use crate::air::motion::{Flow, PlacedField, temperature_of};
-use crate::fibre::case::Case;
+use crate::air::motion::temperature_of;
+use crate::air::{FieldCells, Flow, PlacedField};
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::spinline::SolidFilament;
-use crate::ground::error::{Error, Fault};
-use crate::ground::lanes::WIDTH;
+use crate::fibre::{Case, SolidFilament};
 use crate::ground::place::Place;
-use crate::ground::statistics::{Difference, Estimate, NORMAL_95};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};
 use merged::Merged;
 use watch::{CellSums, fly_each};
 

@@ -2,16 +2,10 @@
 
 use super::watch::see;
 use super::*;
-use crate::air::field::{Cells, Field, Shape, Values};
-use crate::air::motion::{Air, Axis, FileContent};
-use crate::air::motion::{Flow, PlacedField};
-use crate::fibre::body::{Fibre, Root};
+use crate::air::{Air, Axis, Cells, Field, FileContent, Flow, PlacedField, Shape, Values};
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::flight::Flight;
-use crate::fibre::line::Line;
-use crate::fibre::spinline::{End, Melt, Polymer, SolidFilament, Spinline};
-use crate::ground::lanes::Isa;
-use crate::ground::vec3::Vec3;
+use crate::fibre::{End, Fibre, Flight, Line, Melt, Polymer, Root, SolidFilament, Spinline};
+use crate::ground::{Isa, Vec3};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -1,13 +1,10 @@
 //! Flies replicates and enters the drag on each of their elements, and its heat, into the cell around it.
 
 use super::Fitting;
-use crate::air::field::Hint;
-use crate::fibre::flight::{Flight, Snapshot};
-use crate::fibre::spinline::{Cooled, SolidFilament};
-use crate::ground::error::Error;
-use crate::ground::lanes::Lanes;
+use crate::air::Hint;
+use crate::fibre::{Cooled, Flight, Snapshot, SolidFilament};
 use crate::ground::place::Place;
-use crate::ground::vec3::Vec3;
+use crate::ground::{Error, Lanes, Vec3};
 use crate::simulation::ensemble::trajectory::{FlightEnd, each_or_lost};
 use crate::simulation::ensemble::{Job, RunControl};
 use crate::simulation::observe::{MomentumBalance, NodeStates};

@@ -2,9 +2,10 @@
 
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::AccessTo;
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use crate::simulation::layers::{LayerSpec, WebSpec};
-use crate::web::map::{Defect, Filaments, Row};
+use crate::web::map::Filaments;
+use crate::web::{Defect, Row};
 
 /// A key of a web.
 pub type WebKey = Key<WebSpec>;

@@ -10,13 +10,9 @@
 #[cfg(test)]
 mod tests;
 
-use crate::fibre::case::Case;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::flight::{Flight, Snapshot};
-use crate::fibre::load::WayPlace;
-use crate::ground::lanes::{Lanes, WIDTH};
-use crate::ground::statistics::Estimate;
-use crate::ground::vec3::Vec3;
+use crate::fibre::{Case, Flight, Snapshot, WayPlace};
+use crate::ground::{Estimate, Lanes, Vec3, WIDTH};
 
 /// Classes of distance from the inlet.
 const CLASSES: usize = 50;

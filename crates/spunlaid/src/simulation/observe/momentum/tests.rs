@@ -1,15 +1,10 @@
 //! The balance against the drag itself, and against a thread that falls freely.
 
 use super::*;
-use crate::air::motion::Air;
-use crate::fibre::body::{Fibre, Root};
+use crate::air::Air;
 use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::flight::Flight;
-use crate::fibre::flight::Job;
-use crate::fibre::line::Line;
-use crate::ground::lanes::Isa;
-use crate::ground::lanes::Lanes;
-use crate::ground::vec3::Vec3;
+use crate::fibre::{Fibre, Flight, Job, Line, Root};
+use crate::ground::{Isa, Lanes, Vec3};
 
 const STEP: f64 = 4e-5;
 

@@ -19,7 +19,7 @@ use super::few_findings::{FewFilamentsCv, LayerFew};
 use super::map::Map;
 use super::uniformity::{boxes, unevenness};
 use super::{Edges, Sheet};
-use crate::ground::error::Error;
+use crate::ground::Error;
 use crate::ground::threads::{each, try_each};
 use products::{CornerSums, Known, Products};
 use std::ops::Range;

@@ -10,9 +10,7 @@ mod tiff;
 pub use self::png::{CELL, WEIGHT_OF_BLACK};
 
 use super::picture::{Format, Picture};
-use crate::ground::error::{Fault, FileError, FileKind};
-use crate::ground::file;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault, FileError, FileKind, file};
 use std::path::Path;
 
 /// Most pixels of a picture.

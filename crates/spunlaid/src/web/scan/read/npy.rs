@@ -3,8 +3,8 @@
 //! Source: NumPy enhancement proposal 1, "A simple file format for NumPy arrays".
 
 use super::{RawPicture, broken, unsupported, within_limits};
-use crate::ground::error::{Fault, FileError};
 use crate::ground::units::excerpt;
+use crate::ground::{Fault, FileError};
 
 /// Bytes before the length of the header: `\x93NUMPY` and the version.
 const MAGIC: usize = 8;

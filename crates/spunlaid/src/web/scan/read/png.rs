@@ -2,7 +2,7 @@
 
 use super::channels::{Extra, Pixels, pixels};
 use super::{MOST_PIXELS, RawPicture, broken, orientation, within_limits};
-use crate::ground::error::Fault;
+use crate::ground::Fault;
 use png::{BitDepth, Decoder, DecodingError, Limits, Transformations, Unit};
 use std::io::{Cursor, ErrorKind};
 

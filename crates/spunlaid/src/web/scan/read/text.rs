@@ -1,8 +1,7 @@
 //! Text tables: a line for each row of the map.
 
 use super::{LEAST_SIDE, RawPicture, within_limits};
-use crate::ground::error::{FileError, FileKind};
-use crate::ground::table::Table;
+use crate::ground::{FileError, FileKind, Table};
 use std::io::Read;
 
 pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, FileError> {

@@ -5,8 +5,7 @@ mod statistics;
 
 use super::{EddyField, EddyFields, Extent, Room};
 use crate::air::motion::{Air, EddyModel, SpectrumShape, StreamKey};
-use crate::ground::lanes::{Isa, Register, Task, WIDTH};
-use crate::ground::vec3::Vec3;
+use crate::ground::{Isa, Register, Task, Vec3, WIDTH};
 
 const SPEED: f64 = 25.0;
 const LENGTH: f64 = 16e-3;

@@ -5,8 +5,7 @@ use super::super::row::{Access, FED, choose, fed, line, number, quantity, withou
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::Value;
 use crate::fibre::line::Contact;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 named_fields!(Contact);
 

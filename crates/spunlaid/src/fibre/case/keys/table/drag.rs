@@ -4,8 +4,7 @@ use super::super::Key;
 use super::super::row::{Access, choose, quantity};
 use super::super::value::Sign::NotNegative;
 use crate::fibre::drag::{FrictionLaw, NormalLaw};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 named_fields!(FrictionLaw, NormalLaw);
 

@@ -6,8 +6,7 @@ use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::fibre::body::Root;
 use crate::fibre::case::whole_parts;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 use std::f64::consts::PI;
 
 /// Access to a number of the fibre that a spinline gives.

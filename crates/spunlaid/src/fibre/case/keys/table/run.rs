@@ -6,7 +6,7 @@ use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::fibre::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
 use crate::fibre::chain::schemes::Scheme;
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 
 named_fields!(Checks, Scheme);
 

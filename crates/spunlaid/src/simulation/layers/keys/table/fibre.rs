@@ -4,7 +4,7 @@ use super::super::access::{Access, WebKey, diameter, flown, is_flown, layer, lay
 use super::{EITHER, positive};
 use crate::fibre::case::keys::row::{at, key, number};
 use crate::fibre::case::keys::{Condition, Kind, Value};
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 use crate::simulation::layers::{LaydownSource, WebSpec};
 
 /// In the order of the file.

@@ -6,7 +6,7 @@ use super::super::access::{
 use super::{EITHER, MOST_FILAMENTS, positive};
 use crate::fibre::case::keys::row::{at, key, number, quantity, whole};
 use crate::fibre::case::keys::{EVEN, Kind, Sign, Value};
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 use crate::web::map::Filaments;
 
 /// In the order of the file.

@@ -11,7 +11,7 @@ use super::access::WebKey;
 use crate::fibre::case::keys::Sign;
 use crate::fibre::case::keys::key_table::{Table, count, joined, names};
 use crate::fibre::case::keys::row::{NewKey, quantity};
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 use crate::simulation::layers::WebSpec;
 
 /// Most filaments of a row, and per metre.

@@ -4,9 +4,9 @@ use super::super::access::{Access, WebKey};
 use super::{MOST_FILAMENTS, positive};
 use crate::fibre::case::keys::row::{at, choose, key, named, quantity, text, whole};
 use crate::fibre::case::keys::{Kind, Sign, Value};
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 use crate::simulation::layers::Flown;
-use crate::web::map::Edges;
+use crate::web::Edges;
 
 /// How many filaments are flown: as many as it takes, or all.
 const AUTO: &str = "auto";

@@ -2,8 +2,7 @@
 
 use super::channels::{Extra, Pixels, pixels};
 use super::{MOST_PIXELS, RawPicture, broken, unsupported, within_limits};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 use std::io::{Cursor, ErrorKind, Read, Seek};
 use tiff::decoder::ifd::Value;
 use tiff::decoder::{Decoder, DecodingResult, Limits};

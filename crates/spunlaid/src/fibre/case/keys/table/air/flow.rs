@@ -1,14 +1,13 @@
 //! The mean flow of the air: a number, a profile or a CFD field.
 
-use crate::air::motion::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
+use crate::air::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{
     Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text,
 };
 use crate::fibre::case::keys::value::Sign::{Any, Positive};
 use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 named_fields!(Axis);
 

@@ -1,14 +1,12 @@
 //! The numbers of the air: strength and size of its turbulence, density and viscosity.
 
-use crate::air::motion::{
-    Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape, density_at, kinematic_viscosity_at,
-};
+use crate::air::motion::{density_at, kinematic_viscosity_at};
+use crate::air::{Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape};
 use crate::fibre::case::keys::row::{Access, number, quantity, take};
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
 use crate::fibre::case::keys::value::Value;
 use crate::fibre::case::keys::{Key, TAYLOR};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Takes a number of the air from the flow, which is asked for it when the air is settled, or from a file.
 macro_rules! from_air {

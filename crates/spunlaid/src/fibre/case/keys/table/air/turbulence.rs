@@ -1,14 +1,13 @@
 //! How the turbulence is made: from a spectrum or a record, and how its eddies are related.
 
-use crate::air::motion::{EddyModel, Lateral, SpectrumShape};
+use crate::air::{EddyModel, Lateral, SpectrumShape};
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{
     Access, FED, change, choose, file, key, number, quantity, read_with_case, text, whole,
 };
 use crate::fibre::case::keys::value::Sign::Positive;
 use crate::fibre::case::keys::value::{Content, FileKind, Kind, SPECTRA, Value};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Most lines that are skipped at the start of a record.
 const MOST_SKIPPED: u64 = 1_000_000;

@@ -6,8 +6,7 @@ use crate::fibre::case::keys::row::{Access, file, key, number, quantity, read_wi
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
 use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
 use crate::fibre::spinline::Surroundings;
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Access to a number of the air that is the same along the whole line.
 macro_rules! of_air {

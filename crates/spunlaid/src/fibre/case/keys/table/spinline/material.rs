@@ -6,7 +6,7 @@ use crate::fibre::case::keys::row::{Access, key, number, quantity};
 use crate::fibre::case::keys::value::Kind;
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive, Share};
 use crate::fibre::spinline::Melt;
-use crate::ground::units::Dimension;
+use crate::ground::Dimension;
 
 /// A constant of the polymer.
 macro_rules! constant {

@@ -10,8 +10,7 @@ use crate::fibre::case::keys::row::{Access, file, key, named, number, quantity, 
 use crate::fibre::case::keys::value::Sign::Positive;
 use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
 use crate::fibre::spinline::{Curtain, Melt, Polymer, PolymerSource, Spinline};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 /// Access to a number of the spinline: `of_spinline!(throughput)`.
 macro_rules! of_spinline {

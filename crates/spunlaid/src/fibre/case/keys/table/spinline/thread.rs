@@ -6,8 +6,7 @@ use crate::fibre::case::keys::value::Sign::{Any, Positive, Share};
 use crate::fibre::case::keys::value::{Kind, Value};
 use crate::fibre::case::keys::{FLOWN, Key};
 use crate::fibre::spinline::{End, Law, PolymerSource};
-use crate::ground::error::Fault;
-use crate::ground::units::Dimension;
+use crate::ground::{Dimension, Fault};
 
 named_fields!(Law);
 
