@@ -46,11 +46,6 @@ impl KeyEntry {
         Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(&WEB, key) }
     }
 
-    /// Those of two words, for studies and for flights, in which it may change.
-    fn name_changes(&self, words: [&'static str; 2]) -> Vec<&'static str> {
-        self.may_change.into_iter().zip(words).filter_map(|(may, word)| may.then_some(word)).collect()
-    }
-
     /// Its name within a table, if it belongs there.
     fn within(&self, table: &str) -> Option<&'static str> {
         match table {
@@ -121,7 +116,7 @@ fn reference(key: &KeyEntry) -> String {
     let default = none.to_owned() + &key.left_out.replace('`', "");
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
-        ("takes     ", takes(key)),
+        ("takes     ", takes(key, &[])),
         ("also      ", key.synonyms.join(", ")),
         ("default   ", default),
         ("may change", may_change(key)),
@@ -155,55 +150,65 @@ fn wrap(text: &mut String, mut line: String, next: usize, words: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// The allowed values, with the units of a quantity and its usual range.
-fn takes(key: &KeyEntry) -> String {
+/// The allowed values, with the units of a quantity, if they are not told elsewhere, and its usual range.
+fn takes(key: &KeyEntry, told: &[Dimension]) -> String {
     let usual = match (key.kind.dimension(), key.usual) {
         (Some(dimension), Some((least, greatest))) => {
             format!("; usually {} to {}", dimension.pretty(least), dimension.pretty(greatest))
         }
         _ => String::new(),
     };
-    let allowed = match key.kind.dimension() {
-        Some(dimension) if dimension != Dimension::Ratio => {
-            let advice = UnitAdvice(dimension).to_string();
-            let units = advice.split_once(": ").map_or("", |(_, units)| units);
-            format!("{}; in {units}", key.kind.allowed())
+    let units = key.kind.dimension().filter(|of| *of != Dimension::Ratio && !told.contains(of)).map(units);
+    key.kind.allowed() + &units.map_or_else(String::new, |units| format!("; in {units}")) + &usual
+}
+
+/// The units of a dimension, `m, cm or mm`.
+fn units(dimension: Dimension) -> String {
+    let advice = UnitAdvice(dimension).to_string();
+    advice.split_once(": ").map_or_else(String::new, |(_, units)| units.to_owned())
+}
+
+/// The dimensions of several keys, whose units are told once.
+fn shared(found: &[KeyEntry]) -> Vec<Dimension> {
+    let mut dimensions = Vec::new();
+    for dimension in found.iter().filter_map(|key| key.kind.dimension()) {
+        let keys = found.iter().filter(|key| key.kind.dimension() == Some(dimension)).count();
+        if keys > 1 && dimension != Dimension::Ratio && !dimensions.contains(&dimension) {
+            dimensions.push(dimension);
         }
-        _ => key.kind.allowed(),
-    };
-    allowed + &usual
+    }
+    dimensions
 }
 
 /// Where its value may change.
 fn may_change(key: &KeyEntry) -> String {
-    key.name_changes(["in a study", "during a flight"]).join(", and ")
+    let words = ["in a study", "during a flight"];
+    let may: Vec<&str> =
+        key.may_change.into_iter().zip(words).filter_map(|(may, word)| may.then_some(word)).collect();
+    may.join(", and ")
 }
 
 const HEAD: &str = "# The keys of a case
 
-This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with a word in their
-name or meaning, or among the other words for them, or with this unit: `spunlaid keys dtex`.
+This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with this word in their
+name, meaning or other words, or with this unit: `spunlaid keys dtex`.
 
-A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`. `um` is the same as `µm`, and `kg/m^3` is the same
-as `kg/m³`. Each key can also be set for one run, `--set air.velocity=\"20 m/s\"`, and replaces what stands in the file, also
-in other words. `spunlaid sweep` can vary keys marked *study*. A program can change keys marked *flight* during a flight. A
-value outside of the range after *usually*, unless it is zero, is most likely in a wrong unit: the program warns and uses it.
+A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as `kg/m³`.
+`--set air.velocity=\"20 m/s\"` sets a key for one run. `spunlaid sweep` can vary all keys but those marked *fixed*; a program
+can change those marked *flight* during a flight. A value outside of what is *usually* taken is most likely in a wrong unit:
+the program warns and uses it.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 
-This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. `spunlaid keys --web WORD` shows the keys with a
-word in their name or meaning, or among the other words for them, or with this unit: `spunlaid keys --web gsm`.
-
-A quantity is written with its unit, in quotes, as in a case ([keys.md](keys.md)). Each key can also be set for one web,
-`--set line.belt_speed=\"6 m/s\"`; of a file with `[[layer]]`, `--set layer.2.line.filaments_per_metre=4000`, or with the
-layer's name in place of its number. `spunlaid sweep` can vary keys marked *study*, those of a layer or of a row of nozzles
-by its number: `layer.2.line.filaments_per_metre`, `line.rows.1.pitch`.
+This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, searched (`spunlaid keys --web gsm`)
+and marked as those of a case ([keys.md](keys.md)). `--set layer.2.line.filaments_per_metre=4000` sets one of a layer, by its
+number or name; `line.rows.1.pitch` is that of a row of nozzles.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study
 
-This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key called `*` stands for any key of the case,
-the web or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how to use them.
+This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key `*` stands for any key of the case, the web
+or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how to use them.
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.
@@ -211,6 +216,15 @@ the web or the spinline that varies; of `[replicates.until]` for any result. [st
 /// * `within` – tables in place of values
 fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'static str]) -> String {
     let mut text = head.to_owned();
+    let told = shared(found);
+    if !told.is_empty() {
+        text += "\n| quantity | units |\n|---|---|\n";
+    }
+    for dimension in &told {
+        // Writing to a text cannot fail.
+        let _ = writeln!(text, "| {} | {} |", dimension.name(), units(*dimension));
+    }
+    let any_varies = found.iter().any(|key| key.may_change[0]);
     let tables = [&[""], keys.tables, within].concat();
     for table in &tables {
         // A key of a table that stands in this one is shown there, if that table has a section of its own.
@@ -222,26 +236,20 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
         if rows.peek().is_none() {
             continue;
         }
-        // Writing to a text cannot fail.
         let title = if table.is_empty() { "Above the tables".to_owned() } else { keys.header(table) };
-        let _ = writeln!(
-            text,
-            "\n## {title}\n\n| key | takes | if left out | meaning | |\n|---|---|---|---|---|"
-        );
+        let _ = writeln!(text, "\n## {title}\n\n| key | takes | if left out | meaning |\n|---|---|---|---|");
         for (key, short) in rows {
-            let _ = writeln!(
-                text,
-                "| `{short}` | {} | {} | {}{} | {} |",
-                takes(key),
-                key.left_out,
-                key.meaning,
-                if key.synonyms.is_empty() {
-                    String::new()
-                } else {
-                    format!(" Also: {}.", key.synonyms.join(", "))
-                },
-                key.name_changes(["study", "flight"]).join(", ")
-            );
+            let also = match &key.synonyms[..] {
+                [] => String::new(),
+                words => format!(" Also: {}.", words.join(", ")),
+            };
+            let mark = match key.may_change {
+                [_, true] => " *flight*",
+                [false, _] if any_varies => " *fixed*",
+                _ => "",
+            };
+            let (takes, left_out, meaning) = (takes(key, &told), &key.left_out, key.meaning);
+            let _ = writeln!(text, "| `{short}`{mark} | {takes} | {left_out} | {meaning}{also} |");
         }
     }
     text

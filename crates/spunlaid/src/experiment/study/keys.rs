@@ -30,8 +30,8 @@ const KEYS: &[Key<Study>] = &[
         .told(|study: &Study| base(study, "case.toml"))
         .required("\"table1.toml\"")
         .meaning(
-            "The file of the case to vary, named from where the study lies. Every key that is not \
-            varied or linked is as it says.",
+            "The file of the case to vary, named from where the study lies. Keys that are not varied \
+             or linked are as it says.",
         ),
     key("web", Kind::Text("web.toml"))
         .told(|study: &Study| base(study, "web.toml"))
@@ -48,9 +48,9 @@ const KEYS: &[Key<Study>] = &[
         .fixed()
         .required("\"grid\"")
         .meaning(
-            "How the values are combined to points: every combination; around the base one key at a \
-            time; the first values of all lists, then the second ones; or a number of points drawn at random \
-            in slices of the ranges.",
+            "How the values are combined to points: every combination; one key at a time around the \
+             base; the first values of all lists, then the second ones; or points drawn at random in \
+             slices of the ranges.",
         ),
     key("points", Kind::Whole(1, MOST_POINTS))
         .told(|study: &Study| match study.design {
@@ -74,16 +74,11 @@ const KEYS: &[Key<Study>] = &[
     key("set.*", Kind::Other("a value of that key, or \"auto\""))
         .told(|_: &Study| None)
         .follows("every key is as the case or web says")
-        .meaning(
-            "A key that is the same at all points, with a value in place of that of the case or web. \
-            `auto` takes the key out.",
-        ),
+        .meaning("A key with the same value at all points. `auto` takes the key out."),
     key("vary.*", Kind::Other("a list of values, or { from, to, steps }; a formula belongs in [link]"))
         .told(|_: &Study| None)
         .required("\"air.velocity\" = [\"5 m/s\", \"10 m/s\"]")
-        .meaning(
-            "A key that varies. The keys of cases and webs that may vary are marked *study* in their pages.",
-        ),
+        .meaning("A key that varies: any that its page does not mark as *fixed*."),
     key("link.*", Kind::Text("air.velocity / (4 * air.length_scale)"))
         .told(|_: &Study| None)
         .follows("none is linked")
@@ -92,7 +87,9 @@ const KEYS: &[Key<Study>] = &[
         .told(|_: &Study| None)
         .follows("nothing is judged")
         .meaning(
-            "A claim in a sentence, and how it is judged: `RESULT: KEY > 5 * OTHER KEY` that a key moves the             result by more than five times what the other one does, over their ranges; `RESULT: KEY rises`,             `falls` or `turns` how the result follows a key, the others as at the first point.",
+            "A claim in a sentence, and how it is judged: `RESULT: KEY > 5 * OTHER KEY` compares the \
+             effects of two keys over their ranges; `RESULT: KEY rises`, `falls` or `turns` says how \
+             the result follows a key, the others as at the first point.",
         ),
     key("replicates.at_least", Kind::Whole(2, MOST_REPLICATES))
         .told(|study: &Study| (!study.replicates.until.is_empty()).then(|| study.replicates.at_least.into()))
@@ -106,8 +103,8 @@ const KEYS: &[Key<Study>] = &[
         .told(|_: &Study| None)
         .follows("required beside `at_least` and `at_most`, like `amplitude_y = \"5 %\"`")
         .meaning(
-            "A result, as its column is called, and the standard error below which a point gets no more \
-            replicates, as a fraction of its mean.",
+            "A result, as its column is called, and the standard error, as a fraction of its mean, \
+             below which a point gets no more replicates.",
         ),
     key("range.from", Kind::Other("a value of the key"))
         .told(|_: &Study| None)

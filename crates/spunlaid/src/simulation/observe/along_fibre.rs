@@ -30,7 +30,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
 };
 
 const AMPLITUDE: Measure = Measure {
-    meaning: "standard deviation over time of each node’s position, at the recorded instants",
+    meaning: "standard deviation over time of each node’s position",
     unit: MILLIMETRES,
     kind: Kind::Profile,
     group: FIBRE,

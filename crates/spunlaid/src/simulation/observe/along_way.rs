@@ -18,7 +18,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "speed_along_way",
             column: "speed_along_way_m_s",
             label: "Speed on the way",
-            meaning: "mean of the fibre’s velocity along x at each distance from the inlet, at the recorded instants",
+            meaning: "mean velocity of the fibre along x at each distance from the inlet",
             unit: Unit { shown: "m/s", per_si: 1.0 },
             kind: Kind::Way,
             group: FIBRE,
@@ -34,8 +34,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "tension_along_way",
             column: "tension_along_way_n",
             label: "Tension on the way",
-            meaning: "mean of the fibre’s tension at each distance from the inlet, at the recorded instants; \
-                negative in compression",
+            meaning: "mean tension at each distance from the inlet; negative in compression",
             unit: MILLINEWTONS,
             kind: Kind::Way,
             group: FIBRE,
@@ -111,8 +110,8 @@ pub(super) const FORCES: Declaration = Declaration {
             name: FORCE_ON_AIR,
             column: "force_on_air_n",
             label: "Force on the air",
-            meaning: "mean force along x with which the fibre drives the air between the inlet and each distance \
-                from it: the drag on it turned round; negative where the air drives the fibre",
+            meaning: "mean force along x with which the fibre drives the air between the inlet and each \
+                 distance; negative where the air drives the fibre",
             unit: MILLINEWTONS,
             kind: Kind::Way,
             group: FIBRE,
@@ -128,8 +127,7 @@ pub(super) const FORCES: Declaration = Declaration {
             name: FIBRE_ON_WAY,
             column: "fibre_on_way",
             label: "Fibre per length of the way",
-            meaning: "mean length of fibre per length of the way at each distance from the inlet; above one where \
-                the fibre swings and folds",
+            meaning: "mean length of fibre per length of the way; above one where the fibre swings and folds",
             unit: RATIO,
             kind: Kind::Way,
             group: FIBRE,

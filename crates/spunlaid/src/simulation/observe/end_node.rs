@@ -31,7 +31,7 @@ const AMPLITUDE: Measure = Measure {
 
 const FREQUENCY: Measure = Measure {
     is_main: true,
-    meaning: "half the number of sign changes per second of the free end’s position",
+    meaning: "half the number of sign changes of its position in a second",
     unit: HERTZ,
     figure: &figure("frequency", "Frequency", "frequency"),
     ..Measure::NUMBER
@@ -42,8 +42,8 @@ const MEAN_X: Measure = Measure {
     is_main: true,
     column: "mean_x_m",
     label: "Mean position along the flow",
-    meaning: "mean over time of the free end’s x; the smaller it is against the fibre’s length, the more the \
-        fibre is bent",
+    meaning: "mean over time of the free end’s x; the smaller against the length of the fibre, the more it is \
+         bent",
     unit: MILLIMETRES,
     figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
     series: "*x*",
@@ -72,16 +72,13 @@ pub(super) const DEFLECTIONS: Declaration = Declaration {
         DEFLECTION
             .observed("deflection_99", "deflection_99_m", "Deflection, 99 % of the time")
             .meaning(
-                "distance from the axis through the root that the free end does not exceed at 99 % of \
-                the recorded instants",
+                "distance from the axis through the root that is not exceeded at 99 % of the recorded \
+                 instants",
             )
             .series("99 %"),
         DEFLECTION
             .observed("largest_deflection", "largest_deflection_m", "Largest deflection")
-            .meaning(
-                "largest distance of the free end from the axis through the root at the recorded \
-                instants; it grows with the duration",
-            )
+            .meaning("largest distance from the axis through the root; it grows with the duration")
             .series("largest"),
     ],
     applies: fixed,
@@ -139,8 +136,8 @@ pub(super) const RESIDENCE: Declaration = Declaration {
         name: "residence_radius",
         column: "residence_radius_m",
         label: "Circle of 90 % of the time",
-        meaning: "radius of the circle around the free end’s mean position, seen along the flow, in which \
-            the free end is at 90 % of the recorded instants",
+        meaning: "radius of the circle around its mean position, seen along the flow, in which it is at 90 % \
+             of the recorded instants",
         unit: MILLIMETRES,
         figure: &figure("residence", "Circle of 90 % of the time", "circle of 90 % of the time"),
         series: "radius",
@@ -189,7 +186,7 @@ pub(super) const SPECTRA: Declaration = Declaration {
 };
 
 const SPECTRUM: Measure = Measure {
-    meaning: "one-sided power spectral density of the free end’s position at the recorded instants (Welch’s method)",
+    meaning: "one-sided power spectral density of its position (Welch’s method)",
     unit: SQUARE_MILLIMETRES_PER_HERTZ,
     kind: Kind::Spectrum,
     figure: &Figure {

@@ -16,9 +16,9 @@ pub(super) const WORK: Declaration = Declaration {
         TYPICAL
             .observed("work_error", "work_error_percent", "Work check, typical")
             .meaning(
-                "the paper’s work check: difference between the work of all forces and the kinetic \
-                energy; median over time, the spin-up included. It shows only whether the steps are short \
-                against the motion",
+                "the paper’s work check: work of all forces against kinetic energy; median over time, \
+                 the spin-up included. It shows only whether the steps are short enough for the \
+                 motion",
             )
             .series("work check"),
         AT_END
@@ -39,9 +39,8 @@ pub(super) const BALANCE: Declaration = Declaration {
         TYPICAL
             .observed("balance_error", "balance_error_percent", "Full balance, typical")
             .meaning(
-                "error of the full energy balance, divided by the energy that flowed: by the work \
-                 that came in from air, gravity and feed, or by the energy that is stored and that \
-                 left; median over time, the spin-up included. It would reveal a wrong force",
+                "error of the full balance over the energy that flowed in or out; median over time, \
+                 the spin-up included. It would show a wrong force",
             )
             .series("full balance"),
         AT_END
@@ -66,9 +65,8 @@ pub(super) const DISSIPATION: Declaration = Declaration {
                 "Axial waves damped by the scheme",
             )
             .meaning(
-                "energy that the scheme has taken out of the motion by damping axial waves, divided \
-                 by the energy that flowed; median over time, the spin-up included. It is not an \
-                 error: the full balance counts it",
+                "energy that the scheme has taken out by damping axial waves, over the energy that \
+                 flowed; median over time. It is no error: the full balance counts it",
             )
             .aggregate(Aggregate::Median)
             .series("typical"),
@@ -98,7 +96,7 @@ const AT_END: Measure = Measure {
 };
 
 const OVER_TIME: Measure = Measure {
-    meaning: "the error at the recorded instants, the spin-up included, at 4096 of them at most; not defined at rest",
+    meaning: "the error at up to 4096 recorded instants; not defined at rest",
     kind: Kind::Series,
     figure: &Figure {
         name: "energy_errors",

@@ -15,7 +15,7 @@ const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 /// The numbers of a whole fabric.
 pub const OF_FABRICS: &[Measure<Fabric>] = &[
     Measure::new("width_m", "Width", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.width))))
-        .meaning("width of the part of the web of which all else is told"),
+        .meaning("width of the part of the web whose numbers these are"),
     Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
         .meaning("what is cut off of the web at both edges together"),
     Measure::new(
@@ -26,8 +26,8 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
     )
     .short("Width within tolerance")
     .meaning(
-        "width from where, from each edge inwards, the profile across, averaged over 20 mm, is \
-            within the tolerance of the mean of the middle half, in this map",
+        "width in which the profile across this map, averaged over 20 mm, is within the tolerance of \
+         the mean of the middle half",
     )
     .named("usable_width"),
     Measure::new(
@@ -36,7 +36,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         PERCENT,
         Told(|fabric: &Fabric| Some(Exact(fabric.usable?.trim))),
     )
-    .meaning("what is cut off at both edges for it, as a share of the web"),
+    .meaning("what is cut off for it, as a share of the web"),
     Measure::new(
         "stiffness_ratio",
         "Stiffness MD/CD, of the directions alone",
@@ -45,23 +45,18 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
     )
     .short("Stiffness MD/CD")
     .meaning(
-        "stiffness along MD over that along CD, ⟨cos⁴⟩/⟨sin⁴⟩ of the directions of the laid fibres, within 20 %: \
-            curl within a piece and bonds are not in it",
+        "stiffness along MD over that along CD, ⟨cos⁴⟩/⟨sin⁴⟩ of the laid fibres, within 20 %, \
+         without curl within a piece and bonds",
     )
     .named("stiffness_ratio"),
-    Measure::new(
-        "bare_area",
-        "Bare area",
-        PERCENT,
-        Told(|fabric: &Fabric| fabric.bare),
-    )
-    .meaning(
-        "share of the area that no fibre covers, of round fibres that lie independently of each other within \
-            2 mm: bonds lower it, and filaments in ropes raise it",
-    )
-    .named("bare_area")
-    .main()
-    .figure(&figure("bare_area", "Bare area", "bare area")),
+    Measure::new("bare_area", "Bare area", PERCENT, Told(|fabric: &Fabric| fabric.bare))
+        .meaning(
+            "share of the area that no fibre covers, of round fibres that lie independently within 2 mm: \
+         bonds lower it, ropes raise it",
+        )
+        .named("bare_area")
+        .main()
+        .figure(&figure("bare_area", "Bare area", "bare area")),
     Measure::new(
         "solid_fraction",
         "Share of the volume that is fibre",
@@ -77,9 +72,9 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Told(|fabric: &Fabric| Some(fabric.air?.permeability)),
     )
     .meaning(
-        "speed of the air at the pressure of the test, the mean over places of 2 mm, from half the permeability of \
-            the formulas of Davies and of Jackson and James to twice theirs, with an inertial term; trust the \
-            ratio of two webs, not the number",
+        "mean speed of the air at the pressure of the test, over places of 2 mm, from half the \
+         permeability of the formulas of Davies and of Jackson and James to twice theirs; trust the \
+         ratio of two webs, not the number",
     )
     .named("air_permeability")
     .figure(&figure("air_permeability", "Air permeability", "air permeability")),
@@ -90,10 +85,10 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Told(|fabric: &Fabric| fabric.air?.spread),
     )
     .short("Its spread over 20 cm²")
-    .meaning("coefficient of variation of the speed of the air over areas of 20 cm² by the basis weight")
+    .meaning("coefficient of variation of the speed of the air over areas of 20 cm², by the clouds")
     .named("air_permeability_cv"),
     Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
-        .meaning("opacity, from that which was measured: the mean of patches of 2 mm")
+        .meaning("mean opacity of patches of 2 mm, from the measured one")
         .named("opacity"),
     Measure::new(
         "opacity_spread",
@@ -102,7 +97,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         Told(|fabric: &Fabric| Some(fabric.opacity?.spread)),
     )
     .short("Its spread over 2 mm")
-    .meaning("standard deviation of the opacity over patches of 2 mm by the basis weight")
+    .meaning("standard deviation of the opacity over patches of 2 mm, by the clouds")
     .named("opacity_spread"),
 ];
 
@@ -119,7 +114,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[0])),
     )
-    .meaning("patches per area that are lighter than this share of the mean")
+    .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_50_percent_#_mm", "lighter_than_50_percent_#_mm_per_m2"),
     Measure::new(
         "lighter_than_70_percent_per_m2",
@@ -127,7 +122,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[1])),
     )
-    .meaning("patches per area that are lighter than this share of the mean")
+    .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_70_percent_#_mm", "lighter_than_70_percent_#_mm_per_m2"),
     Measure::new(
         "lighter_than_80_percent_per_m2",
@@ -135,7 +130,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.lighter[2])),
     )
-    .meaning("patches per area that are lighter than this share of the mean")
+    .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_80_percent_#_mm", "lighter_than_80_percent_#_mm_per_m2")
     .main()
     .figure(&THIN_PLACES)
@@ -146,7 +141,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch: &FabricPatch| Some(patch.thin.heavier)),
     )
-    .meaning("patches per area that are heavier than this share of the mean")
+    .meaning("patches heavier than this share of the mean, per area")
     .kept("heavier_than_130_percent_#_mm", "heavier_than_130_percent_#_mm_per_m2"),
     Measure::new(
         "weight_of_1_percent",
@@ -154,7 +149,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[0])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above")
+    .meaning("weight over the mean below which this share of the patches is")
     .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
     Measure::new(
         "weight_of_5_percent",
@@ -162,28 +157,28 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[1])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    .meaning("weight over the mean below which this share of the patches is"),
     Measure::new(
         "median_weight",
         "Median",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[2])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    .meaning("weight over the mean below which this share of the patches is"),
     Measure::new(
         "weight_of_95_percent",
         "Heaviest 5 %",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[3])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    .meaning("weight over the mean below which this share of the patches is"),
     Measure::new(
         "weight_of_99_percent",
         "Heaviest 1 %",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[4])),
     )
-    .meaning("weight over the mean that this share of the patches goes below, or above"),
+    .meaning("weight over the mean below which this share of the patches is"),
 ];
 
 /// The numbers of the strips in one direction.
@@ -198,7 +193,9 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
     )
     .meaning("length of a section of a strip, in whole cells"),
     Measure::new("weakest_section", "Weakest section", PERCENT, Told(|strips: &Strips| Some(strips.weakest)))
-        .meaning("weight of the lightest section of a strip over the mean of the strip, over all strips")
+        .meaning(
+            "weight of the lightest section of a strip over the mean of the strip, the mean of all strips",
+        )
         .kept("weakest_section_#", "weakest_section_#")
         .main()
         .figure(&WEAKEST)
@@ -236,8 +233,8 @@ pub const OF_THINNEST: &[Measure<Marked>] = &[
         .meaning("middle of the patch along the sheet, from its beginning")
         .digits(5),
     Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight)))).meaning(
-        "weight of the patch over the mean: the lightest patch at any place of the sheet, then the lightest with at \
-            least half a side between them",
+        "weight of the patch over the mean: the lightest patch, then the lightest ones that are at \
+         least half a side apart",
     ),
 ];
 
@@ -250,14 +247,14 @@ pub const OF_STREAKS: &[Measure<Streak>] = &[
     Measure::new("band_m", "Band", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.band))))
         .meaning("width over which it is looked for"),
     Measure::new("dip", "Dip", PERCENT, Told(|streak: &Streak| Some(Exact(streak.dip)))).meaning(
-        "share by which the band is lighter than the web beside it, from the filaments that are \
-            missing; below zero where it is heavier",
+        "share by which the band is lighter than the web beside it, by the missing filaments; below \
+         zero where it is heavier",
     ),
     Measure::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak: &Streak| streak.found))
-        .meaning("the same in this map, with the error by chance: it shows from two errors on"),
+        .meaning("the same in this map, with its error by chance; it shows from two errors on"),
     Measure::new("length_m", "Shows from a length of", METRES, Told(|streak: &Streak| streak.length))
         .meaning(
-            "length of a scan over which the dip is as large as the 95 % bound of the chance at this \
-            place; none where the web has streaks of its own that are as large, or is too small to tell",
+            "length of a scan from which on the dip exceeds the 95 % bound of chance; none where the \
+             web has streaks of its own as large, or is too small",
         ),
 ];

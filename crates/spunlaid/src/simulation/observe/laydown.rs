@@ -21,8 +21,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         SPREAD
             .observed("sigma_md", "sigma_md_m", "Spread in machine direction")
             .meaning(
-                "standard deviation of the laid fibre's place about its straight trace, in machine \
-                 direction. A fibre that came down at one place would leave the straight trace",
+                "standard deviation in machine direction of the place of the laid fibre about its \
+                 straight trace, which a fibre leaves that comes down at one place",
             )
             .series("machine direction"),
         SPREAD
@@ -55,33 +55,28 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 "Belt speed found from the laid fibre, over the true one",
             )
             .meaning(
-                "mean of −d md/ds along the laid fibre, divided by belt speed / feed speed. It is one \
-                 within its statistical error, whatever the fibre does",
+                "mean of −d md/ds along the laid fibre over belt speed / feed speed: one within its \
+                 error, a check",
             )
             .figure(&figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds")),
         RATIO_OF
             .observed("orientation_md", "orientation_md", "Orientation in machine direction")
             .main()
             .meaning(
-                "mean of cos² of the angle between chords of 10 mm of fibre and the machine \
-                 direction: 0.5 without orientation, 1 if all lie in machine direction",
+                "mean cos² of the angle between chords of 10 mm of fibre and the machine direction: \
+                 0.5 without orientation",
             )
             .figure(&figure("orientation", "Mean cos² to the machine direction", "orientation")),
         RATIO_OF
             .observed("chord_over_arc", "chord_over_arc", "Chord over arc at 10 mm")
             .meaning(
-                "mean length on the belt of 10 mm of fibre, divided by 10 mm: the texture of the laid \
-                 fibre, with straight elements. It gets smaller with a finer mesh, because a thin \
-                 fibre folds more closely than elements can show; with elements longer than 10 mm it \
-                 is not defined",
+                "mean length on the belt of 10 mm of fibre over 10 mm: the texture. A finer mesh \
+                 makes it smaller; with elements longer than 10 mm it is not defined",
             )
             .figure(&figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc")),
         RATIO_OF
             .observed("laid_length", "laid_length_m", "Length laid")
-            .meaning(
-                "length of fibre that was laid after the spin-up, from which the statistics are \
-                 computed",
-            )
+            .meaning("length of fibre laid after the spin-up, from which the statistics are")
             .unit(METRES)
             .figure(&figure("laid_length", "Length laid", "length laid")),
         RATIO_OF
@@ -90,19 +85,19 @@ pub(super) const DECLARATION: Declaration = Declaration {
             .figure(&figure("nodes_in_air", "Nodes in the air", "nodes in the air")),
         SURROGATE_SPREAD
             .observed("sigma_1", "sigma_1_m", "σ₁ of the surrogate")
-            .meaning("spread in machine direction, as the surrogate has it")
+            .meaning("spread in machine direction")
             .series("*σ*_{1}"),
         SURROGATE_SPREAD
             .observed("sigma_2", "sigma_2_m", "σ₂ of the surrogate")
-            .meaning("spread in cross direction, as the surrogate has it")
+            .meaning("spread in cross direction")
             .series("*σ*_{2}"),
         Measure {
             name: "noise",
             is_main: true,
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
-            meaning: "strength of the noise in the direction of the surrogate, from its autocorrelation over lags \
-                from 0.5 to 12 times the spread; not defined where the laid fibre is not a random curve",
+            meaning: "strength of the noise in the direction, from the autocorrelation over lags from 0.5 to \
+                 12 times the spread; not defined where the laid fibre is no random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
             figure: &figure("noise", "Noise A of the surrogate", "noise of the surrogate"),
@@ -132,8 +127,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "direction",
             column: "direction",
             label: "Directions of the laid fibre",
-            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: it is \
-                one without orientation",
+            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: \
+                 one without orientation",
             kind: Kind::Direction,
             group: LAYDOWN,
             figure: &Figure {
@@ -174,8 +169,8 @@ const HALF_LENGTH: Measure = Measure {
 const RATIO_OF: Measure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
 
 const CORRELATION: Measure = Measure {
-    meaning: "autocorrelation of the laid fibre’s place about its straight trace, over the length of fibre \
-        between two points",
+    meaning: "autocorrelation of the place about the straight trace, over the length of fibre between two \
+         points",
     kind: Kind::Lag,
     group: LAYDOWN,
     figure: &Figure {

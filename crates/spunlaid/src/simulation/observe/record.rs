@@ -1,35 +1,31 @@
 //! What is measured of a velocity record. `analysis.json`, the terminal, the report and Python follow from it.
 
 use super::{Formula, HERTZ, METRES_PER_SECOND, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
-use crate::air::{Analysis, Component};
+use crate::air::{self, Analysis, Component};
 use crate::ground::Dimension;
 use Formula::{Interval, Number};
 
 /// The measures of a record, in the order of the tables: what the `[air]` of a case needs.
 pub const OF_RECORDS: &[Measure<Analysis>] = &[
-    Measure::<Analysis>::new("mean_velocity_m_s", "Mean \
-        velocity", METRES_PER_SECOND, Interval(|record| record.mean_velocity)).meaning("mean of the \
-        component along the flow")
+    result("mean_velocity_m_s", "Mean velocity", METRES_PER_SECOND, |record| record.mean_velocity)
+        .meaning("mean of the component along the flow")
     .remark(|record| Some(format!("mean of {}", along(record)))),
-    Measure::<Analysis>::new("turbulence_intensity", "Turbulence \
-        intensity", PERCENT, Interval(|record| record.turbulence_intensity)).meaning("square root of the \
-        mean of the components’ variances, over the mean velocity")
+    result("turbulence_intensity", "Turbulence intensity", PERCENT, |record| record.turbulence_intensity)
+        .meaning("root of the mean variance of the components over the mean velocity")
     .remark(|record| {
         let is_single = record.components.len() < 2;
         is_single.then(|| "rms of the fluctuation over the mean velocity".to_owned())
     }),
-    Measure::<Analysis>::new("integral_time_s", "Integral \
-        time", MILLISECONDS, Interval(|record| record.integral_time)).meaning("integral of the \
-        autocorrelation of the component along the flow")
+    result("integral_time_s", "Integral time", MILLISECONDS, |record| record.integral_time)
+        .meaning("integral of the autocorrelation of the component along the flow")
     .remark(|record| {
         Some(format!("autocorrelation of {}, integrated {}", along(record), record.integral.words()))
     }),
-    Measure::<Analysis>::new("length_scale_m", "Length \
-        scale", MILLIMETRES, Interval(|record| record.length_scale)).meaning("integral time × mean velocity: \
-        Taylor’s hypothesis"),
-    Measure::<Analysis>::new("cutoff_frequency_hz", "Cut-off \
-        frequency", HERTZ, Interval(|record| record.cutoff_frequency)).meaning("variance of the component \
-        along the flow over the plateau of its spectrum: where a flat spectrum would end")
+    result("length_scale_m", "Length scale", MILLIMETRES, |record| record.length_scale)
+        .meaning("integral time × mean velocity: Taylor’s hypothesis"),
+    result("cutoff_frequency_hz", "Cut-off frequency", HERTZ, |record| record.cutoff_frequency).meaning(
+        "variance of the component along the flow over the plateau of its spectrum: where a flat spectrum ends",
+    )
     .remark(|record| {
         Some(format!(
             "variance of {} over the plateau of its spectrum: here a flat spectrum with this variance and this \
@@ -118,6 +114,15 @@ pub const OF_COMPONENTS: &[Measure<Component>] = &[
     )
     .meaning("from start to end, by a straight line"),
 ];
+
+const fn result(
+    column: &'static str,
+    label: &'static str,
+    unit: Unit,
+    found: fn(&Analysis) -> air::Interval,
+) -> Measure<Analysis> {
+    Measure::<Analysis>::new(column, label, unit, Interval(found))
+}
 
 const MILLISECONDS: Unit = Unit { shown: "ms", per_si: 1e3 };
 

@@ -7,7 +7,7 @@ use Formula::{Count, Known, Number};
 /// The measures of a scan, in the order of `summary.json`; what has no label stands there alone.
 pub const OF_SCANS: &[Measure<Findings>] = &[
     Measure::<Findings>::new("white", "Grey level of the lamp without web", RATIO, Known(|scan| scan.white))
-        .meaning("grey level of the lamp without web; none of a map of basis weight, or with a picture of the lamp")
+        .meaning("grey level of the lamp without web; none with a picture of the lamp")
         .digits(5),
     Measure::<Findings>::new(
         "mean_density",
@@ -15,7 +15,7 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
         RATIO,
         Known(|scan| scan.density),
     )
-    .meaning("mean over the web of ln(white/level); none of a map of basis weight")
+    .meaning("mean over the web of ln(white/level)")
     .digits(3),
     Measure::<Findings>::new(
         "shading",
@@ -23,26 +23,26 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
         PERCENT,
         Known(|scan| scan.shading),
     )
-    .meaning("how much brighter the lamp is at its brightest than at its darkest place, if that was taken out")
+    .meaning("brightest over darkest place of the lamp, if shading was taken out")
     .digits(2),
     Measure::<Findings>::new("noise", "", RATIO, Known(|scan| scan.noise))
-        .meaning("standard deviation of the noise of a pixel, in levels, if it was given; it has been taken out"),
+        .meaning("standard deviation of the noise of a pixel, in levels, if it was given and taken out"),
     Measure::<Findings>::new("filled_pixels", "", RATIO, Count(|scan| scan.pixels.filled as u64))
-        .meaning("pixels without a value, black ones included: filled in along their row"),
+        .meaning("pixels without a value, black ones included, filled in along their row"),
     Measure::<Findings>::new("saturated_pixels", "", RATIO, Count(|scan| scan.pixels.saturated as u64))
-        .meaning("pixels of the largest grey level, where the light may have been more"),
+        .meaning("pixels of the largest grey level, where there may have been more light"),
     Measure::<Findings>::new("lighter_pixels", "", RATIO, Count(|scan| scan.pixels.lighter as u64))
-        .meaning("pixels lighter than the lamp without web: they count as empty"),
+        .meaning("pixels lighter than the lamp, which count as empty"),
     Measure::<Findings>::new(
         "cut_off_m2",
         "Cut off beside the web",
         SQUARE_MILLIMETRES,
         Number(|scan| scan.aside.cut_off),
     )
-    .meaning("area beside the web that was cut off: the bare lamp, a bare strip of a map, or pixels without a value")
+    .meaning("area beside the web that was cut off")
     .digits(3),
     Measure::<Findings>::new("bare_lamp", "", RATIO, Known(|scan| scan.aside.bare))
-        .meaning("median grey level of the bare lamp beside the web; none if it is not seen"),
+        .meaning("median grey level of the bare lamp beside the web"),
     Measure::<Findings>::new("dark_spots", "", RATIO, Count(|scan| scan.aside.spots.len() as u64))
         .meaning("dark spots on the web, which count for no patch"),
     Measure::<Findings>::new("dark_spots_m2", "", SQUARE_MILLIMETRES, Number(|scan| scan.aside.masked))
@@ -52,7 +52,7 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
 /// The measures of the patches of one size, in the order of `summary.json`, where the interval follows the first.
 pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
     Measure::<PatchFindings>::new("cv", "CV", PERCENT, Number(|patch| patch.unevenness.cv))
-        .meaning("coefficient of variation of the basis weight over square patches of this side")
+        .meaning("coefficient of variation of the basis weight over square patches")
         .errors(&[Measure::<PatchFindings>::new(
             "cv_standard_error",
             "Error of the CV by chance",
@@ -62,7 +62,7 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
         .meaning("standard error of the CV: another piece of the same web would have another CV")
         .role(ErrorRole::OfOne)]),
     Measure::<PatchFindings>::new("cv_noise", "Noise of the pixels", PERCENT, Number(|patch| patch.noise))
-        .meaning("CV of the noise of the camera over such patches: as given and taken out, or at most")
+        .meaning("CV of the noise of the camera: as given and taken out, or at most")
         .short("pixel noise")
         .digits(2),
     Measure::<PatchFindings>::new(
@@ -71,7 +71,7 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
         PERCENT,
         Known(|patch| patch.blur),
     )
-    .meaning("share by which one more pixel of blur lowers the CV; none of a map of basis weight")
+    .meaning("share by which one more pixel of blur lowers the CV")
     .short("lost by blur")
     .digits(2),
 ];

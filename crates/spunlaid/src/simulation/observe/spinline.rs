@@ -7,7 +7,7 @@ use crate::fibre::{FreezingCause, Heat, Load, LoadPlace, Solution, ZERO_CELSIUS}
 /// The measures of a spinline, in the order of its tables and of studies.
 pub const OF_SPINLINES: &[Measure<Solution>] = &[
     spun("final_diameter_m", "Diameter, cold", MICROMETRES, |found| found.final_diameter)
-        .meaning("diameter of the solid filament at the end of the line, with the density of the solid")
+        .meaning("diameter of the solid filament at the end of the line")
         .named("final_diameter")
         .main()
         .figure(&figure("final_diameter", "Diameter of the filament", "diameter of the filament")),
@@ -60,9 +60,9 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     spun("freezing.diameter_m", "Diameter at the freezing point", MICROMETRES, |found| {
         found.freezing.diameter
     })
-    .meaning("diameter of the thread where it becomes solid; it shrinks as it cools further"),
+    .meaning("diameter of the thread where it becomes solid; it still shrinks"),
     spun("freezing.stress_pa", "Stress at the freezing point", MEGAPASCALS, |found| found.freezing.stress)
-        .meaning("tensile stress of the thread where it becomes solid, which orients the polymer")
+        .meaning("tensile stress where it becomes solid, which orients the polymer")
         .kept("freezing_stress", "freezing_stress_pa")
         .main()
         .figure(&figure("freezing_stress", "Stress at the freezing point", "stress at the freezing point")),
@@ -81,7 +81,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     })
     .meaning("distance of the largest strain rate from the die"),
     spun("force_at_die_n", "Tension at the die", MILLINEWTONS, |found| found.force_at_die)
-        .meaning("tension of the thread at the die, with the part of the surface tension")
+        .meaning("tension of the thread at the die, surface tension included")
         .named("force_at_die")
         .figure(&figure("force_at_die", "Tension at the die", "tension at the die")),
     spun("force_at_end_n", "Tension at the end", MILLINEWTONS, |found| {
@@ -92,8 +92,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     .meaning("zero for a free end"),
     spun("birefringence", "Birefringence", RATIO, |found| found.birefringence)
         .meaning(
-            "birefringence of the solid, by the stress-optical law; that of polypropylene is 3 to 5 times \
-         too low",
+            "birefringence of the solid by the stress-optical law; 3 to 5 times too low for polypropylene",
         )
         .remark(|found| {
             found.has_low_birefringence.then(|| "3 to 5 times too low for polypropylene".to_owned())
@@ -103,7 +102,7 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     spun("modulus_estimate_pa", "Young’s modulus, an estimate", GIGAPASCALS, |found| {
         found.modulus_estimate
     })
-    .meaning("from the birefringence; it can be wrong by a factor of two, and is too low for polypropylene")
+    .meaning("Young’s modulus from the birefringence, within a factor of two; too low for polypropylene")
     .remark(|found| {
         let is_low = found.has_low_birefringence;
         is_low.then(|| {
@@ -114,11 +113,11 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
     .main()
     .figure(&figure("modulus_estimate", "Estimate of Young’s modulus", "estimate of Young’s modulus")),
     spun("momentum_residual", "Balance of momentum", RATIO, |found| found.momentum_residual)
-        .meaning("by how much it fails over the whole line, as a share of the largest tension")
+        .meaning("how far the balance of momentum fails over the line, over the largest tension")
         .digits(1)
         .short(""),
     spun("energy_residual", "Balance of energy", RATIO, |found| found.energy_residual)
-        .meaning("by how much it fails over the whole line, as a share of the heat that the air takes")
+        .meaning("how far the balance of energy fails over the line, over the heat that the air takes")
         .digits(1)
         .short(""),
 ];
@@ -150,12 +149,12 @@ pub const OF_LOADS: &[Measure<Load>] = &[
     Measure::new("filaments_per_m", "Filaments per metre of width", super::PER_METRE, Number(|load: &Load| {
         load.filaments_per_metre
     }))
-    .meaning("of all rows")
+    .meaning("filaments of all rows, per metre of width")
     .digits(4),
     Measure::new("slot_m", "Size of the slot in machine direction", MILLIMETRES, Known(|load: &Load| {
         Some(load.air?.slot)
     }))
-    .meaning("line.depth: the filaments and the air that drives them come through it")
+    .meaning("line.depth, through which the filaments and their air come")
     .digits(4),
     Measure::new(
         "air_kg_s_m",
@@ -163,7 +162,7 @@ pub const OF_LOADS: &[Measure<Load>] = &[
         KILOGRAMS_PER_SECOND_AND_METRE,
         Known(|load: &Load| Some(load.air?.mass_flow)),
     )
-    .meaning("density times mean velocity at the inlet times size of the slot, per metre of width")
+    .meaning("density times mean velocity at the inlet times slot, per metre of width")
     .digits(3),
     Measure::new("mass_loading", "Mass loading", PERCENT, Known(Load::mass_loading))
         .meaning("mass flow of the filaments over that of the air at the inlet")
@@ -173,21 +172,21 @@ pub const OF_LOADS: &[Measure<Load>] = &[
         .digits(3),
     Measure::new("eddy_damping", "Damping of the eddies, at most", super::RATIO, Known(|load: &Load| load.damping))
         .meaning(
-            "∫ k n/(ρU) dx from the inlet to the belt, k the drag across filaments that stand still in the eddies, n \
-             their length per volume: the amplitude of eddies falls by less than the factor exp(−∫)",
+            "upper bound of how the filaments damp the eddies down to the belt: their amplitude falls by less than \
+             the factor exp(−this number)",
         )
         .digits(2),
     Measure::new("heat_w_per_m", "Heat of the filaments", KILOWATTS_PER_METRE, Known(|load: &Load| {
         Some(load.heat?.given)
     }))
-    .meaning("given up between the die and the end of the spinline, per metre of width")
+    .meaning("heat given up between the die and the end of the spinline, per metre of width")
     .remark(|load| {
         let left_out = load.heat.as_ref().and_then(|heat: &Heat| heat.of_crystals)?;
         Some(format!("without up to {:.1} kW/m of crystallisation, which this spinline leaves out", left_out * 1e-3))
     })
     .digits(3),
     Measure::new("warming_k", "Warming of the slot's air, at most", KELVIN, Known(|load: &Load| load.heat?.warming))
-        .meaning("if all of this heat goes into the air of the slot")
+        .meaning("warming of the air of the slot by all of this heat")
         .digits(3),
 ];
 
@@ -196,20 +195,28 @@ pub const OF_LOAD_PLACES: &[Measure<LoadPlace>] = &[
     Measure::new("x_m", "Distance from the inlet", MILLIMETRES, Number(|place: &LoadPlace| place.distance))
         .meaning("place on the way from the inlet to the belt")
         .digits(4),
-    Measure::new("force_n_per_m", "Force on the air", NEWTONS_PER_METRE, Mean(|place: &LoadPlace| {
-        (place.force, place.standard_error)
-    }))
+    Measure::new(
+        "force_n_per_m",
+        "Force on the air",
+        NEWTONS_PER_METRE,
+        Mean(|place: &LoadPlace| (place.force, place.standard_error)),
+    )
     .meaning(
-        "with which the filaments drive the air between the inlet and here, per metre of width; negative where the \
-         air drives them",
+        "force with which the filaments drive the air between the inlet and here, per metre of width; \
+         negative where the air drives them",
     ),
     Measure::new("share_of_momentum", "of the air’s momentum", PERCENT, Known(LoadPlace::share_of_momentum))
-        .meaning("over the mass flow of the slot times the mean velocity here")
+        .meaning("this force over the mass flow of the slot times the mean velocity here")
         .digits(2),
-    Measure::new("change_of_velocity", "Change of a free stream", PERCENT, Known(LoadPlace::change_of_velocity))
-        .meaning("by which a free stream of the same width would be faster than the given air")
-        .digits(2),
+    Measure::new(
+        "change_of_velocity",
+        "Change of a free stream",
+        PERCENT,
+        Known(LoadPlace::change_of_velocity),
+    )
+    .meaning("share by which a free stream of the same width would be faster than the given air")
+    .digits(2),
     Measure::new("pressure_pa", "Pressure between walls", PASCALS, Known(|place: &LoadPlace| place.pressure))
-        .meaning("rise of the pressure between the inlet and here, if walls hold the air at the given velocity")
+        .meaning("rise of pressure between the inlet and here if walls keep the given velocity")
         .digits(2),
 ];

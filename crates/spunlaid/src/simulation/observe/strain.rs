@@ -17,10 +17,10 @@ pub(super) const USUAL: Declaration = Declaration {
         ..measure(
             "strain_99",
             "Strain, 99 % of the time",
-            "strain that the element at the root does not exceed during 99 % of the time after the spin-up. It is \
-             averaged over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over the \
-             output interval if that is longer. It hardly depends on the time step; compare it with the strain that \
-             the polymer can take",
+            "strain that the element at the root does not exceed during 99 % of the time after the \
+             spin-up, averaged over the period of the slowest axial wave, 4 L √(density / Young's \
+             modulus), or the output interval if that is longer; compare it with the strain that the \
+             polymer can take",
             Aggregate::Mean,
             "99 % of the time",
         )
@@ -34,9 +34,9 @@ pub(super) const LARGEST: Declaration = Declaration {
     measures: &[measure(
         "max_strain",
         "Largest strain",
-        "largest absolute strain of any element at all recorded instants, the start included. The fibre starts without \
-         tension, so axial waves run along it at first. Implicit tension damps those that are fast compared with the \
-         time step, and the value then decreases with the step; it also depends on duration and output interval",
+        "largest absolute strain of any element, the start included, where axial waves run along the \
+         fibre. It depends on duration and output interval, and with implicit tension on the time \
+         step",
         Aggregate::Largest,
         "largest",
     )],
@@ -153,14 +153,11 @@ pub(super) const ROOT_TENSION: Declaration = Declaration {
     measures: &[
         TENSION
             .observed("root_tension", "root_tension_n", "Tension at the root, mean")
-            .meaning("mean over time of the tension of the element at the root, at the recorded instants")
+            .meaning("mean over time of the tension of the element at the root")
             .series("mean"),
         TENSION
             .observed("peak_root_tension", "peak_root_tension_n", "Tension at the root, peak")
-            .meaning(
-                "largest tension of the element at the root at the recorded instants. As with the \
-                 largest strain, implicit tension makes it lower",
-            )
+            .meaning("largest tension of the element at the root; implicit tension makes it lower")
             .aggregate(Aggregate::Largest)
             .series("peak"),
     ],
@@ -204,8 +201,8 @@ pub(super) const OUTSIDE_FLOW: Declaration = Declaration {
         name: "share_outside_flow",
         column: "share_outside_flow",
         label: "Time outside the flow",
-        meaning: "share of the time that the elements spend outside the profile or the field, the spin-up \
-            included; the simulation uses the air at the nearest point there",
+        meaning: "share of the time that elements spend outside the profile or the field, in the air of the \
+             nearest point",
         unit: PERCENT,
         group: FIBRE,
         figure: &figure("share_outside_flow", "Time outside the flow", "time outside the flow"),

@@ -82,7 +82,7 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
 fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item = &'static Measure<T>>) {
     let part = [("Strips", "md"), ("Holes", "50")].into_iter().find(|(of, _)| title.starts_with(of));
     let part = part.map_or("10", |(_, part)| part);
-    let _ = write!(text, "\n## {title}\n\n| name | in studies | unit | meaning |\n|---|---|---|---|\n");
+    let _ = write!(text, "\n## {title}\n\n| name | in studies | meaning |\n|---|---|---|\n");
     for measure in measures {
         let name = if measure.entry().is_empty() { measure.column } else { measure.entry() };
         let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
@@ -90,11 +90,7 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
             column if is_kept && column != name => format!("`{column}`"),
             _ => (if is_kept { "yes" } else { "" }).to_owned(),
         };
-        let unit = match measure.unit.of_values().as_str() {
-            "1" => String::new(),
-            unit => unit.replace("degC", "°C").replace("percent", "%"),
-        };
-        let _ = writeln!(text, "| `{name}` | {kept} | {unit} | {} |", measure.meaning.replace('|', "\\|"));
+        let _ = writeln!(text, "| `{name}` | {kept} | {} |", measure.meaning.replace('|', "\\|"));
     }
 }
 
@@ -102,9 +98,10 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
 #[test]
 fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
-        (`crates/spunlaid/src/simulation/observe/`). Names are those of `summary.json`, of a velocity record those of \
-        `analysis.json`. Studies keep some of them, under the same name or under that of the second column, \
-        which is here of patches of 10 mm and of strips along MD. [results.md](results.md) says where they stand.\n"
+        (`crates/spunlaid/src/simulation/observe/`). Names are those of `summary.json`, of a velocity record those \
+        of `analysis.json`, and end with the unit; a name without one is that of a ratio or a count. Studies keep \
+        some of them, under the same name or that of the second column, here of patches of 10 mm and of strips \
+        along MD. [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);

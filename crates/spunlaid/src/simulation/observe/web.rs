@@ -53,7 +53,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
         .short("airs of their own")
         .shown_if(|patch| patch.in_one_air),
     share("cv_one_fibre", "CV expected from single fibres", |patch| Some(of_known(patch)?.0))
-        .meaning("CV that is expected of independent filaments of known numbers, from single fibres")
+        .meaning("CV that is expected of independent filaments of known numbers")
         .kept("cv_#_mm_one_fibre", "cv_#_mm_one_fibre")
         .figure(&figure("cv_one_fibre", "CV expected from single fibres", "expected CV"))
         .short("single fibres")
@@ -100,10 +100,13 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
             (cos_squared.mean, cos_squared.standard_error)
         }),
     )
-    .meaning("mean cos² of the angle between the pieces of the fibres and the machine direction: 0.5 without orientation")
+    .meaning(
+        "mean cos² of the angle between pieces of fibre and the machine direction: 0.5 without \
+         orientation",
+    )
     .named("orientation_md"),
     Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Mean(|found| found.orientation.md_cd_ratio()))
-        .meaning("length of fibre along the machine direction over that along the cross direction")
+        .meaning("length of fibre along the machine direction over that across")
         .named("md_cd_ratio")
         .main()
         .figure(&figure("md_cd_ratio", "Ratio of fibre along MD and CD", "MD/CD ratio")),
@@ -113,7 +116,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
         MILLIMETRES,
         Known(|found| Some(found.surrogate?.sigma_md)),
     )
-    .meaning("spread σ of a filament in machine direction, of the surrogate of the first layer")
+    .meaning("spread of a filament in machine direction, of the first layer")
     .named("sigma_md")
     .elsewhere(),
     Measure::<Findings>::new(
@@ -122,7 +125,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
         MILLIMETRES,
         Known(|found| Some(found.surrogate?.sigma_cd)),
     )
-    .meaning("spread σ of a filament in cross direction, of the surrogate of the first layer")
+    .meaning("spread of a filament in cross direction, of the first layer")
     .named("sigma_cd")
     .elsewhere(),
     Measure::<Findings>::new(
@@ -131,7 +134,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
         Unit { shown: "m^-½", per_si: 1.0 },
         Known(|found| Some(found.surrogate?.noise)),
     )
-    .meaning("strength A of the noise in the direction, of the surrogate of the first layer")
+    .meaning("strength A of the noise in the direction, of the first layer")
     .named("noise")
     .elsewhere(),
 ];

@@ -43,7 +43,7 @@ pub(super) const KEYS: &[Key] = &[
         .needed_if(FED, "0.5 m")
         .follows("a fibre of fixed length")
         .usual(0.001, 10.0)
-        .meaning("Distance from the inlet to the belt, along x. The belt is perpendicular to x.")
+        .meaning("Distance from the inlet to the belt, along x. The belt lies across x.")
         .synonyms(&["DCD", "die-to-collector distance"])
         .label("Distance to the belt *H*")
         .slider(0.1, 2.0),
@@ -77,8 +77,8 @@ pub(super) const KEYS: &[Key] = &[
         // Up to an atmosphere.
         .usual(0.1, 1e5)
         .meaning(
-            "Pressure difference that pulls the fibre on to the belt. Times the diameter, it is a force \
-             per length of fibre.",
+            "Pressure difference that pulls the fibre on to the belt; times the diameter, a force per \
+             length of fibre.",
         )
         .label("Suction")
         .slider(0.0, 2000.0),
@@ -87,8 +87,8 @@ pub(super) const KEYS: &[Key] = &[
         .follows("a quarter of the distance to the belt")
         .usual(1e-7, 2.0)
         .meaning(
-            "Length of fibre behind the newest touch-down that still moves. What comes after it is laid; \
-             arches that are still in the air stay where they are.",
+            "Length of fibre behind the newest touch-down that still moves. What comes after it is \
+             laid; arches in the air stay where they are.",
         )
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
@@ -109,8 +109,8 @@ pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Po
     // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)
     .meaning(
-        "Speed at which the fibre is fed at the inlet, along its direction: the spinning speed. The fibre \
-         is then laid down on a belt.",
+        "Speed at which the fibre is fed at the inlet, the spinning speed. The fibre is then laid on \
+         a belt.",
     )
     .synonyms(&["filament speed", "draw-off speed"])
     .label("Feed speed *v*_{f}")

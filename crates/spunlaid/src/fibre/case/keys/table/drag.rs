@@ -12,15 +12,15 @@ pub(super) const KEYS: &[Key] = &[
     choose("drag.along", || FrictionLaw::ALL.map(FrictionLaw::name).to_vec())
         .access(at!(drag.along))
         .value("matsui")
-        .meaning("Law of the friction along the fibre. Source and range of each law: docs/theory.md.")
+        .meaning("Law of the friction along the fibre. Sources and ranges: docs/theory.md.")
         .label("Law of the friction along the fibre")
         .in_flight(),
     choose("drag.across", || NormalLaw::ALL.map(NormalLaw::name).to_vec())
         .access(at!(drag.across))
         .value("ju-shambaugh")
         .meaning(
-            "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from fine \
-             fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Source and range of each law: \
+            "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from \
+             fine fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Sources and ranges: \
              docs/theory.md.",
         )
         .label("Law of the drag across the fibre")
@@ -35,8 +35,7 @@ pub(super) const KEYS: &[Key] = &[
         .value("0.9")
         .usual(0.01, 10.0)
         .meaning(
-            "Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; 0.37 is the low end, and \
-             two sources support 0.9.",
+            "Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; two sources support 0.9.",
         )
         .label("Friction coefficient *β*")
         .slider(0.2, 1.2)

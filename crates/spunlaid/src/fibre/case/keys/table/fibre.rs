@@ -44,9 +44,7 @@ pub(super) const KEYS: &[Key] = &[
         .derived(|case| case.line.is_some())
         .required("1 m")
         .usual(0.001, 30.0)
-        .meaning(
-            "Length of the fibre, from its root to its free end. A fibre that is fed on to a belt has none.",
-        )
+        .meaning("Length of the fibre, from its root to its free end. A fed fibre has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
     quantity("fibre.diameter", Dimension::Length, Positive)
@@ -82,10 +80,7 @@ pub(super) const KEYS: &[Key] = &[
         .in_other_words(|case| Some(case.linear_density().into()))
         .follows("diameter and density give it")
         .usual(1e-11, 0.03)
-        .meaning(
-            "Mass per length of the fibre, which may be written instead of `fibre.diameter`; the diameter \
-             follows with the density.",
-        )
+        .meaning("Mass per length, in place of `fibre.diameter`, which follows with the density.")
         .synonyms(&["titre", "titer", "denier", "count of the yarn", "fineness"])
         .label("Linear density")
         .slider(1e-8, 2e-5),
@@ -104,7 +99,7 @@ pub(super) const KEYS: &[Key] = &[
         .required("2 GPa")
         // From rubber to the stiffest carbon fibres.
         .usual(1e7, 9e11)
-        .meaning("Young's modulus of the polymer along the fibre. The fibre is elastic.")
+        .meaning("Young's modulus of the polymer along the fibre, which is elastic.")
         .synonyms(&["stiffness", "E modulus"])
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
@@ -114,8 +109,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("0 s")
         .usual(1e-7, 0.1)
         .meaning(
-            "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with the \
-             curvature κ. It damps the bending of a polymer that is still soft.",
+            "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with \
+             the curvature κ. It damps the bending of a soft polymer.",
         )
         .label("Bending viscosity *τ*")
         .slider(0.0, 1e-3)
@@ -138,8 +133,8 @@ pub(super) const KEYS: &[Key] = &[
         )
         .usual(1e-6, 1.0)
         .meaning(
-            "Length of the elements that the fibre is divided into. Shorter elements resolve shorter \
-             waves, and the run takes longer.",
+            "Length of the elements of the fibre. Shorter elements resolve shorter waves, and the run \
+             takes longer.",
         )
         .label("Element length *l*")
         .slider(2e-3, 0.1)
@@ -152,7 +147,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Root"),
     key("fibre.direction", Kind::Direction).access(at!(fibre.direction)).value("[1.0, 0.0, 0.0]").meaning(
-        "Direction of the straight fibre at the start, and of a clamped root throughout. The air and \
-             gravity act along x.",
+        "Direction of the straight fibre at the start, and of a clamped root throughout. Air and \
+         gravity act along x.",
     ),
 ];

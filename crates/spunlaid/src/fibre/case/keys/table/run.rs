@@ -33,10 +33,7 @@ pub(super) const KEYS: &[Key] = &[
              half of it",
         )
         .usual(1e-10, 0.1)
-        .meaning(
-            "Length of a time step. It must be below the stability limit; otherwise a message gives the \
-             limit.",
-        )
+        .meaning("Length of a time step, below the stability limit, which a message gives.")
         .label("Time step *h*")
         .slider(1e-7, 1e-3)
         .read_last(),
@@ -52,8 +49,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("0.003")
         .usual(1e-7, 0.1)
         .meaning(
-            "Largest error of the free end's path that the time step may cause, divided by its amplitude. \
-             The time step is chosen from it if `run.time_step` is left out.",
+            "Largest error of the free end's path by the time step, over its amplitude. It chooses \
+             the time step if `run.time_step` is left out.",
         )
         .label("Error tolerance")
         .slider(1e-4, 0.03)
@@ -63,12 +60,13 @@ pub(super) const KEYS: &[Key] = &[
         .value("10")
         .in_study("replicates = 10")
         .meaning(
-            "Number of fibres, each in its own turbulence. Means and standard errors are taken over them.",
+            "Number of fibres, each in its own turbulence, over which means and standard errors are taken.",
         ),
-    key("run.seed", Kind::Whole(0, u64::MAX)).access(at!(run.seed)).value("1").in_study("seed = 1").meaning(
-        "Seed of the random phases. Another seed gives other turbulence; the same seed gives the same \
-             results to the last bit.",
-    ),
+    key("run.seed", Kind::Whole(0, u64::MAX))
+        .access(at!(run.seed))
+        .value("1")
+        .in_study("seed = 1")
+        .meaning("Seed of the random phases. The same seed gives the same results to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec())
         .access(at!(run.scheme))
         .value("semi-implicit-euler")
@@ -92,11 +90,9 @@ pub(super) const KEYS: &[Key] = &[
         .value("0 s")
         .usual(1e-9, 3600.0)
         .meaning(
-            "Time at the start that the statistics of the motion leave out; the energy errors and the time \
-             outside the flow include it. The fibre starts straight and at rest, and its motion depends on \
-             this start for a fraction of a second. Of a fed fibre the default is four times distance / \
-             feed speed, at most half the run: it comes down once, and its length between inlet and belt \
-             is laid twice.",
+            "Time at the start that the statistics of the motion leave out; the energy errors and the \
+             time outside the flow include it. Of a fed fibre the default is four times distance / \
+             feed speed, at most half the run.",
         )
         .label("Spin-up")
         .slider(0.0, 1.0)
@@ -113,18 +109,16 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(run.shapes))
         .follows("every recorded instant as far as they fit into 96 MB, of which 500 go to ParaView")
         .meaning(
-            "Number of shapes of a fibre that are kept for the moving picture and for ParaView, evenly \
-             over the run, at most one for each recorded instant. Eight in each period of the end's motion \
-             follow it. `0` keeps none.",
+            "Number of shapes of a fibre that are kept for the moving picture and for ParaView, \
+             evenly over the run, at most one for each recorded instant. `0` keeps none.",
         ),
     choose("run.checks", || Checks::ALL.map(Checks::name).to_vec())
         .access(at!(run.checks))
         .value("auto")
         .meaning(
-            "What the checks of time step and mesh may cost, which fly some fibres again when the results \
-             are written. `auto`: together at most a fifth of the flight; what that does not buy is not \
-             checked, and the run says so. `full`: whatever the whole run takes with a finer step and with \
-             finer elements. `none`: nothing is checked.",
+            "What the checks of time step and mesh may cost. `auto`: together a fifth of the flight, \
+             and the run says what is not checked; `full`: as much as they take for the whole run; \
+             `none`: nothing is checked.",
         )
         .label("Checks"),
     quantity("run.damping", Dimension::Rate, NotNegative)

@@ -21,15 +21,15 @@ pub(super) const KEYS: &[WebKey] = &[
         .derived(is_flown)
         .required("18 µm")
         .meaning(
-            "Diameter of the round filaments. With `laydown.case` it is that of the case, and \
-             where a filament flies it is the key of its case.",
+            "Diameter of the round filaments; with `laydown.case`, and where a filament flies, that \
+             of the case.",
         )
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density)
         .access(at!(layer, layer_mut, density))
         .derived(is_flown)
         .required("910 kg/m³")
-        .meaning("Density of the polymer. With `laydown.case` it is that of the case.")
+        .meaning("Density of the polymer; with `laydown.case` that of the case.")
         .label("Fibre density"),
     positive("fibre.linear_density", Dimension::LinearDensity)
         .access(Access {
@@ -43,10 +43,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .alternative_to(&["fibre.diameter"], EITHER)
         .in_other_words(|web| Some(layer(web)?.linear_density().into()))
         .follows("diameter and density give it")
-        .meaning(
-            "Mass per length of a filament, which may be written instead of `fibre.diameter`; the diameter \
-             follows with the density.",
-        )
+        .meaning("Mass per length, in place of `fibre.diameter`, which follows with the density.")
         .label("Linear density"),
 ];
 
@@ -55,9 +52,9 @@ pub(super) const LAYER: &[WebKey] = &[key("layer.name", Kind::Text("first beam")
     .access(at!(layer, layer_mut, name))
     .follows("the layer's number")
     .meaning(
-        "Name of a layer. A web of several layers has a `[[layer]]` for each beam, with its own \
-             `[layer.line]`, `[layer.laydown]` and `[layer.fibre]` in place of the three tables below; \
-             their basis weights add up. Tables of a filament that stand above the layers are those of all.",
+        "Name of a layer. Each beam of a web of several layers is a `[[layer]]` with its own \
+         `[layer.line]`, `[layer.laydown]` and `[layer.fibre]`; the basis weights add up. Tables of a \
+         filament above the layers are those of all.",
     )];
 
 /// The numbers of a surrogate.
@@ -68,7 +65,7 @@ const KNOWN: &Condition<WebSpec> = &Condition {
     holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
 };
 /// Where the numbers of a surrogate come from if they are left out.
-const IDENTIFIED: &str = "identified in what the fibres of the case have laid";
+const IDENTIFIED: &str = "found from what the case lays";
 
 /// Why a layer names one source of its fibres.
 pub(crate) const ONE_SOURCE: &str =
@@ -81,18 +78,17 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .told(|_: &WebSpec| None)
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
-            "Path of the case of a fed fibre, relative to this file, which several webs may share. It is \
-             flown, and the web is laid of what it lays. Keys of it that stand in this file too, as \
-             `air.velocity`, take the place of those there.",
+            "Path of the case of a fed fibre, relative to this file. It is flown, and the web is made \
+             of what it lays. Keys that stand in this file too, as `air.velocity`, replace those of \
+             the case.",
         ),
     positive("laydown.sigma_md", Dimension::Length)
         .access(of_surrogate!(sigma_md))
         .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
         .meaning(
-            "Spread of a laid filament in machine direction: the σ₁ of the surrogate. Known numbers do not \
-             say how neighbours come down together, so the CV of such a web is a lower bound; a case in place \
-             of them (`laydown.case`) is flown in one air, as in a line.",
+            "Spread of a laid filament in machine direction: σ₁ of the surrogate. Known numbers do \
+             not say how neighbours come down together, so the CV of such a web is a lower bound.",
         )
         .label("Spread in machine direction")
         .usual(1e-5, 1.0),
@@ -100,7 +96,7 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .access(of_surrogate!(sigma_cd))
         .needed_if(KNOWN, "18.3 mm")
         .follows(IDENTIFIED)
-        .meaning("Spread of a laid filament in cross direction: the σ₂ of the surrogate.")
+        .meaning("Spread of a laid filament in cross direction: σ₂ of the surrogate.")
         .label("Spread in cross direction")
         .usual(1e-5, 1.0),
     positive("laydown.noise", Dimension::Noise)

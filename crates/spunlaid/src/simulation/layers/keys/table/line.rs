@@ -27,8 +27,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .gives_case(&["feed.speed"])
         .required("50 m/s")
         .meaning(
-            "Speed at which each filament is fed: the spinning speed. Of a filament that flies it is \
-             `feed.speed`, in whose place it may be written.",
+            "Speed at which each filament is fed: the spinning speed. It may stand in place of \
+             `feed.speed` of a filament that flies.",
         )
         .label("Feed speed"),
     positive("line.throughput", Dimension::MassFlow)
@@ -48,9 +48,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`feed_speed` and the filament give it")
         .usual(1e-8, 1e-3)
         .meaning(
-            "Mass flow of a hole, which may be written instead of `line.feed_speed`: the feed speed is the \
-             throughput over the linear density. Of a filament that flies it gives `feed.speed`, or \
-             `spinline.throughput`.",
+            "Mass flow of a hole, in place of `line.feed_speed`, which is the throughput over the \
+             linear density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
         )
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole"),
@@ -71,8 +70,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .of_all_layers()
         .required("3 m/s")
         .meaning(
-            "Speed of the belt. It is written once, in any of the layers, because all lie on one belt. \
-             Of a filament that flies it is `belt.speed`, in whose place it may be written.",
+            "Speed of the belt, written once, in any of the layers. It may stand in place of \
+             `belt.speed` of a filament that flies.",
         )
         .label("Belt speed"),
     positive("line.basis_weight", Dimension::BasisWeight)
@@ -93,9 +92,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`belt_speed` and the filaments give it")
         .usual(1e-3, 2.0)
         .meaning(
-            "Mass of the web per area, that of all layers together, which may be written instead of \
-             `line.belt_speed`, in any of the layers: the belt is as fast as it takes to lay it, and filaments \
-             fly above this belt.",
+            "Mass of the web per area, of all layers together, in place of `line.belt_speed`, in any \
+             of the layers: the belt is as fast as it takes to lay it.",
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),
@@ -121,8 +119,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`rows`")
         .varies()
         .meaning(
-            "Number of filaments per metre of width, which come down at random places, or with `depth` at \
-             an even pitch. The nearest whole number is laid.",
+            "Filaments per metre of width, at random places, or with `depth` at an even pitch. The \
+             nearest whole number is laid.",
         )
         .synonyms(&["holes per metre", "capillaries per metre"])
         .label("Filaments per metre"),
@@ -146,11 +144,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("places at random in cross direction, all in the middle of the slot")
         .label("Depth of the slot")
         .meaning(
-            "Size in machine direction of the slot through which the filaments come, with \
-             `filaments_per_metre`: they are at an even pitch across the web, each at a random place of \
-             the depth. It changes a web of a case, for filaments that \
-             are deeper in the slot hang in other eddies; elsewhere only the even pitch counts. The air \
-             comes through the same slot, and what filaments do to it is told by its size.",
+            "Size of the slot in machine direction, with `filaments_per_metre`: the filaments come at \
+             an even pitch across the web, each at a random place of the depth, where those that fly \
+             hang in other eddies. The air comes through the same slot, which gives the load on it.",
         )
         .label("Depth of the slot")
         .usual(1e-4, 1.0),
@@ -159,10 +155,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("none")
         .usual(1e-5, 1e-2)
         .meaning(
-            "Charge per mass of the filaments, as a charging bar leaves it on them: they drive each other \
-             apart along the machine direction while they come down. Only filaments of a \
-             case, which fly, have one. The sign does not matter. No measured charge of a spunbond line is known to \
-             us.",
+            "Charge per mass of the filaments from a charging bar, of either sign: they drive each \
+             other apart along the machine direction. Only filaments that fly have one. No measured \
+             charge of a spunbond line is known to us.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
@@ -181,9 +176,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("no plates")
         .usual(1e-3, 1.0)
         .meaning(
-            "With `line.charge`: distance of two earthed plates from the middle of the slot, one on each \
-             side along the machine direction, from inlet to belt. A curtain in the middle does not feel \
-             them; one that is off it is pulled to the nearer plate. They stop no filament.",
+            "Distance of two earthed plates from the middle of the slot, one on each side, from inlet \
+             to belt, with `line.charge`. A curtain that is off the middle is pulled to the nearer \
+             plate. They stop no filament.",
         )
         .synonyms(&["plates", "images"])
         .label("Distance of earthed plates"),
@@ -191,9 +186,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
-            "In place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", \
-             filaments = 5000 }, …]`, the rows of nozzles of the beam. The offset is the place of a row's \
-             first nozzle, from the edge of the web.",
+            "Rows of nozzles, in place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch \
+             = \"0.2 mm\", filaments = 5000 }, …]`. The offset is the place of the first nozzle of a \
+             row, from the edge of the web.",
         )
         .label("Place of the first nozzle")
         .usual(1e-6, 30.0),
@@ -210,8 +205,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("0.2 mm")
         .or_words(&[EVEN])
         .meaning(
-            "Distance from nozzle to nozzle in a row, or `\"even\"` for the width of the web over the \
-             number of filaments. With periodic edges, pitch times filaments is the width of the web.",
+            "Distance from nozzle to nozzle in a row, or `\"even\"`: the width of the web over the \
+             number of filaments. With periodic edges, pitch times filaments is the width.",
         )
         .label("Distance of the nozzles")
         .usual(1e-6, 1.0),
@@ -236,8 +231,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(row, row_mut, md))
         .value("0 mm")
         .meaning(
-            "Place of the row in machine direction at the inlet, from the middle of the slot. It changes a \
-             web of a case.",
+            "Place of the row in machine direction, from the middle of the slot. It matters where \
+             filaments fly.",
         )
         .label("Place of the row in machine direction")
         .usual(1e-5, 1.0),
@@ -249,8 +244,8 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, from))
         .follows("from the edge of the web on")
         .meaning(
-            "Holes that feed more or less than the others: `defects = [{ from = \"0.5 m\" }, …]`, with where \
-             they begin, from the edge of the web. `from` alone is the one hole that is nearest to it, by default a \
+            "Where holes begin that feed more or less than the others, from the edge of the web: \
+             `defects = [{ from = \"0.5 m\" }, …]`. `from` alone is the nearest hole, by default a \
              blocked one; with `to`, all holes between.",
         )
         .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak"])
@@ -259,26 +254,26 @@ pub(super) const DEFECTS: &[WebKey] = &[
     quantity("line.defects.to", Dimension::Length, Sign::NotNegative)
         .access(at!(defect, defect_mut, to))
         .follows("the one hole that is nearest to `from`; without `from`, all across the web")
-        .meaning("Where the holes with the defect end, from the edge of the web.")
+        .meaning("Where the holes with the defect end.")
         .label("Place where a defect ends")
         .usual(1e-6, 30.0),
     key("line.defects.row", Kind::Whole(1, MOST_FILAMENTS))
         .access(at!(defect, defect_mut, row))
         .follows("all rows")
-        .meaning("Number of the row of nozzles of `rows` that has the defect, from 1.")
+        .meaning("Number of the row of `rows` that has the defect, from 1.")
         .label("Row with a defect"),
     quantity("line.defects.share", Dimension::Ratio, Sign::Share)
         .access(at!(defect, defect_mut, share))
         .value("1")
-        .meaning("Each of these holes has the defect with this probability, chosen by the seed of the web.")
+        .meaning("Probability with which each of these holes has the defect, chosen by the seed of the web.")
         .label("Share of the holes with a defect")
         .usual(1e-4, 1.0),
     quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative)
         .access(at!(defect, defect_mut, titre))
         .value("0")
         .meaning(
-            "Mass per length of the filaments from these holes over that of the others, up to 2; 0 of \
-            blocked holes. The filaments are taken to lie as the others do.",
+            "Mass per length of these filaments over that of the others, up to 2; 0 of blocked holes. \
+             They are taken to lie as the others do.",
         )
         .label("Titre of filaments with a defect")
         .usual(0.05, 2.0),
@@ -286,8 +281,8 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, after))
         .value("0 s")
         .meaning(
-            "Time from which on it is so, after the sheet began to be laid: a filament that broke, a hole that was \
-             blocked then.",
+            "Time from the beginning of the sheet from which on it is so: when a filament broke or a \
+             hole was blocked.",
         )
         .label("Time of a defect")
         .usual(1e-6, 1e4),

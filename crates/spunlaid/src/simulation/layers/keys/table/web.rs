@@ -29,7 +29,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
-            "Size of the web in machine direction, a whole number of cells. It is a stretch of an endless \
+            "Size of the web in machine direction, a whole number of cells: a stretch of an endless \
              web, closed to a ring.",
         )
         .label("Length of the web")
@@ -38,8 +38,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.patches))
         .follows("those of 1, 2, 5, 10, 20 and 50 mm that fit")
         .meaning(
-            "Sides of the square patches over which the basis weight is compared, each a whole number of \
-             cells and at most half as large as the web.",
+            "Sides of the square patches over which the basis weight is compared: whole numbers of \
+             cells, at most half of the web.",
         )
         .usual(1e-5, 10.0),
     positive("web.cell", Dimension::Length)
@@ -69,10 +69,9 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .value("periodic")
         .meaning(
-            "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at the \
-             other edge, as in a web that is wide everywhere; `cut`, it is cut off, and the strips where \
-             the web is thinner for it, up to 3 σ_CD inwards of the outermost filament, are left out of \
-             the unevenness.",
+            "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at \
+             the other edge; `cut`, it is cut off, and the thinner strips, up to 3 σ_CD inwards of \
+             the outermost filament, are left out of the unevenness.",
         )
         .label("Edges"),
     key("web.flown", Kind::Whole(1, MOST_FILAMENTS))
@@ -94,9 +93,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[AUTO, ALL])
         .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
         .meaning(
-            "Filaments per metre of width that are flown for all others in a web of cases: they hang in one air and \
-             neighbours come down almost alike, so a few of them carry the unevenness of all. `all` flies every filament of the sheet, `auto` as many as the length scale of the air \
-             asks for, and twice or four times as many where these do not tell what all do.",
+            "Filaments per metre of width that are flown for all others: neighbours come down almost \
+             alike. `all` flies every filament; `auto` as many as the length scale of the air asks \
+             for, and twice or four times as many where these are not enough.",
         )
         .label("Filaments per metre that are flown"),
     positive("web.memory_limit", Dimension::Memory)
@@ -104,7 +103,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("4 GB")
         .fixed()
         .meaning(
-            "Most memory that the field of eddies of a web in one air may take. A web that needs more is \
+            "Most memory for the field of eddies of a web in one air. A web that needs more is \
              refused before it is flown.",
         )
         .label("Memory limit")
@@ -122,19 +121,15 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("`none`: every number counts as known")
         .meaning(
-            "Keys of the web and of its cases whose numbers are guesses, with commas between them. \
-             `spunlaid web` also tells the CV for half and for twice of each, from a few filaments. Take out \
-             each whose number has been measured.",
+            "Keys of the web and of its cases whose numbers are guesses, with commas. `spunlaid web` \
+             also gives the CV for half and for twice of each. Take out each that has been measured.",
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Guessed numbers"),
     positive("web.window", Dimension::Length)
         .access(at!(window))
         .follows("20 mm, at most the web's smaller side")
-        .meaning(
-            "Side of the square in the middle of the web whose single fibres are written to a file of \
-             polylines.",
-        )
+        .meaning("Side of the square in the middle of the web whose single fibres are written as polylines.")
         .label("Window")
         .usual(1e-5, 10.0),
 ];
@@ -144,10 +139,7 @@ pub(super) const FABRIC: &[WebKey] = &[
     positive("fabric.thickness", Dimension::Length)
         .access(at!(fabric.thickness))
         .follows("no air permeability is told")
-        .meaning(
-            "Thickness of the finished fabric, between its bonds. The program does not know it: it follows \
-             from the calender.",
-        )
+        .meaning("Thickness of the finished fabric between its bonds, which follows from the calender.")
         .synonyms(&["caliper", "gauge", "loft"])
         .label("Thickness")
         .usual(1e-5, 0.1),
@@ -155,8 +147,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.saleable_width))
         .follows("all of the web between its edges")
         .meaning(
-            "Width in the middle of the web that is sold; what lies beside it is trimmed. What is told of \
-             the fabric is that of this width.",
+            "Width in the middle of the web that is sold. All numbers of the fabric are those of this \
+             width.",
         )
         .synonyms(&["trim", "slit width", "net width"])
         .label("Saleable width")
@@ -165,8 +157,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.tolerance))
         .value("5 %")
         .meaning(
-            "How far the weight may be from that of the middle half of the web to be sold, with \
-             `web.edges = \"cut\"`: the width that is within it is told, and its trim.",
+            "How far the weight may be from that of the middle half of the web, with `web.edges = \
+             \"cut\"`: it gives the usable width and its trim.",
         )
         .label("Tolerance of the weight")
         .usual(1e-3, 0.5),
@@ -188,8 +180,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.strip.section))
         .value("5 mm")
         .meaning(
-            "Length of a section of a strip. Of each strip the lightest section is looked for, where it \
-             would tear if its strength were that of its fibres.",
+            "Length of a section of a strip. The strip would tear at its lightest section if strength \
+             were that of the fibres.",
         )
         .synonyms(&["tensile", "weakest link"])
         .label("Section of a strip")
@@ -205,8 +197,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.measured_opacity))
         .follows("no opacity is told")
         .meaning(
-            "Opacity (ISO 2471) that was measured of a fabric of the same filaments. Pigment and titre are \
-             in it; the program adds what the basis weight and its clouds do.",
+            "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included. The \
+             program adds what the basis weight and its clouds do.",
         )
         .synonyms(&["cover", "whiteness"])
         .label("Measured opacity")

@@ -38,7 +38,7 @@ pub(super) const KEYS: &[Key] = &[
         .required("10 m/s")
         // Up to the speed of sound.
         .usual(1e-3, 340.0)
-        .meaning("Mean velocity of the air along x. A record, a profile or a field gives it instead.")
+        .meaning("Mean velocity of the air along x. A record, a profile or a field gives it too.")
         .synonyms(&["air speed", "wind"])
         .label("Mean velocity *U*")
         .slider(0.0, 60.0)
@@ -92,7 +92,7 @@ pub(super) const KEYS: &[Key] = &[
         .follows("the same air everywhere")
         .meaning(
             "CFD solution around the fibre: VTK files or tables of points with the velocity and, if \
-             available, k with ε or ω.",
+             there are, k with ε or ω.",
         ),
     key("air.field_root", Kind::Point)
         .access(at!(placed, placed_mut, root))
@@ -104,15 +104,15 @@ pub(super) const KEYS: &[Key] = &[
         })
         .follows("the middle of the side where the air enters the box around the field")
         .meaning(
-            "Position of the root in the field: three coordinates, as lengths. Choose the position of the \
-             spinneret's hole, or of the slot where the fibre enters the diffuser.",
+            "Position of the root in the field: the spinneret's hole, or where the fibre enters the \
+             diffuser.",
         ),
     choose("air.field_axis", || Axis::ALL.map(Axis::name).to_vec())
         .access(at!(placed, placed_mut, axis))
         .value("x")
         .meaning(
-            "Direction in the field that is the fibre's x, the direction of gravity. Write `-z` if the CFD \
-             model points down along −z.",
+            "Direction in the field that is the fibre's x, along gravity: `-z` if the CFD model \
+             points down along −z.",
         )
         .label("Direction of the fibre in the field"),
     choose("air.field_machine_direction", || Axis::ALL.map(Axis::name).to_vec())
@@ -125,8 +125,8 @@ pub(super) const KEYS: &[Key] = &[
         })
         .follows("in the plane of a plane flow, so that the air is the same along the cross direction")
         .meaning(
-            "Direction in the field that is the fibre's y, the machine direction, in which the belt runs; at a \
-             right angle to `air.field_axis`. The fibre's z, the cross direction, follows from both.",
+            "Direction in the field that is the fibre's y, the machine direction, in which the belt \
+             runs; at a right angle to `air.field_axis`. The cross direction, z, follows.",
         )
         .synonyms(&["MD", "belt"])
         .label("Machine direction in the field"),
@@ -136,33 +136,31 @@ pub(super) const KEYS: &[Key] = &[
         .value("1 m")
         .usual(1e-6, 10.0)
         .meaning(
-            "Length of one unit of the field's coordinates. Write `1 mm` if the mesh was drawn in \
-             millimetres. Velocities are not scaled.",
+            "Length of one unit of the field's coordinates: `1 mm` if the mesh is in millimetres. \
+             Velocities are not scaled.",
         )
         .fixed(),
     key("air.field_velocity", Kind::Text("U"))
         .access(of_field_layout!(velocity))
         .follows("the array with a usual name of the velocity")
         .meaning(
-            "Array of the velocity in a field, by name: one of three components, or two or three of one \
-             with commas between them, `Ux, Uy, Uz`.",
+            "Array of the velocity in a field, by name: one of three components, or one for each, \
+             `Ux, Uy, Uz`.",
         ),
     key("air.field_k", Kind::Text("k"))
         .access(of_field_layout!(k))
         .follows("the array with a usual name of k")
-        .meaning("Array of the turbulent kinetic energy k in a field, by name.")
+        .meaning("Array of the turbulent kinetic energy k in a field.")
         .synonyms(&["TKE"]),
     key("air.field_epsilon", Kind::Text("epsilon"))
         .access(of_field_layout!(epsilon))
         .follows("the array with a usual name of ε")
-        .meaning("Array of the dissipation rate ε of the turbulence in a field, by name."),
+        .meaning("Array of the dissipation rate ε of the turbulence in a field."),
     key("air.field_omega", Kind::Text("omega"))
         .access(of_field_layout!(omega))
         .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
         .follows("the array with a usual name of ω, if there is none of ε")
-        .meaning(
-            "Array of the specific dissipation rate ω of the turbulence in a field, by name, in place of ε.",
-        ),
+        .meaning("Array of the specific dissipation rate ω in a field, in place of ε."),
     quantity("air.length_constant", Dimension::Ratio, Positive)
         .access(at!(placed, placed_mut, length_constant))
         .value("0.43")
@@ -175,8 +173,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("0.3")
         .usual(0.01, 10.0)
         .meaning(
-            "Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency follows as \
-             ¼ (velocity/length + 1/T).",
+            "Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency is ¼ \
+             (velocity/length + 1/T).",
         )
         .label("Constant of the eddies’ lifetime *C*_{T}")
         .slider(0.1, 1.0),
@@ -194,7 +192,7 @@ pub(super) const KEYS: &[Key] = &[
         })
         .value("1")
         .usual(0.01, 100.0)
-        .meaning("Factor on all velocities of a profile or a field. It makes the same flow faster or slower.")
+        .meaning("Factor on all velocities of a profile or a field.")
         .label("Factor on the velocity of the air")
         .slider(0.2, 3.0)
         .in_flight(),
@@ -222,8 +220,8 @@ pub(super) const KEYS: &[Key] = &[
         .follows("the air only slows, and a web says so")
         .meaning(
             "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine \
-             direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the slot. \
-             `none`: the air only slows, and this is meant.",
+             direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the \
+             slot. `none`: the air only slows, and this is meant.",
         )
         .label("Widening of the mean flow"),
 ];

@@ -62,8 +62,8 @@ pub(super) const KEYS: &[Key] = &[
         .required("0.1")
         .usual(1e-5, 1.0)
         .meaning(
-            "Rms of each fluctuating velocity component, divided by the mean velocity. A record, a profile \
-             or a field may give it instead.",
+            "Rms of each fluctuating velocity component over the mean velocity. A record, a profile \
+             or a field may give it.",
         )
         .synonyms(&["turbulence level", "degree of turbulence"])
         .label("Turbulence intensity *Tu*")
@@ -76,8 +76,8 @@ pub(super) const KEYS: &[Key] = &[
         .required("50 mm")
         .usual(1e-5, 10.0)
         .meaning(
-            "Length of an eddy. Within this length the fluctuation is the same along the fibre. A record, \
-             a profile or a field may give it instead.",
+            "Length of an eddy, along which the fluctuation is the same. A record, a profile or a \
+             field may give it.",
         )
         .synonyms(&["eddy size", "integral length scale"])
         .label("Length of the eddies *L*_{T}")
@@ -101,8 +101,8 @@ pub(super) const KEYS: &[Key] = &[
         .or_words(&[TAYLOR])
         .usual(0.1, 50000.0)
         .meaning(
-            "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). A \
-             record, a spectrum, a profile or a field may give it instead.",
+            "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). \
+             A record, a spectrum, a profile or a field may give it.",
         )
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
@@ -110,10 +110,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_flow!(turbulence_intensity, intensity_factor))
         .value("1")
         .usual(0.01, 100.0)
-        .meaning(
-            "Factor on the turbulence intensity of a profile or a field. It makes the same air calmer or \
-             rougher everywhere.",
-        )
+        .meaning("Factor on the turbulence intensity of a profile or a field.")
         .label("Factor on the turbulence intensity")
         .slider(0.2, 3.0),
     quantity("air.length_factor", Dimension::Ratio, Positive)
@@ -121,9 +118,7 @@ pub(super) const KEYS: &[Key] = &[
         .value("1")
         .usual(0.01, 100.0)
         .meaning(
-            "Factor on the length scale of a profile or a field. All eddies are so many times as long, and \
-             the cut-off frequency of the flow is so many times lower, because longer eddies take more time \
-             to pass.",
+            "Factor on the length scale of a profile or a field; the cut-off frequency is divided by it.",
         )
         .synonyms(&["eddy size"])
         .label("Factor on the length of the eddies")
@@ -133,7 +128,7 @@ pub(super) const KEYS: &[Key] = &[
         .value("1.204 kg/m³")
         // From a thousandth to fifty times that of the atmosphere.
         .usual(0.01, 50.0)
-        .meaning("Density of the air. The default is for 20 °C. `0 kg/m³` is a vacuum.")
+        .meaning("Density of the air, by default at 20 °C. `0 kg/m³` is a vacuum.")
         .label("Air density")
         .slider(0.0, 2.0)
         .in_flight(),
@@ -142,7 +137,7 @@ pub(super) const KEYS: &[Key] = &[
         .value("1.51e-5 m²/s")
         // From compressed to hot thin air.
         .usual(5e-7, 1e-3)
-        .meaning("Kinematic viscosity of the air. The default is for 20 °C.")
+        .meaning("Kinematic viscosity of the air, by default at 20 °C.")
         .label("Kinematic viscosity *ν*")
         .slider(1e-5, 6e-5)
         .in_flight(),
@@ -165,8 +160,8 @@ pub(super) const KEYS: &[Key] = &[
         )
         .follows("density and viscosity as they are written, or at 20 °C")
         .meaning(
-            "Temperature of the air, from 170 to 1900 K, which may be written instead of `air.density` and \
-             `air.kinematic_viscosity`; both follow for dry air at 101325 Pa.",
+            "Temperature of the air, from 170 to 1900 K, in place of `air.density` and \
+             `air.kinematic_viscosity`, which follow for dry air at 101325 Pa.",
         )
         .label("Air temperature")
         .slider(253.15, 373.15),

@@ -66,8 +66,8 @@ pub(super) const KEYS: &[Key] = &[
         .gives("air.")
         .follows("turbulence is made from harmonics")
         .meaning(
-            "Measured velocity record, as CSV or Parquet, whose fluctuation moves the fibre. A list gives \
-             one record for each eddy.",
+            "Measured velocity record, CSV or Parquet, whose fluctuation moves the fibre. A list has \
+             one for each eddy.",
         ),
     quantity("air.record_rate", Dimension::Frequency, Positive)
         .access(of_record!(rate, Value::Number, number))
@@ -83,8 +83,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_record!(columns, Value::Text, text))
         .follows("the columns with the names or units of velocities")
         .meaning(
-            "Columns of velocity of a record, by name or by number from 1, with commas between them; the \
-             first is along the mean flow.",
+            "Columns of velocity of a record, by name or by number from 1, with commas; the first is \
+             along the mean flow.",
         ),
     key("air.record_time", Kind::Text("t"))
         .access(of_record!(time, Value::Text, text))
@@ -97,7 +97,7 @@ pub(super) const KEYS: &[Key] = &[
     key("air.record_max_gap", Kind::Whole(0, MOST_MISSING))
         .access(of_record!(max_gap, Value::Whole, whole))
         .follows("10")
-        .meaning("Largest number of missing samples in a row of a record that are interpolated."),
+        .meaning("Most missing samples in a row of a record that are interpolated."),
     choose("air.eddies", || vec!["independent", "convected"])
         .access(Access {
             get: |case| Some(case.air.eddies.name().into()),
@@ -144,8 +144,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("uniform")
         .meaning(
             "How the turbulence differs across the flow. `uniform`: not at all, and each fibre has \
-             turbulence of its own. `von-karman`: as in isotropic turbulence, and fibres that hang side by \
-             side share their eddies.",
+             its own. `von-karman`: as isotropic turbulence does, and fibres side by side share their \
+             eddies.",
         )
         .label("Turbulence across the flow"),
     quantity("air.lateral_cutoff", Dimension::Ratio, Positive)
@@ -161,9 +161,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("10")
         .usual(5.0, 60.0)
         .meaning(
-            "Largest lateral wave number of the turbulence times its length scale. A larger one resolves \
-             smaller eddies across the flow and takes more memory. Compare results of the same cut-off \
-             only.",
+            "Largest lateral wave number of the turbulence times its length scale. A larger one \
+             resolves smaller eddies and takes more memory. Compare only results of the same cut-off.",
         )
         .label("Lateral cut-off *k*_{max}*L*_{T}")
         .with_in_one_air("air.lateral", "von-karman")
@@ -176,7 +175,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .meaning(
             "Number of cosine waves whose sum is the turbulence. A sum lasts for harmonics / cut-off \
-             frequency; before that, the wind changes over to a sum with other phases.",
+             frequency; before that, the wind changes over to another one.",
         )
         .label("Number of harmonics")
         .varies()

@@ -138,10 +138,7 @@ pub(super) const KEYS: &[Key] = &[
         ))
         .value("1.0")
         .usual(0.1, 10.0)
-        .meaning(
-            "Factor on the velocity along the thread of `spinline.profile` or of the field: more or less \
-             drawing air.",
-        )
+        .meaning("Factor on the velocity along the thread of a profile or a field: more or less drawing air.")
         .label("Air velocity along the thread *u*, factor")
         .slider(0.2, 2.0),
     quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative)
@@ -153,10 +150,7 @@ pub(super) const KEYS: &[Key] = &[
         ))
         .value("1.0")
         .usual(0.1, 10.0)
-        .meaning(
-            "Factor on the velocity across the thread of `spinline.profile` or of the field: more or less \
-             quench air.",
-        )
+        .meaning("Factor on the velocity across the thread of a profile or a field: more or less quench air.")
         .label("Quench velocity *v*_{c}, factor")
         .slider(0.2, 3.0),
     quantity("spinline.temperature_offset", Dimension::TemperatureDifference, Any)

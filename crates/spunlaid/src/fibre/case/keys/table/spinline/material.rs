@@ -15,15 +15,15 @@ macro_rules! constant {
             Dimension::$dimension,
             $sign)
         .access(of_spinline!(material.$($field).+))
-        .follows("that of the polymer")
+        .follows("the polymer's")
     };
 }
 
 pub(super) const KEYS: &[Key] = &[
     key("spinline.material.source", Kind::Text("data sheet of the grade, 2024"))
         .access(at!(spun, spinline, source))
-        .follows("that of the polymer")
-        .meaning("Where the constants come from, in your words. A file with a polymer needs it."),
+        .follows("the polymer's")
+        .meaning("Where the constants come from. A file with a polymer needs it."),
     quantity("spinline.material.viscosity", Dimension::DynamicViscosity, Positive)
         .access(Access {
             get: |case| {
@@ -43,7 +43,7 @@ pub(super) const KEYS: &[Key] = &[
         .follows("that of the polymer, or that of the melt flow rate")
         .usual(0.1, 100000.0)
         .meaning(
-            "Viscosity of the melt at `viscosity_temperature` and at low rates. It depends on the grade.",
+            "Viscosity of the melt at `viscosity_temperature` and at low rates, which depends on the grade.",
         )
         .label("Viscosity *η*_{r}"),
     constant!("viscosity_temperature", Temperature, Positive, viscosity_temperature)
@@ -52,7 +52,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Reference temperature *T*_{r}"),
     constant!("activation_energy", MolarEnergy, NotNegative, activation_energy)
         .usual(1000.0, 1000000.0)
-        .meaning("Activation energy of the viscosity, by which it changes with the temperature (Arrhenius).")
+        .meaning("Activation energy of the viscosity (Arrhenius).")
         .label("Activation energy *E*_{a}"),
     constant!("freezing_temperature", Temperature, Positive, freezing_temperature)
         .usual(200.0, 600.0)
@@ -101,8 +101,8 @@ pub(super) const KEYS: &[Key] = &[
     constant!("stress_optical_temperature", Temperature, Positive, stress_optical_temperature)
         .usual(200.0, 700.0)
         .meaning(
-            "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. \
-             Left out, it is the same at all.",
+            "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to \
+             1/T. Left out, it is the same at every temperature.",
         )
         .label("Temperature of the stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence)
@@ -112,8 +112,8 @@ pub(super) const KEYS: &[Key] = &[
     constant!("unoriented_modulus", Pressure, Positive, unoriented_modulus)
         .usual(10000000.0, 1000000000000.0)
         .meaning(
-            "Young's modulus of the solid filament without orientation, from which the modulus is \
-             estimated.",
+            "Young's modulus of the solid filament without orientation; the estimate of the modulus \
+             uses it.",
         )
         .label("Young’s modulus without orientation *E*_{0}"),
     constant!("oriented_modulus", Pressure, Positive, oriented_modulus)
@@ -151,8 +151,8 @@ pub(super) const KEYS: &[Key] = &[
     constant!("orientation_enhancement", Ratio, NotNegative, crystals.orientation_enhancement)
         .usual(1.0, 100000.0)
         .meaning(
-            "Factor C by which orientation speeds crystallisation up, exp(C f²). It was chosen, for pet by \
-             where the neck begins (700 to 1500).",
+            "Factor C by which orientation speeds up crystallisation, exp(C f²). It was chosen, for \
+             pet by where the neck begins (700 to 1500).",
         )
         .label("Enhancement by orientation *C*"),
     constant!("enhancement_limit", Ratio, Positive, crystals.enhancement_limit)

@@ -80,8 +80,8 @@ const LINE: &[Key] = &[
         .required("\"pp\"")
         .derived(no_spinline)
         .meaning(
-            "The polymer: one of these, or a file with the table [spinline.material] and all of its \
-             constants. Each constant can be given in [spinline.material] too.",
+            "One of these polymers, or a file with all constants of one in a table \
+             [spinline.material]. Single constants may stand in [spinline.material] of the case.",
         )
         .label("Polymer")
         .varies(),
@@ -99,9 +99,9 @@ const LINE: &[Key] = &[
         .follows("the viscosity of the polymer")
         .usual(0.5, 3000.0)
         .meaning(
-            "Melt flow rate of the grade in g/10 min, load 2.16 kg, at \
-             `spinline.material.viscosity_temperature`. It gives the viscosity, within some 20 %; \
-             `spinline.material.viscosity` may be written instead.",
+            "Melt flow rate of the grade in g/10 min, with 2.16 kg at \
+             `spinline.material.viscosity_temperature`. It gives the viscosity within some 20 %, in \
+             place of `spinline.material.viscosity`.",
         )
         .synonyms(&["MFR", "MFI", "melt flow index"])
         .label("Melt flow rate [g/10 min]")
@@ -133,7 +133,7 @@ const LINE: &[Key] = &[
         .required("0.5 g/min")
         .derived(no_spinline)
         .usual(1e-8, 1e-3)
-        .meaning("Mass flow of a hole: g/min, kg/h, g/s or kg/s.")
+        .meaning("Mass flow of melt through a hole.")
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole")
         .slider(1e-6, 3e-5),
@@ -142,10 +142,7 @@ const LINE: &[Key] = &[
         .required("1.6 m")
         .derived(no_spinline)
         .usual(0.02, 30.0)
-        .meaning(
-            "Length of the spinline, from the die to the inlet at which the flown fibre begins, or to the \
-             take-up.",
-        )
+        .meaning("Length of the spinline, from the die to the inlet of the flown fibre, or to the take-up.")
         .label("Length of the spinline"),
 ];
 
@@ -157,8 +154,8 @@ const CURTAIN: &[Key] = &[
         .access(at!(curtain_of, curtain, rows))
         .follows("one filament in the air as it is given")
         .meaning(
-            "Number of rows of holes that the quench air crosses one after another: each row meets the air \
-             that the one before has warmed and dragged. The first row gives the flown fibre.",
+            "Rows of holes that the quench air crosses one after another; each warms and drags it. \
+             The first row gives the flown fibre.",
         )
         .label("Rows of holes")
         .varies(),
@@ -173,7 +170,7 @@ const CURTAIN: &[Key] = &[
         })
         .follows("one filament in the air as it is given")
         .usual(1.0, 1e5)
-        .meaning("Filaments per metre of width in each row of holes.")
+        .meaning("Filaments per metre of width in each row.")
         .synonyms(&["holes per metre"])
         .label("Filaments per metre and row"),
 ];

@@ -15,8 +15,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(spun, spinline, law))
         .value("newtonian")
         .meaning(
-            "How the melt resists stretching: as a Newtonian liquid, or viscoelastic by Giesekus (with \
-             `modulus` and `mobility` of [spinline.material]) or Phan-Thien–Tanner (with `modulus` and \
+            "How the melt resists stretching: as a Newtonian liquid, or viscoelastic after Giesekus \
+             (`modulus` and `mobility` of [spinline.material]) or Phan-Thien–Tanner (`modulus` and \
              `extensibility`).",
         )
         .label("Law of the melt"),
@@ -40,8 +40,8 @@ pub(super) const KEYS: &[Key] = &[
         })
         .value("false")
         .meaning(
-            "Whether crystallisation on the way is computed. Its enhancement by orientation was chosen and \
-             not measured, so that places of crystallisation are no predictions.",
+            "Whether crystallisation on the way is computed. How much orientation speeds it up was \
+             chosen and not measured, so its places are no predictions.",
         )
         .label("Crystallisation")
         .varies(),
@@ -94,10 +94,7 @@ pub(super) const END_KEYS: &[Key] = &[
             },
         })
         .value("free")
-        .meaning(
-            "What is known at the end of the line: `free`, the tension (that of a fibre which flies on in \
-             the air), or `take-up`, the speed of a godet.",
-        )
+        .meaning("What is known at the end: `free`, the tension, or `take-up`, the speed of a godet.")
         .label("End of the spinline"),
     quantity("spinline.take_up_speed", Dimension::Velocity, Positive)
         .access(Access {
@@ -146,9 +143,9 @@ pub(super) const END_KEYS: &[Key] = &[
         .or_words(&[FLOWN])
         .usual(1e-9, 1.0)
         .meaning(
-            "Tension at a free end: the pull of the fibre that flies on below the line. With \"flown\" \
-             some fibres fly, their mean tension at the root is fed back, and they fly again until the \
-             speed stands within 0.1 %; the result says which tension it was.",
+            "Tension at a free end: the pull of the fibre that flies on below. With \"flown\" some \
+             fibres fly, and their mean tension at the root is used, again and again until the speed \
+             stands within 0.1 %.",
         )
         .label("Tension at the end"),
 ];
