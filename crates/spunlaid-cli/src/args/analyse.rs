@@ -44,7 +44,7 @@ pub(crate) struct RecordOptions {
     /// Lines to skip at the start of a CSV file
     #[arg(long, value_name = "LINES", default_value_t = 0)]
     pub(crate) skip: u64,
-    /// Most missing samples in a row that are interpolated
+    /// Largest number of missing samples in a row that are interpolated
     #[arg(long, value_name = "SAMPLES", default_value_t = spunlaid::air::LONGEST_GAP)]
     pub(crate) max_gap: usize,
     /// Mean velocity, as "10 m/s", if the record holds the fluctuation only
@@ -87,10 +87,10 @@ pub(crate) struct Scan {
     /// the largest that the file can hold]
     #[arg(long, value_name = "LEVEL", conflicts_with = "lamp", value_parser = above_zero)]
     pub(crate) white: Option<f64>,
-    /// Take the lamp as even; without --lamp, its shading is else taken out as a polynomial
+    /// Take the lamp as even. Otherwise, without --lamp, its shading is taken out as a smooth surface
     #[arg(long)]
     pub(crate) keep_shading: bool,
-    /// Take all of the picture as web; else the bare lamp or a bare strip beside it, dust and blots are left out
+    /// Take the whole picture as web. Otherwise the bare lamp or a bare strip beside it, dust and blots are left out
     #[arg(long)]
     pub(crate) keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, which is then taken out

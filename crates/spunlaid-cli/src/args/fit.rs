@@ -11,10 +11,10 @@ pub(crate) struct Fit {
     /// File of the web (TOML)
     #[arg(value_name = "WEB", value_hint = ValueHint::FilePath)]
     pub(crate) web: PathBuf,
-    /// Results folder of the scan that it shall be like, from spunlaid analyse; or of a web
+    /// Results folder of spunlaid analyse of a scan, or of spunlaid web: the webs become like this one
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) to: PathBuf,
-    /// Keys to seek, one to four, each alone or with its range, as line.depth or line.depth="5 mm..40 mm"
+    /// One to four keys whose values are sought, each alone or with its range, as line.depth or line.depth="5 mm..40 mm"
     #[arg(long, value_name = "KEY[=FROM..TO],…", value_delimiter = ',', required = true)]
     pub(crate) vary: Vec<String>,
     /// Compare the spectrum too, across and along the web

@@ -34,7 +34,7 @@ use spunlaid::ground::{Dimension, Fault, Removed};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even they lie
+/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even the web is
 #[derive(Debug, Parser)]
 #[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
 pub(crate) struct Arguments {
@@ -62,18 +62,18 @@ pub(crate) enum Command {
     #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
-    /// Look at the turbulent air of a case: pictures of its gusts, slices for ParaView, numbers at given places
+    /// Show the turbulent air of a case: pictures of its gusts, slices for ParaView, numbers at given places
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the case>_air], or file for the numbers of --at")))]
     Air(Air),
-    /// Open a page on which eight fibres fly, and change while you look: real or slowed time
+    /// Open a page on which eight fibres fly in real or slowed time while you change the settings
     #[command(after_help = LIVE_HELP)]
     Live(Live),
     /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/paper]")))]
     Reproduce(Reproduce),
-    /// Make the air of a case from a velocity record, or say how even the web of a scan is
+    /// Make the air of a case from a velocity record, or measure how even the web of a scan is
     #[command(after_help = ANALYSE_HELP, mut_arg("json", |json| json.help("Print analysis.json, or \
         summary.json of a web, instead of the table")))]
     Analyse(Box<Analyse>),
@@ -82,7 +82,7 @@ pub(crate) enum Command {
         results/<name>_against_<name>]")), mut_arg("json", |json| json.help("Print comparison.json instead \
         of the table; without --out, write no files")))]
     Compare(Compare),
-    /// Show a case, a web or a study with all defaults, and what it means, without flying it
+    /// Show a case, a web or a study with all defaults and what follows from it, without flying it
     #[command(after_help = CHECK_HELP)]
     Check(Check),
     /// Explain the keys of a case or of a web: meaning, allowed values, default
@@ -207,11 +207,11 @@ pub(crate) struct Web {
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Try what makes it more even also where that takes long: where every filament of a web in one air is
-    /// flown, or flights are long
+    /// Try which settings make the web more even, also where that takes long: where every filament of a web in
+    /// one air is flown, or flights are long
     #[arg(long)]
     pub(crate) advice: bool,
-    /// Do not try what makes it more even, which takes two flights for each setting
+    /// Do not try which settings make the web more even, which takes two flights for each
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
     /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches; or for

@@ -73,7 +73,7 @@ pub(crate) struct LineNumbers {
     /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", a guess]
     #[arg(long, value_name = "SHARE", requires = "web", value_parser = turbulence)]
     pub(crate) turbulence: Option<Given<f64>>,
-    /// Thickness of the finished fabric in mm, or with its unit, as "250 µm": without it no air permeability is told
+    /// Thickness of the finished fabric in mm, or with its unit, as "250 µm", for the air permeability
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = depth)]
     pub(crate) thickness: Option<Given<f64>>,
     /// Number of equal beams, one behind the other [default: 1]

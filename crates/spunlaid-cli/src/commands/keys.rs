@@ -4,7 +4,7 @@ use crate::args::Keys;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::STUDY;
-use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind};
+use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
 use spunlaid::ground::{Dimension, Fault, Removed, UnitAdvice};
 use spunlaid::simulation::{WEB, WEB_KEYS, WebKey};
 use spunlaid::web::fabric::about;
@@ -116,7 +116,7 @@ fn reference(key: &KeyEntry) -> String {
     let default = none.to_owned() + &key.left_out.replace('`', "");
     for (title, words) in [
         ("", key.meaning.replace('`', "\"")),
-        ("takes     ", takes(key, &[])),
+        ("takes     ", takes(key)),
         ("also      ", key.synonyms.join(", ")),
         ("default   ", default),
         ("may change", may_change(key)),
@@ -150,16 +150,36 @@ fn wrap(text: &mut String, mut line: String, next: usize, words: &str) {
     let _ = writeln!(text, "{line}");
 }
 
-/// The allowed values, with the units of a quantity, if they are not told elsewhere, and its usual range.
-fn takes(key: &KeyEntry, told: &[Dimension]) -> String {
-    let usual = match (key.kind.dimension(), key.usual) {
-        (Some(dimension), Some((least, greatest))) => {
-            format!("; usually {} to {}", dimension.pretty(least), dimension.pretty(greatest))
-        }
-        _ => String::new(),
+/// The allowed values, with the units of a quantity and its usual range.
+fn takes(key: &KeyEntry) -> String {
+    let units = key.kind.dimension().filter(|of| *of != Dimension::Ratio).map(units);
+    let units = units.map_or_else(String::new, |units| format!("; in {units}"));
+    let usual = usual(key).map_or_else(String::new, |usual| format!("; usually {usual}"));
+    key.kind.allowed() + &units + &usual
+}
+
+/// The usual range of a quantity.
+fn usual(key: &KeyEntry) -> Option<String> {
+    let (dimension, (least, greatest)) = (key.kind.dimension()?, key.usual?);
+    Some(format!("{} to {}", dimension.pretty(least), dimension.pretty(greatest)))
+}
+
+/// The same in a row of a page, which says of what sign quantities are, and the units of some dimensions.
+fn takes_in_row(key: &KeyEntry, told: &[Dimension]) -> String {
+    let (Kind::Quantity(dimension, sign), Some(usual)) = (key.kind, usual(key)) else {
+        return key.kind.allowed();
     };
-    let units = key.kind.dimension().filter(|of| *of != Dimension::Ratio && !told.contains(of)).map(units);
-    key.kind.allowed() + &units.map_or_else(String::new, |units| format!("; in {units}")) + &usual
+    let units = match told.contains(&dimension) || dimension == Dimension::Ratio {
+        true => String::new(),
+        false => format!("; in {}", units(dimension)),
+    };
+    let sign = match sign {
+        Sign::Positive => "",
+        Sign::NotNegative => ", or 0",
+        Sign::Share => "; 0 to 1 can be written",
+        Sign::Any => ", of either sign",
+    };
+    usual + sign + &units
 }
 
 /// The units of a dimension, `m, cm or mm`.
@@ -195,8 +215,8 @@ name, meaning or other words, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as `kg/m³`.
 `--set air.velocity=\"20 m/s\"` sets a key for one run. `spunlaid sweep` can vary all keys but those marked *fixed*; a program
-can change those marked *flight* during a flight. A value outside of what is *usually* taken is most likely in a wrong unit:
-the program warns and uses it.
+can change those marked *flight* during a flight. A range is the usual one: a value outside of it is most likely in a wrong
+unit, so the program warns, and uses it. Quantities are above zero unless their row says otherwise.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 
@@ -248,7 +268,7 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
                 [false, _] if any_varies => " *fixed*",
                 _ => "",
             };
-            let (takes, left_out, meaning) = (takes(key, &told), &key.left_out, key.meaning);
+            let (takes, left_out, meaning) = (takes_in_row(key, &told), &key.left_out, key.meaning);
             let _ = writeln!(text, "| `{short}`{mark} | {takes} | {left_out} | {meaning}{also} |");
         }
     }

@@ -26,7 +26,7 @@ fn the_page_of_keys_is_up_to_date() {
         docs/study_keys.md"
     );
     assert!(
-        of_webs.contains("| `rows.pitch` | a length above zero; usually 1 µm to 1 m |")
+        of_webs.contains("| `rows.pitch` | 1 µm to 1 m |")
             && of_webs.contains("| a length | m, cm, mm, µm or nm |"),
         "{of_webs}"
     );

@@ -48,7 +48,7 @@ pub fn scan_report<'a>(
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
     let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
-        "The map is in map.npy (kg/m², or parts of the mean where that is not known; a row of the web after \
+        "The map is in map.npy (kg/m², or parts of the mean where that is not known; one row of the web after \
         the other), all numbers in summary.json, beside this page.",
     );
     let web = Section::new("web", "The web on a light table")

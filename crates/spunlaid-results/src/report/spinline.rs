@@ -234,7 +234,7 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
     };
     let crystals = if spinline.crystallisation {
         " Crystals form by Nakamura’s law, faster in an oriented melt; how much faster was chosen, and \
-        docs/spinline.md says why."
+        docs/theory.md says why."
     } else {
         ""
     };
@@ -279,7 +279,7 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
             "What is not verified",
             format!(
                 "{} The constants of the polymers are the usual ones of the literature, and most were not \
-                checked against their source; docs/spinline.md lists them.",
+                checked against their source; docs/theory.md lists them.",
                 model_error(spinline.has_low_birefringence())
             ),
         ),

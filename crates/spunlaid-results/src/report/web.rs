@@ -164,7 +164,7 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
         .table(Table::new(heads).rows(layers.iter().map(layer)))
         .file("web-toml", toml)
         .caption(
-            "The map is in map.npy (kg/m², a row of the web after the other), map.png (16 bit), the \
+            "The map is in map.npy (kg/m², one row of the web after the other), map.png (16 bit), the \
             fibres of the window in fibres.vtp, all numbers in summary.json, beside this page.",
         )
 }

@@ -175,14 +175,14 @@ fn identical_default_of_the_tolerance() {
     assert_eq!("0.003".parse(), Ok(ERROR_TOLERANCE));
 }
 
-/// docs/spinline.md has a row for each constant of a polymer, and its cells, read as a case file is read, are
+/// docs/theory.md has a row for each constant of a polymer, and its cells, read as a case file is read, are
 /// the constants of the code to the bit.
 #[test]
 fn identical_constants_of_polymers_on_their_page() {
     const TABLE: &str = "spinline.material";
     // What the viscosity is of a polymer whose grade decides it.
     const NONE: &str = "–";
-    let page = fs::read_to_string("../../docs/spinline.md").unwrap();
+    let page = fs::read_to_string("../../docs/theory.md").unwrap();
     let section = page.split("\n## ").find(|section| section.starts_with("The constants of four polymers\n"));
     let mut rows = section.unwrap().lines().filter(|line| line.starts_with("| ")).map(|line| {
         let cells = line.trim_matches('|').split('|').map(str::trim);

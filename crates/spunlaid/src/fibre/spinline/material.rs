@@ -1,7 +1,7 @@
 //! The constants of a polymer.
 //!
 //! Every number of [`Polymer`] has its source beside it. "Memory" means that the constant is the usual one of
-//! the literature and was not checked against its source; docs/spinline.md lists them.
+//! the literature and was not checked against its source; docs/theory.md lists them.
 
 /// The constants of a polymer. Every one of them is a key of a case.
 #[derive(Clone, Copy, Debug)]
