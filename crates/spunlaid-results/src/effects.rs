@@ -2,6 +2,7 @@
 
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, rounded, significant};
 use spunlaid::experiment::Change;
+use spunlaid::fibre::case::keys;
 use spunlaid::ground::{ChangedKey, Difference, Setting};
 use spunlaid::simulation::WebSpec;
 use spunlaid::simulation::layers::web_key;
@@ -40,7 +41,8 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
 
 /// What the key of a guess stands for: `Depth of the slot`.
 pub(crate) fn label(key: &str) -> &str {
-    web_key(key).map_or(key, |key| key.label)
+    let of_case = || keys::find(key).map(|key| key.label);
+    web_key(key).map(|key| key.label).or_else(of_case).unwrap_or(key)
 }
 
 /// `20 % less`, or `10 °C more`.

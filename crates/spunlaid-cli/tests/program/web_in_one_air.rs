@@ -171,7 +171,7 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
     let untold = "How uneven it is, is not known: too few filaments were flown.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
-    let remedy = "Leave web.flown out: then as many fly as are found to tell it, 500 or more for each metre";
+    let remedy = "Leave web.flown out: then as many fly as it takes, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
         assert!(text.contains(untold) && text.contains(remedy), "{text}");

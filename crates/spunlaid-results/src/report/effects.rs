@@ -40,8 +40,8 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         return card(Vec::new(), untried("What would make it more even", tried.awaited));
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
-        let why = "What would make it more even cannot be tried: no setting of its line can be changed. Name a case to \
-            fly (laydown.case).";
+        let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to fly \
+            (laydown.case).";
         return card(Vec::new(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {
@@ -216,7 +216,7 @@ pub(super) fn effects_table(
         error += "; the best ones were flown once more in another air";
     }
     let (what, held) = if are_guesses {
-        ("when a number that is a guess is another one".to_owned(), "All other numbers stay as they are")
+        ("when a guessed number has another value".to_owned(), "All other numbers stay as they are")
     } else {
         let weight = grams(findings.within().basis_weight());
         let what = format!(
@@ -256,7 +256,7 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
         return card(
             Vec::new(),
             match spec.guessed.is_empty() {
-                true => "Its file calls no number a guess (web.guessed).".to_owned(),
+                true => "The file of this web calls no number a guess (web.guessed).".to_owned(),
                 false => untried(
                     &format!("What half and twice of the guessed {names} do to the CV"),
                     tried.awaited && tried.guesses.is_none() && tried.advice.is_none(),
@@ -291,7 +291,7 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
     let unknown = match sorted.iter().all(|tried| tried.on(patch).is_some()) {
         true => "",
         false => {
-            " What is not known is not told by the few filaments that were flown of it: its command flies as many as do."
+            " Where there is no number, too few filaments were flown of that web: its command flies as many as it takes."
         }
     };
     card(rows, words + unknown + &failed_words(guesses))

@@ -219,9 +219,7 @@ fn headline_of(findings: &Findings) -> String {
     let few = together.iter().flat_map(|together| &together.few).filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
     let remedy = match enough.is_finite() {
-        true => format!(
-            "Leave web.flown out: then as many fly as are found to tell it, {enough} or more for each metre"
-        ),
+        true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
         false => "Fly all of them, web.flown = \"all\"".to_owned(),
     };
     format!(
@@ -302,7 +300,7 @@ fn error_sentences(findings: &Findings) -> String {
             sheets.join(" and of ")
         );
         if patch.doubt.is_some() {
-            return format!("{flown}; they do not tell what all do, and the map is no better.");
+            return format!("{flown}; they are too few for the CV of all, and the map is no better.");
         }
         return format!(
             "{flown}; the others follow from them. Chance contributes {} to the error, because the clouds \

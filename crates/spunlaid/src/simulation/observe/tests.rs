@@ -83,14 +83,30 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
     let part = [("Strips", "md"), ("Holes", "50")].into_iter().find(|(of, _)| title.starts_with(of));
     let part = part.map_or("10", |(_, part)| part);
     let _ = write!(text, "\n## {title}\n\n| name | in studies | meaning |\n|---|---|---|\n");
+    // Measures with the same meaning share a row.
+    let mut rows: Vec<(Vec<String>, Vec<String>, &str)> = Vec::new();
     for measure in measures {
         let name = if measure.entry().is_empty() { measure.column } else { measure.entry() };
         let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
         let kept = match measure.column.replace('#', part) {
-            column if is_kept && column != name => format!("`{column}`"),
-            _ => (if is_kept { "yes" } else { "" }).to_owned(),
+            column if is_kept && column != name => Some(format!("`{column}`")),
+            _ => is_kept.then(|| "yes".to_owned()),
         };
-        let _ = writeln!(text, "| `{name}` | {kept} | {} |", measure.meaning.replace('|', "\\|"));
+        let name = format!("`{name}`");
+        match rows.last_mut() {
+            Some((names, all_kept, meaning))
+                if *meaning == measure.meaning && kept.is_some() != all_kept.is_empty() =>
+            {
+                names.push(name);
+                all_kept.extend(kept);
+                all_kept.dedup();
+            }
+            _ => rows.push((vec![name], kept.into_iter().collect(), measure.meaning)),
+        }
+    }
+    for (names, kept, meaning) in rows {
+        let meaning = meaning.replace('|', "\\|");
+        let _ = writeln!(text, "| {} | {} | {meaning} |", names.join(", "), kept.join(", "));
     }
 }
 

@@ -82,8 +82,7 @@ impl Display for Doubt {
                 reason(*why, *pitch),
                 match enough {
                     Some(enough) => format!(
-                        "as many as are found to tell it: leave web.flown out, which flies {enough} or more for \
-                        each metre"
+                        "as many as it takes: leave web.flown out, which flies {enough} or more for each metre"
                     ),
                     None => "all of them, web.flown = \"all\"".to_owned(),
                 }
@@ -97,9 +96,9 @@ impl Display for Doubt {
             ),
             Self::FilledIn { missing, sides, apart } => write!(
                 f,
-                "filaments between the flown ones are known but for {} % of their variance, so the map, \
-                and what follows from it (picture, thin places, strips, light), {}; the CV that is told is \
-                not. Fly more filaments for the map (web.flown)",
+                "{} % of the variance of the filaments between the flown ones is not known, so the map, and what \
+                follows from it (picture, thin places, strips, light), {}; the CV in the headline is not. Fly \
+                more filaments for the map (web.flown)",
                 per_cent(*missing, 2),
                 match sides.is_empty() {
                     true => "is too uneven over small patches".to_owned(),
@@ -157,8 +156,8 @@ fn reason(why: FewDoubt, pitch: f64) -> String {
             if off > 0.0 { "higher" } else { "lower" }
         ),
         FewDoubt::Own(patch) => format!(
-            "over patches of {} what each flown filament makes for itself is nearly all of the unevenness, \
-            and what is left for all is not told from none",
+            "over patches of {} nearly all of the unevenness is what each flown filament makes for itself, \
+            and what is left for all cannot be told from zero",
             millimetres(&[patch])
         ),
         FewDoubt::Neighbours(correlation) => format!(
