@@ -242,7 +242,8 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
     }
     for dimension in &told {
         // Writing to a text cannot fail.
-        let _ = writeln!(text, "| {} | {} |", dimension.name(), units(*dimension));
+        let _ =
+            writeln!(text, "| {} |", UnitAdvice(*dimension).to_string().replace(" with its unit: ", " | "));
     }
     let any_varies = found.iter().any(|key| key.may_change[0]);
     let tables = [&[""], keys.tables, within].concat();
