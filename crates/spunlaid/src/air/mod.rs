@@ -20,12 +20,13 @@ pub use field::{
 };
 pub use motion::{
     APART, Air, AirAtPlaces, AirInSpace, Atmosphere, Axis, Eddies, EddyField, EddyModel, EddyTurbulence,
-    EddyWind, Extent, FileContent, Flow, FlowNumbers, LENGTH_CONSTANT, Lateral, LocalAir, Measured,
-    PlaceAxes, PlacedField, Profile, RecordLayout, RecordNumbers, SUTHERLAND_RANGE, Spectrum, SpectrumShape,
-    SpectrumTable, StationGrid, Stations, Stream, StreamKey, Surroundings, TIME_CONSTANT, Widening, Wind,
+    EddyWind, Extent, FileContent, Flow, FlowNumbers, Lateral, LocalAir, Measured, PlaceAxes, PlacedField,
+    Profile, RecordLayout, RecordNumbers, Spectrum, SpectrumShape, SpectrumTable, StationGrid, Stations,
+    Stream, StreamKey, Surroundings, Widening, Wind,
 };
 pub(crate) use motion::{
-    HEAT_CAPACITY_OF_AIR, Instant, LastEddy, Room, Sampling, Velocities, VelocityAt, VelocityTask, Way,
+    HEAT_CAPACITY_OF_AIR, Instant, LENGTH_CONSTANT, LastEddy, Room, SUTHERLAND_RANGE, Sampling,
+    TIME_CONSTANT, Velocities, VelocityAt, VelocityTask, Way,
 };
 pub use record::{
     Analysis, Component, IntegralRule, Interval, LONGEST_GAP, Layout, Reading, Record, Samples, Settings,

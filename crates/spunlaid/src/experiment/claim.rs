@@ -5,7 +5,7 @@ use std::borrow::Cow;
 /// Number of standard errors from which a difference counts as real.
 pub const REAL: f64 = 3.0;
 /// Number of standard errors up to which a step in the wrong direction counts as chance.
-pub const CHANCE: f64 = 2.5;
+pub(crate) const CHANCE: f64 = 2.5;
 
 /// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,10 +14,12 @@ pub mod fit;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use advice::{Advice, Change, ChangedWeb, MOST_STEPS, Shelf, Tried};
-pub use claim::{CHANCE, Claim, REAL, Verdict};
+pub(crate) use claim::CHANCE;
+pub use claim::{Claim, REAL, Verdict};
+pub(crate) use fit::USUAL_FACTOR;
 pub use fit::{
     FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, MOST_TRIALS, MeasuredPatch,
-    MeasuredWeb, Parameter, Question, Target, Texture, USUAL_FACTOR, USUAL_WEBS, WebInProgress,
+    MeasuredWeb, Parameter, Question, Target, Texture, USUAL_WEBS, WebInProgress,
 };
 pub use study::{
     Batch, Bundles, Contrast, Design, Experiment, Factor, Header, Journal, JournalState, Levels, Link, Point,

@@ -25,7 +25,7 @@ pub struct Limit {
 }
 
 /// All numbers that are looked at.
-pub const LIMITS: &[Limit] = &[
+pub(crate) const LIMITS: &[Limit] = &[
     Limit {
         key: "line.throughput",
         words: "throughput of a hole",
@@ -145,7 +145,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Whether a changed web has a number outside the ranges of spunbond lines that the web itself has not, or a filament
 /// that is even faster than its air.
-pub fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
+pub(crate) fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
     let before = implausible(before);
     let most = |found: &Implausible| {
         let same = |old: &&Implausible| old.layer == found.layer && std::ptr::eq(old.limit, found.limit);

@@ -130,7 +130,7 @@ impl ElementDrag {
 
 /// [`ElementDrag`] of eight fibres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DragLanes {
+pub(crate) struct DragLanes {
     /// Along and across.
     factor: [Lanes; 2],
     curve: [Option<Curve>; 2],

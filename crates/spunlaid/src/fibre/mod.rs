@@ -30,8 +30,8 @@ pub use case::{
     StepChoice,
 };
 pub use chain::Strand;
-pub use charge::{BREAKDOWN, Charge, ChargeEstimate, STRONG, SheetHeight};
-pub(crate) use charge::{ChargedNode, SheetField, Sheets};
+pub use charge::{BREAKDOWN, Charge, ChargeEstimate, SheetHeight};
+pub(crate) use charge::{ChargedNode, STRONG, SheetField, Sheets};
 pub use drag::{BoundaryLayer, Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share, Source};
 pub use energy::Energy;
 pub(crate) use flight::{Common, SurroundingRun};

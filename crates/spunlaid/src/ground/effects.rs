@@ -131,7 +131,7 @@ const LEAST: f64 = 0.01;
 /// Largest number of settings that are named.
 pub const NAMED: usize = 2;
 /// Most changes that are tried once more, where changes are confirmed.
-pub const RACING: usize = 3;
+pub(crate) const RACING: usize = 3;
 /// How many standard errors a change may lie behind the best ones and still be tried once more.
 const BEHIND: f64 = 2.0;
 

@@ -4,7 +4,7 @@ use crate::ground::lanes::{Isa, Lanes, Plain, Register, Task, Wide, cos_sin_turn
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Complex {
+pub(crate) struct Complex {
     /// Real part.
     pub re: Lanes,
     /// Imaginary part.
@@ -47,7 +47,7 @@ pub(crate) fn unit(turns: f64) -> (f64, f64) {
 ///
 /// Stockham's radix-2 form, which needs no bit reversal and one pass per factor of two.
 #[derive(Clone, Debug)]
-pub struct InverseTransform {
+pub(crate) struct InverseTransform {
     /// `e^{2πi k/M}`, `k < M/2`, as (cosine, sine).
     roots: Vec<(f64, f64)>,
 }

@@ -35,7 +35,8 @@ pub mod effects;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub(crate) use company::{Bits, PerLane};
-pub use effects::{Change, ChangedKey, Effect, NAMED, Outcome, RACING, Setting, Trials, Tried};
+pub(crate) use effects::RACING;
+pub use effects::{Change, ChangedKey, Effect, NAMED, Outcome, Setting, Trials, Tried};
 pub use error::{Error, Fault, FileError, FileKind, Finding, Position, Problem};
 pub(crate) use error::{IS, WAS};
 pub(crate) use fft::{Complex, InverseTransform, WideComplex};
@@ -46,9 +47,11 @@ pub(crate) use lanes::{Register, Simd, Singles, Sixteen, Task, Wide};
 pub use log::Log;
 pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
-pub use statistics::{Difference, Estimate, EvenSample, NORMAL_95, Spectrum, Welch, Window};
-pub(crate) use table::{FORMS, FirstCell, Meaning, ParquetTable, Stamp};
-pub use table::{Head, Table};
+pub(crate) use statistics::EvenSample;
+pub use statistics::{Difference, Estimate, NORMAL_95, Spectrum, Welch, Window};
+pub use table::Table;
+pub(crate) use table::{FORMS, FirstCell, Head, Meaning, ParquetTable, Stamp};
 pub use threads::OnDrop;
-pub use units::{Dimension, Expression, Powers, UnitAdvice};
+pub(crate) use units::Powers;
+pub use units::{Dimension, Expression, UnitAdvice};
 pub use vec3::Vec3;

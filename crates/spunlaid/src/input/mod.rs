@@ -30,9 +30,8 @@ pub use kind::kind_of;
 pub use settle::Resources;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
-    Changes, FitFile, MOST_POINTS_UNASKED, StudyChanges, StudyFile, StudyNote, differences,
-    parse_changed_study, parse_changes, parse_fit, parse_study, read_changed_study, read_changes, read_fit,
-    read_study, starter_study,
+    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_changes,
+    parse_fit, parse_study, read_changed_study, read_changes, read_fit, read_study, starter_study,
 };
 pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
@@ -51,7 +50,7 @@ use written_values::WrittenValues;
 pub type CaseWithNotes = (Case, Vec<Note>);
 
 /// The version of the case file format that this library writes, and the newest one that it reads.
-pub const FORMAT_VERSION: u32 = 1;
+pub(crate) const FORMAT_VERSION: u32 = 1;
 /// Size of the largest case file that is read [bytes].
 pub const LARGEST_FILE: u64 = 1 << 20;
 

@@ -20,14 +20,15 @@ pub use ensemble::{
     KeepShapes, LaidCurves, LostFibre, Number, Place, Recorder, Refinement, Results, RunControl, RunPaths,
     Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
-pub(crate) use layers::SAME;
 pub use layers::{
-    Compared, FewOfWeb, Flights, Flown, FlownWeb, Flyer, LaydownSource, LayerFibres, LayerSpec,
-    PlannedFlight, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec,
+    Compared, Flights, Flown, FlownWeb, Flyer, LaydownSource, LayerFibres, LayerSpec, PlannedFlight, WEB,
+    WEB_KEYS, WEB_TABLES, WebKey, WebSpec,
 };
+pub(crate) use layers::{FewOfWeb, SAME};
 pub use observe::{
-    Aggregate, DECLARED, ErrorRole, Figure, Formula, KELVIN, Kind, LAYDOWN, MEASURES, Measure, Measured,
+    Aggregate, DECLARED, ErrorRole, Figure, Formula, Kind, LAYDOWN, MEASURES, Measure, Measured,
     OF_COMPONENTS, OF_FABRIC_PATCHES, OF_FABRICS, OF_LOAD_PLACES, OF_LOADS, OF_PATCHES, OF_RECORDS,
     OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_STREAKS, OF_STRIPS, OF_THINNEST, OF_WEBS, Observation,
-    Observer, PER_SQUARE_METRE, PERCENT, SURROGATE, Unit, Value,
+    Observer, PERCENT, SURROGATE, Unit, Value,
 };
+pub(crate) use observe::{KELVIN, PER_SQUARE_METRE};

@@ -17,20 +17,21 @@ pub mod scan;
 pub mod fabric;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
-pub use curtain::{Belt, Covariances, Curtain, Filling, FlownCurves, Library};
+pub use curtain::{Belt, Curtain, Filling, FlownCurves};
+pub(crate) use curtain::{Covariances, Library};
 pub(crate) use fabric::{ABOUT, NONE_FOUND, PATCHES};
 pub use fabric::{
     Fabric, FabricKeys, FabricPatch, Known, Laid, Marked, Marks, Streak, StreakSource, StripPlace, Strips,
 };
 pub use laydown::{Footprint, LaidCurve, Trace, TraceSettings};
 pub(crate) use map::{
-    Arrangement, Brush, Canvas, FEWEST_OF_FEW, FewFilaments, FilledMaps, LEAST_SAVING, OneAir, Strands,
-    TRIED, Titres, WindowOnSheet,
+    Arrangement, Brush, Canvas, ExpectedCv, FEWEST_OF_FEW, FewFilaments, FilledMaps, LEAST_SAVING, OneAir,
+    Strands, TRIED, Titres, WindowOnSheet,
 };
 pub use map::{
-    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, ExpectedCv, FewDoubt, FewFilamentsCv, Fibres,
-    LaidWeb, LayControl, Layer, LayerFew, Map, NeighbourCorrelation, OneFibre, Row, SharedAirFindings, Sheet,
-    Strand, TimeSpent, Web, Window,
+    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres, LaidWeb,
+    LayControl, Layer, LayerFew, Map, NeighbourCorrelation, OneFibre, Row, SharedAirFindings, Sheet, Strand,
+    TimeSpent, Web, Window,
 };
 pub use scan::{CELL, FEWEST, Format, Light, LightKind, Picture, ScanRequest, Settings, WEIGHT_OF_BLACK};
 pub use surrogate::{PathKey, Paths, Residual, Surrogate};

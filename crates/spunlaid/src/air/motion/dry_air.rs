@@ -18,12 +18,12 @@ pub(crate) const HEAT_CAPACITY_OF_AIR: f64 = 1006.0;
 
 /// Temperatures for which Sutherland's formula keeps within 2 % of measured viscosities [K], after F. M. White,
 /// Viscous Fluid Flow.
-pub const SUTHERLAND_RANGE: RangeInclusive<f64> = 170.0..=1900.0;
+pub(crate) const SUTHERLAND_RANGE: RangeInclusive<f64> = 170.0..=1900.0;
 
 /// Density [kg/m³] of dry air as an ideal gas at 101,325 Pa.
 ///
 /// * `temperature` – [K]
-pub fn density_at(temperature: f64) -> f64 {
+pub(crate) fn density_at(temperature: f64) -> f64 {
     PRESSURE / (GAS_CONSTANT * temperature)
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn temperature_of(density: f64) -> Option<f64> {
 /// Atmosphere 1976, over the density.
 ///
 /// * `temperature` – [K]
-pub fn kinematic_viscosity_at(temperature: f64) -> f64 {
+pub(crate) fn kinematic_viscosity_at(temperature: f64) -> f64 {
     let ratio = temperature / REFERENCE;
     let viscosity = VISCOSITY * ratio * ratio.sqrt() * (REFERENCE + SUTHERLAND) / (temperature + SUTHERLAND);
     viscosity / density_at(temperature)

@@ -28,8 +28,9 @@ mod wind;
 pub use at_places::{AirAtPlaces, PlaceAxes};
 pub use atmosphere::{Atmosphere, EddyWind};
 pub(crate) use atmosphere::{Instant, LastEddy, Velocities, VelocityAt, VelocityTask};
-pub(crate) use dry_air::{HEAT_CAPACITY_OF_AIR, temperature_of};
-pub use dry_air::{SUTHERLAND_RANGE, density_at, kinematic_viscosity_at};
+pub(crate) use dry_air::{
+    HEAT_CAPACITY_OF_AIR, SUTHERLAND_RANGE, density_at, kinematic_viscosity_at, temperature_of,
+};
 pub use eddies::{Eddies, EddyModel, EddyTurbulence};
 pub(crate) use eddy_field::Room;
 pub use eddy_field::{EddyField, Extent};
@@ -37,7 +38,8 @@ pub use flow::{Flow, FlowNumbers, LocalAir};
 pub use from_file::FileContent;
 pub use in_space::AirInSpace;
 pub use measured::{APART, Measured, RecordLayout, RecordNumbers};
-pub use placed_field::{Axis, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT};
+pub use placed_field::{Axis, PlacedField};
+pub(crate) use placed_field::{LENGTH_CONSTANT, TIME_CONSTANT};
 pub use profile::Profile;
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
 pub use stations::{StationGrid, Stations};

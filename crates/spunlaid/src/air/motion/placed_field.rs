@@ -85,10 +85,10 @@ pub struct PlacedField {
 
 /// `C_L` if the case does not give it: for the longitudinal integral scale at high Reynolds numbers
 /// (Pope 2000, section 6.5.7).
-pub const LENGTH_CONSTANT: f64 = 0.43;
+pub(crate) const LENGTH_CONSTANT: f64 = 0.43;
 /// `C_T` if the case does not give it: the lifetime of an eddy in the discrete random walk model
 /// (Gosman & Ioannides 1983, twice the Lagrangian time 0.15 k/ε).
-pub const TIME_CONSTANT: f64 = 0.30;
+pub(crate) const TIME_CONSTANT: f64 = 0.30;
 
 impl PlacedField {
     /// The velocity at a place of the fibre's frame [m/s]. The origin is the root.

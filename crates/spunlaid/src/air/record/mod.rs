@@ -65,7 +65,7 @@ use std::path::Path;
 pub use text::parse_csv;
 
 /// Largest number of samples in a record, over all components.
-pub const MOST_NUMBERS: usize = 1 << 28;
+pub(crate) const MOST_NUMBERS: usize = 1 << 28;
 /// Largest number of missing samples in a row that are interpolated, by default.
 pub const LONGEST_GAP: usize = 10;
 

@@ -5,7 +5,7 @@ use crate::simulation::WebSpec;
 
 /// Something that follows the CV over patches of its size.
 #[derive(Debug)]
-pub struct Aim {
+pub(crate) struct Aim {
     /// As it is asked for.
     pub name: &'static str,
     /// Side of its patches [m].
@@ -14,7 +14,7 @@ pub struct Aim {
 
 /// All of them. How many thin places there are follows from the CV over patches of their size, and the weakest
 /// section of a strip from that over patches of the area of a section.                 theory.md (103), (104)
-pub const AIMS: [Aim; 2] = [
+pub(crate) const AIMS: [Aim; 2] = [
     Aim { name: "thin-places", side: |_| 10e-3 },
     Aim { name: "strips", side: |web| (web.fabric.strip.width * web.fabric.strip.section).sqrt() },
 ];

@@ -10,7 +10,7 @@ mod aim;
 mod few;
 mod setting;
 
-pub use aim::{AIMS, Aim, judged_by};
+pub use aim::judged_by;
 pub use setting::ChangedWeb;
 
 use self::few::WebOfFew;

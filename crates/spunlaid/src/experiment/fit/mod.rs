@@ -38,9 +38,10 @@ mod webs;
 mod weights;
 
 pub use interval::IntervalEnd;
-pub use parameter::{Parameter, USUAL_FACTOR};
+pub use parameter::Parameter;
+pub(crate) use parameter::USUAL_FACTOR;
 pub use results::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
-pub use simulator::MakeWeb;
+pub(crate) use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;
 pub use webs::{MOST_TRIALS, WebInProgress};
@@ -53,7 +54,7 @@ use simulator::{Simulator, WebSimulator};
 use webs::Webs;
 
 /// Most keys that are sought at a time.
-pub const MOST_KEYS: usize = 4;
+pub(crate) const MOST_KEYS: usize = 4;
 /// Fewest simulated webs of a trial.
 pub const FEWEST_WEBS: u64 = 8;
 /// Usual number of simulated webs of a trial: so many as are needed to say with 95 % confidence that no such

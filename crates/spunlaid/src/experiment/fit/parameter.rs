@@ -21,7 +21,7 @@ pub struct Parameter {
 }
 
 /// Without a range, a value may be so many times smaller or larger than at the start.
-pub const USUAL_FACTOR: f64 = 5.0;
+pub(crate) const USUAL_FACTOR: f64 = 5.0;
 
 impl Parameter {
     /// Whether the search moves in the logarithm of its value.

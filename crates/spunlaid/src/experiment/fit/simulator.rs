@@ -35,7 +35,7 @@ pub(super) trait Simulator {
 }
 
 /// Makes the web of some values.
-pub type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
+pub(crate) type MakeWeb<'a> = &'a dyn Fn(&[f64]) -> Result<WebSpec, Error>;
 
 /// Lays webs, and flies their fibres.
 pub(super) struct WebSimulator<'a> {

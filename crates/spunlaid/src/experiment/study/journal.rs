@@ -200,7 +200,7 @@ pub fn foreign(path: &Path) -> Error {
 }
 
 /// The journal has another format.
-pub fn other_format(path: &Path, format: &str, known: u32) -> Error {
+pub(crate) fn other_format(path: &Path, format: &str, known: u32) -> Error {
     let fault = Fault::new(
         format!("is a journal of format {format}, but this spunlaid reads format {known}"),
         "continue with the version of spunlaid that wrote it, use another folder, or start again",

@@ -240,7 +240,7 @@ pub(super) fn measured_of_web(sides: &[f64], found: &Findings, fabric: &Fabric) 
 
 /// The numbers measured on one replicate, in the order of the study's quantities, in SI units and percent.
 /// NaN means that a measure does not apply.
-pub type Measurements = Box<[f64]>;
+pub(crate) type Measurements = Box<[f64]>;
 
 /// The outcome of one replicate of one point.
 #[derive(Clone, Debug, PartialEq)]

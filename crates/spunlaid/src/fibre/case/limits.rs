@@ -7,7 +7,7 @@ use crate::ground::WIDTH;
 /// Largest number of steps of a run.
 pub const MOST_STEPS: u64 = 1_000_000_000_000;
 /// Largest number of shapes of a fibre that are kept.
-pub const MOST_SHAPES: u64 = 20_000;
+pub(crate) const MOST_SHAPES: u64 = 20_000;
 /// Largest number of replicates. Each takes half a kilobyte of memory for its values in the summary.
 pub const MOST_REPLICATES: u64 = 10_000_000;
 /// Largest number of recorded instants over all replicates. They are written to disk during the run, so they take

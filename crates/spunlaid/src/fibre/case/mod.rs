@@ -12,10 +12,8 @@ mod usual;
 
 pub(crate) use check::too_many_steps;
 pub use checks::Checks;
-pub(crate) use limits::whole_parts;
-pub use limits::{
-    FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_SHAPES, MOST_STEPS,
-};
+pub use limits::{FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
+pub(crate) use limits::{MOST_SHAPES, whole_parts};
 pub use note::{Note, Remark};
 use step::FEEDING;
 pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};

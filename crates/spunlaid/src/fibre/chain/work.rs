@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Since `r_{k+1} − r_k = h v_after`, the trapezoidal rule of theory.md (33) up to time `t_K` is
 /// `½h (Σ_{k<K} F_k·(v_before + v_after) + F_K·v_before)`, without the very first term `F₀·v_before`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct WorkSum {
+pub(crate) struct WorkSum {
     /// `Σ F·(v_before + v_after)` over all steps.
     pub(crate) both: Lanes,
     /// `Σ F·v_before` of the last step, if that step stored it separately.
@@ -27,7 +27,7 @@ impl WorkSum {
 
 /// Work done on the nodes by all forces together, and by the forces that have no potential.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct WorkDone {
+pub(crate) struct WorkDone {
     /// All forces (theory.md (33), Eq 35 of the paper).
     pub total: WorkSum,
     /// The drag of the air.

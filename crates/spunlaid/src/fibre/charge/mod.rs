@@ -14,11 +14,11 @@ pub use sheets::SheetHeight;
 pub(crate) use sheets::{ChargedNode, Curtain, Sheets};
 
 /// Permittivity of the vacuum `ε₀` [F/m], which is that of air within a thousandth.
-pub const PERMITTIVITY: f64 = 8.854_187_812_8e-12;
+pub(crate) const PERMITTIVITY: f64 = 8.854_187_812_8e-12;
 /// Field in which air breaks down [V/m]: sparks take the charge away before filaments carry so much.
 pub const BREAKDOWN: f64 = 3e6;
 /// Field from which a flight is warned of [V/m]: at sharp edges of metal air breaks down long before.
-pub const STRONG: f64 = 1e6;
+pub(crate) const STRONG: f64 = 1e6;
 
 /// The charge of filaments, and what is around them.
 #[derive(Clone, Copy, Debug, PartialEq)]

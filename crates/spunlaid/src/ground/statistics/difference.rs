@@ -92,7 +92,7 @@ pub fn difference_of_logarithms([first, second]: [f64; 2], log_errors: [f64; 2])
 }
 
 /// [`student_t_95`] for a number of degrees of freedom that need not be whole, linear in its reciprocal.
-pub fn student_t_95_at(degrees: f64) -> f64 {
+pub(crate) fn student_t_95_at(degrees: f64) -> f64 {
     let degrees = if degrees.is_nan() { 1.0 } else { degrees.clamp(1.0, 1e9) };
     let below = degrees.floor();
     let share = (1.0 / below - 1.0 / degrees) / (1.0 / below - 1.0 / (below + 1.0));

@@ -3,7 +3,8 @@
 mod difference;
 mod spectrum;
 
-pub use difference::{Difference, difference_of_deviations, difference_of_logarithms, student_t_95_at};
+pub(crate) use difference::student_t_95_at;
+pub use difference::{Difference, difference_of_deviations, difference_of_logarithms};
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.
@@ -84,7 +85,7 @@ pub fn student_t_95(degrees: u64) -> f64 {
 }
 
 /// The quantile of the finite values at a fraction `share`, with linear interpolation; NaN without any value.
-pub fn quantile(values: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
     let mut finite: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     if finite.is_empty() {
         return f64::NAN;
@@ -163,7 +164,7 @@ pub(crate) fn solve_positive(mut matrix: Vec<Vec<f64>>, mut sides: Vec<f64>) -> 
 /// Evenly spaced values of a series that is not kept: every value, until they are too many; then every
 /// second, every fourth and so on. Quantiles of a long series are found in them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EvenSample<T> {
+pub(crate) struct EvenSample<T> {
     values: Vec<T>,
     every: u64,
     count: u64,

@@ -5,7 +5,7 @@ use crate::ground::units::{Dimension, UnitAdvice, excerpt};
 
 /// The header of a column, split into name and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Head {
+pub(crate) struct Head {
     /// The text in the file.
     pub text: String,
     /// The text without the unit.

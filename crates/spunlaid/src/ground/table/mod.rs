@@ -47,7 +47,8 @@ mod start;
 use crate::ground::error::{Fault, FileError, FileKind, Position, counted};
 use crate::ground::units::excerpt;
 use cells::{Digits, Looks, Parting, number};
-pub use head::{Head, scale};
+pub(crate) use head::Head;
+pub use head::scale;
 pub(crate) use logical::Meaning;
 pub(crate) use parquet::ParquetTable;
 pub(crate) use stamp::{FORMS, Stamp};
@@ -57,9 +58,9 @@ use std::io::Read;
 use std::ops::Range;
 
 /// Longest line read [bytes].
-pub const LONGEST_LINE: usize = 1 << 16;
+pub(crate) const LONGEST_LINE: usize = 1 << 16;
 /// Number of lines in which the header and the first row are looked for.
-pub const LINES_AHEAD: usize = 100;
+pub(crate) const LINES_AHEAD: usize = 100;
 
 /// What a column begins with.
 #[derive(Clone, Debug, PartialEq, Eq)]

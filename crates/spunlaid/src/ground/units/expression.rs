@@ -17,7 +17,7 @@ const DEEPEST: usize = 50;
 
 /// The unit of a quantity as powers of metre, kilogram, second, kelvin and ampere.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Powers([f64; 5]);
+pub(crate) struct Powers([f64; 5]);
 
 impl Powers {
     /// The powers of a dimension.

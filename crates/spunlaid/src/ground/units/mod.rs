@@ -6,9 +6,10 @@ mod spelling;
 mod table;
 
 pub(crate) use crate::ground::error::{excerpt, shortest};
-pub(crate) use expression::unknown_name;
-pub use expression::{Expression, Powers};
-pub use si::{si_unit_of, udunits};
+pub use expression::Expression;
+pub(crate) use expression::{Powers, unknown_name};
+pub(crate) use si::si_unit_of;
+pub use si::udunits;
 pub use spelling::with_decimal_point;
 pub(crate) use spelling::{plain_spelling, readings};
 pub use table::Dimension;

@@ -4,7 +4,7 @@ use super::Dimension;
 use super::spelling::plain_spelling;
 
 /// The SI unit of a multiple of it, or of a quotient of such multiples: `m²/Hz` of `mm²/Hz`, `kg/m` of `dtex`.
-pub fn si_unit_of(multiple: &str) -> String {
+pub(crate) fn si_unit_of(multiple: &str) -> String {
     const POWERS: &[char] = &['²', '³'];
     let known = |symbol: &str| Dimension::all().find(|d| d.units().iter().any(|unit| unit.shown == symbol));
     // Kilometres are shown, though no key takes them.

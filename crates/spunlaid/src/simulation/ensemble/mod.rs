@@ -25,7 +25,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};
-pub use trajectory::{Keep, KeepShapes, Trajectory, fly_each, fly_together, pace};
+pub(crate) use trajectory::fly_each;
+pub use trajectory::{Keep, KeepShapes, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 /// How an ensemble is computed. None of it changes a bit of the results.

@@ -119,7 +119,7 @@ fn first_counted(case: &Case) -> f64 {
 ///
 /// # Errors
 /// The jobs cannot fly together ([`Flight::new`]), or another thread stops the flight.
-pub fn fly_each(
+pub(crate) fn fly_each(
     jobs: &[Job<'_>],
     keep: Keep,
     computing: RunControl<'_>,

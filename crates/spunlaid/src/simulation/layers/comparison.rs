@@ -25,7 +25,7 @@ const LEAST: f64 = 0.25;
 const SLOW: f64 = 0.1;
 
 /// What a few filaments say about the layers of a web, or why they cannot be flown.
-pub type FewOfWeb = Result<Vec<LayerFew>, Error>;
+pub(crate) type FewOfWeb = Result<Vec<LayerFew>, Error>;
 
 impl Flyer<'_> {
     /// What a few filaments say about webs in the same air, without laying them; None if some of the first

@@ -59,7 +59,7 @@ pub struct Flights<'a> {
 }
 
 /// Shows the progress of a case's flights while it does the work that it is given.
-pub type ProgressDisplay<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
+pub(crate) type ProgressDisplay<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
 
 /// A web with its fibres.
 #[derive(Clone, Debug)]

@@ -99,10 +99,10 @@ impl Observer for Way {
 }
 
 /// Name of the measure.
-pub const FORCE_ON_AIR: &str = "force_on_air";
+pub(crate) const FORCE_ON_AIR: &str = "force_on_air";
 
 /// Name of the other one.
-pub const FIBRE_ON_WAY: &str = "fibre_on_way";
+pub(crate) const FIBRE_ON_WAY: &str = "fibre_on_way";
 
 pub(super) const FORCES: Declaration = Declaration {
     measures: &[

@@ -371,7 +371,7 @@ pub struct Unit {
 }
 
 /// Counts over an area: large ones are easier to read over a smaller area.
-pub const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
+pub(crate) const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
 const SMALLER_AREAS: [Unit; 2] =
     [Unit { shown: "1/mm²", per_si: 1e-6 }, Unit { shown: "1/cm²", per_si: 1e-4 }];
 
@@ -396,25 +396,25 @@ impl Unit {
 }
 
 /// Millimetres.
-pub const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
+pub(crate) const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
 /// Hertz.
-pub const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
+pub(crate) const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
 /// Metres per second.
-pub const METRES_PER_SECOND: Unit = Unit { shown: "m/s", per_si: 1.0 };
+pub(crate) const METRES_PER_SECOND: Unit = Unit { shown: "m/s", per_si: 1.0 };
 /// Kelvin.
-pub const KELVIN: Unit = Unit { shown: "K", per_si: 1.0 };
+pub(crate) const KELVIN: Unit = Unit { shown: "K", per_si: 1.0 };
 /// Millinewtons.
-pub const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
+pub(crate) const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
 /// A plain number.
 pub const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
 /// Per metre.
-pub const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
+pub(crate) const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
 /// Square millimetres per hertz.
-pub const SQUARE_MILLIMETRES_PER_HERTZ: Unit = Unit { shown: "mm²/Hz", per_si: 1e6 };
+pub(crate) const SQUARE_MILLIMETRES_PER_HERTZ: Unit = Unit { shown: "mm²/Hz", per_si: 1e6 };
 /// Per cent, of a ratio.
 pub const PERCENT: Unit = Unit { shown: "%", per_si: 1e2 };
 /// Per cent, of a value that is already in per cent.
-pub const OF_PERCENT: Unit = Unit { shown: "%", per_si: 1.0 };
+pub(crate) const OF_PERCENT: Unit = Unit { shown: "%", per_si: 1.0 };
 
 /// What kind of result a measure is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

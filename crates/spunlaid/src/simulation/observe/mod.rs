@@ -29,14 +29,17 @@ mod web;
 
 use crate::fibre::{Case, Flight, LaidPoint, Snapshot};
 use crate::ground::WIDTH;
-pub use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
+pub(crate) use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use laydown::{LAYDOWN, SURROGATE};
 use measure::figure;
 pub use measure::{
-    Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, HERTZ, KELVIN, Kind,
-    METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
-    PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value, measured, with_errors,
+    Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, Kind, Measure, Measured, PERCENT,
+    RATIO, Unit, Value, measured, with_errors,
+};
+pub(crate) use measure::{
+    HERTZ, KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
+    SQUARE_MILLIMETRES_PER_HERTZ,
 };
 pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
 pub use record::{OF_COMPONENTS, OF_RECORDS};
@@ -101,7 +104,7 @@ pub trait Observer: std::fmt::Debug + Send {
 
 /// The observers of a flight.
 #[derive(Debug)]
-pub struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
+pub(crate) struct Observers(Vec<(&'static Declaration, Box<dyn Observer>)>);
 
 impl Observers {
     /// The observers of all measures that apply to a fibre of a flight.

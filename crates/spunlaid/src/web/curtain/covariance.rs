@@ -30,7 +30,7 @@ const ROUND: f64 = 1.0 / 12.0;
 /// Covariance of the deviations in a direction: a sum of normal curves with parts that are not negative, and
 /// so a covariance whatever the parts are.                                                    theory.md (83g)
 #[derive(Clone, Debug)]
-pub struct Covariance {
+pub(crate) struct Covariance {
     /// [m²]
     variance: f64,
     terms: Vec<Term>,

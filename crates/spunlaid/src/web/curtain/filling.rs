@@ -23,7 +23,7 @@ const TOLD: usize = 512;
 
 /// How the deviations of filaments vary together, in machine and in cross direction.
 #[derive(Clone, Debug)]
-pub struct Covariances {
+pub(crate) struct Covariances {
     /// By which filaments are filled in.
     pub smooth: [Covariance; 2],
     /// Which tells what they miss.

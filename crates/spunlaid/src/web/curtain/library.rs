@@ -22,7 +22,7 @@ const NARROWEST: f64 = 3.0;
 
 /// All that a flight tells of a curtain: its curves on a lattice, without their mean.
 #[derive(Clone, Debug)]
-pub struct Library {
+pub(crate) struct Library {
     /// Of a level, for each column; then of the next level.
     curves: Vec<[Vec<f32>; 2]>,
     columns: usize,

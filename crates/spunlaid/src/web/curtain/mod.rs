@@ -17,12 +17,11 @@ mod library;
 mod synthetic;
 mod tiles;
 
-pub use covariance::Covariance;
 pub use drawing::{Belt, lay};
-pub use filling::{Covariances, Filling};
+pub(crate) use filling::Covariances;
+pub use filling::Filling;
 pub use flown_curves::FlownCurves;
-pub use library::Library;
-pub use tiles::Tiles;
+pub(crate) use library::Library;
 
 use crate::ground::place::Place;
 

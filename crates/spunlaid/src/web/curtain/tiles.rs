@@ -18,7 +18,7 @@ const SAME: f64 = 1e-9;
 ///                             |‹fade›—— piece ——‹fade›|     the variance is the same in fades and between them
 /// ```
 #[derive(Clone, Debug)]
-pub struct Tiles<'a> {
+pub(crate) struct Tiles<'a> {
     source: &'a Library,
     places: Vec<Place>,
     /// Of each filament: levels of the library with their weights.

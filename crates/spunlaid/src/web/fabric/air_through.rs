@@ -10,7 +10,7 @@ const ERGUN: f64 = 1.75;
 /// Diameter of a sphere with as much surface in its volume as a long cylinder, over the diameter of that.
 const SPHERE: f64 = 1.5;
 /// Highest solid fraction up to which the formulas are meant.
-pub const DENSEST: f64 = 0.3;
+pub(crate) const DENSEST: f64 = 0.3;
 /// What the formulas are worth: beds of fibres are between a half and twice the permeability that they give.
 const WORTH: f64 = 2.0;
 
@@ -30,7 +30,7 @@ pub struct Filaments {
 /// * `solid` – share of the volume that is fibre
 ///
 /// Source: C. N. Davies, Proc. Inst. Mech. Eng. B 1 (1952) 185–213.
-pub fn davies(diameter: f64, solid: f64) -> f64 {
+pub(crate) fn davies(diameter: f64, solid: f64) -> f64 {
     diameter * diameter / (64.0 * solid * solid.sqrt() * (1.0 + 56.0 * solid.powi(3)))
 }
 
@@ -39,7 +39,7 @@ pub fn davies(diameter: f64, solid: f64) -> f64 {
 /// * `solid` – share of the volume that is fibre
 ///
 /// Source: G. W. Jackson, D. F. James, Can. J. Chem. Eng. 64 (1986) 364–374.
-pub fn jackson_james(diameter: f64, solid: f64) -> f64 {
+pub(crate) fn jackson_james(diameter: f64, solid: f64) -> f64 {
     0.15 * (0.5 * diameter).powi(2) / solid * (-libm::log(solid) - 0.931)
 }
 
@@ -75,7 +75,7 @@ pub fn air_speed(
 }
 
 /// Share of the fabric's volume that is fibre.
-pub fn solid_fraction(filaments: &[Filaments], thickness: f64) -> f64 {
+pub(crate) fn solid_fraction(filaments: &[Filaments], thickness: f64) -> f64 {
     filaments.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / thickness
 }
 
@@ -83,7 +83,7 @@ pub fn solid_fraction(filaments: &[Filaments], thickness: f64) -> f64 {
 /// permeabilities by both formulas; none of a fabric that is denser than they are meant for.
 ///
 /// * `local` – the weight at each place over the mean
-pub fn air_permeability(
+pub(crate) fn air_permeability(
     filaments: &[Filaments],
     local: &[f64],
     (thickness, pressure): (f64, f64),
@@ -102,7 +102,7 @@ pub fn air_permeability(
 }
 
 /// Relative change of the speed for that of the basis weight at the same thickness, by Davies.
-pub fn sensitivity(filaments: &[Filaments], thickness: f64, pressure: f64) -> f64 {
+pub(crate) fn sensitivity(filaments: &[Filaments], thickness: f64, pressure: f64) -> f64 {
     const STEP: f64 = 1e-3;
     let [low, high] = [1.0 - STEP, 1.0 + STEP]
         .map(|factor| libm::log(air_speed(filaments, factor, (thickness, pressure), davies)));

@@ -43,7 +43,7 @@ pub(super) const LOCAL: f64 = 2e-3;
 ///
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `found` – the unevenness over patches of 2 mm
-pub fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
+pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
     let weights = weights(map, found.patch);
     let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
     let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);

@@ -22,14 +22,14 @@ mod tests;
 mod usable;
 
 use crate::ground::Estimate;
-pub use air_through::{Filaments, air_permeability, air_speed, davies, jackson_james, solid_fraction};
-pub use light::{bare_area, formation, local_weights, opacity, scattering};
+pub use air_through::{Filaments, air_speed};
+pub use light::{bare_area, formation, opacity, scattering};
 pub use marks::Marks;
 pub(crate) use patches::NONE_FOUND;
-pub use patches::{HEAVIER, LIGHTER, QUANTILES, ThinPlaces, thin_places};
+pub use patches::{ThinPlaces, thin_places};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 pub use streaks::{Streak, StreakSource, streaks};
-pub use strips::{StripPlace, StripSize, Strips, WEAK, strips};
+pub use strips::{StripPlace, StripSize, Strips, strips};
 pub(crate) use tell::{ABOUT, PATCHES};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, of_scan, tell};
 pub use usable::{Usable, usable};

@@ -5,11 +5,11 @@ use crate::web::map::Map;
 use crate::web::map::uniformity::boxes;
 
 /// Patches are counted that are lighter than these shares of the mean, and heavier than this one.
-pub const LIGHTER: [f64; 3] = [0.5, 0.7, 0.8];
+pub(crate) const LIGHTER: [f64; 3] = [0.5, 0.7, 0.8];
 /// See [`LIGHTER`].
-pub const HEAVIER: f64 = 1.3;
+pub(crate) const HEAVIER: f64 = 1.3;
 /// Shares of the patches that are lighter than a quantile.
-pub const QUANTILES: [f64; 5] = [0.01, 0.05, 0.5, 0.95, 0.99];
+pub(crate) const QUANTILES: [f64; 5] = [0.01, 0.05, 0.5, 0.95, 0.99];
 
 /// Classes of the weight of a patch over the mean, and their number; heavier ones fall into the last one.
 const CLASSES_PER_MEAN: f64 = 100.0;

@@ -7,7 +7,7 @@ use crate::ground::statistics::quantile;
 use crate::web::map::Map;
 
 /// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
-pub const WEAK: f64 = 0.05;
+pub(crate) const WEAK: f64 = 0.05;
 const FEWEST: f64 = 20.0;
 
 /// Sizes of a strip and of a section of it [m].

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::indexing_slicing)]
 
+use super::light::local_weights;
 use super::*;
 use crate::ground::{Estimate, NORMAL_95};
 use crate::web::map::uniformity::{Unevenness, unevenness};

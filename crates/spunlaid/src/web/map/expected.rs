@@ -13,7 +13,7 @@ use std::ops::Range;
 const EDGE: f64 = 3.0;
 
 /// The columns of the sheet that are not edges, where filaments are missing beyond the outermost place.
-pub fn inner_columns(web: &Web) -> Range<usize> {
+pub(crate) fn inner_columns(web: &Web) -> Range<usize> {
     across(web).columns
 }
 
@@ -63,7 +63,7 @@ pub(super) struct PatchExpectation {
 
 /// The CV over patches of one side: as it is expected of a web of independent filaments, or of a map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ExpectedCv {
+pub(crate) struct ExpectedCv {
     /// Side of the patches [m].
     pub patch: f64,
     /// The CV.
@@ -115,7 +115,7 @@ pub(super) const ALONE: u64 = 16;
 ///
 /// # Errors
 /// If the filaments cannot be laid, if a layer has no surrogate, or if it is stopped.
-pub fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
+pub(crate) fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let layers = paths(web).ok_or_else(|| Fault::plain("a layer has no surrogate".to_owned()))?;
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);

@@ -129,7 +129,7 @@ pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
 ///
 /// # Errors
 /// As [`find`].
-pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
+pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);

@@ -32,13 +32,14 @@ pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
 pub(crate) use defects::{Brush, Titres, holes, inlets};
 pub use doubt::Doubt;
-pub use expected::{ExpectedCv, expected_cv, inner_columns};
+pub(crate) use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few::{
     Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, FilledMaps, blocks_on, small_patch,
 };
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
-pub use findings::{Findings, PatchFindings, WholeError, find, find_laid};
+pub(crate) use findings::find_laid;
+pub use findings::{Findings, PatchFindings, WholeError, find};
 pub(crate) use laid_web::OneAir;
 pub use laid_web::{
     ChargedCurtain, Correlation, Curves, LaidWeb, LayControl, NeighbourCorrelation, SharedAirFindings,

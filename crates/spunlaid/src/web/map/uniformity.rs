@@ -98,7 +98,7 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
 /// and of a map that is too small to say.
 ///
 /// * `side` – of the patches whose waves are looked at [cells]
-pub fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
+pub(crate) fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
     let (_, powers) = deviations(map, side)?;
     Some(powers?.variance_of_mean(map.closed).sqrt()).filter(|error| *error > 0.0)
 }

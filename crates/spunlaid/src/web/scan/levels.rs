@@ -222,7 +222,7 @@ impl Shading {
 }
 
 /// A map without a polynomial of second order, as that of a scan is when the shading of its lamp has been taken out.
-pub fn flattened(map: &Map) -> Map {
+pub(crate) fn flattened(map: &Map) -> Map {
     let mean = map.total() as f64 / map.cells.len() as f64;
     let weights: Vec<f64> = map.cells.iter().map(|cell| f64::from(*cell)).collect();
     let shading = Shading::fit(&weights, map.columns);

@@ -74,10 +74,10 @@ mod weigh;
 
 pub use analyse::analyse;
 pub use findings::{Findings, PatchFindings, Settings};
-pub use levels::flattened;
+pub(crate) use levels::flattened;
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
-pub use read::{CELL, LEAST_SIDE, MOST_PIXELS, WEIGHT_OF_BLACK, is_picture, parse, read};
+pub use read::{CELL, WEIGHT_OF_BLACK, parse, read};
 pub use request::{LightKind, ScanRequest, columns_of_map, is_picture_file};
 pub use spots::{ForeignParts, Spot};
 use std::fmt;

@@ -14,9 +14,9 @@ use crate::ground::{Dimension, Fault, FileError, FileKind, file};
 use std::path::Path;
 
 /// Most pixels of a picture.
-pub const MOST_PIXELS: usize = 1 << 26;
+pub(crate) const MOST_PIXELS: usize = 1 << 26;
 /// Least number of pixels either way.
-pub const LEAST_SIDE: usize = 16;
+pub(crate) const LEAST_SIDE: usize = 16;
 /// Pixels of a scan as a file may tell them [m]. Others are the mistake of a unit.
 const SCANNED: std::ops::RangeInclusive<f64> = 0.1e-6..=5e-3;
 /// The sides of a square pixel differ by less than this share.
@@ -196,7 +196,7 @@ fn format(bytes: &[u8]) -> Result<Format, Fault> {
 
 /// Whether a file begins as a picture or an array of NumPy, of a format that is read or of one that is
 /// refused by its name.
-pub fn is_picture(head: &[u8]) -> bool {
+pub(crate) fn is_picture(head: &[u8]) -> bool {
     format_read(head).is_some() || picture_refused(head).is_some()
 }
 
