@@ -169,7 +169,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     std::fs::write(desk.path("web.toml"), web).unwrap();
     let said = success(&mut desk.spunlaid("check web.toml"));
     for part in [
-        "#   brief.toml: its eddies are given a place in space (air.lateral = \"von-karman\")\n",
+        "#   brief.toml: its eddies lie in space (air.lateral = \"von-karman\")\n",
         // Eight in the length scale of the case, 16 mm.
         "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows \
         from them (web.flown)\n",

@@ -201,5 +201,5 @@ fn identical_web_and_filament_of_one_file_and_of_two() {
     assert_eq!(desk.read("flown_one/case.toml"), desk.read("flown_two/case.toml"));
     assert_eq!(desk.summary("flown_one")["laydown"], desk.summary("flown_two")["laydown"]);
     let said = success(&mut desk.spunlaid("check one.toml"));
-    assert!(said.contains("#   one.toml: its eddies are given a place in space"), "{said}");
+    assert!(said.contains("#   one.toml: its eddies lie in space"), "{said}");
 }

@@ -154,6 +154,12 @@ fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across(
     let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
     assert_eq!(alone.lateral_cutoff(0), Some(12.0));
     assert_eq!(alone, both);
+    // What is written says what is flown, whether the case does or not, and is the same web when it is read.
+    let plain = read(&[]).unwrap();
+    assert!(plain.text.contains("lateral = \"von-karman\"\nlateral_cutoff = "), "{}", plain.text);
+    let uniform = read(&[("air.lateral", "uniform")]).unwrap();
+    assert_eq!((uniform.text.contains("uniform"), &uniform.text), (false, &plain.text));
+    [plain, uniform].iter().for_each(assert_reads_back);
     // Nobody overrules what is set.
     let said = read(&[("air.lateral", "uniform"), cutoff]).unwrap_err().to_string();
     assert!(said.contains("air.lateral_cutoff = 12 has no effect without air.lateral"), "{said}");

@@ -5,7 +5,6 @@ use crate::args::{Check, overrides};
 use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::air::Lateral;
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::input::{LaydownSource, LayerSpec, WebSpec, read_web};
@@ -107,14 +106,9 @@ fn air(spec: &WebSpec) -> Vec<String> {
             LaydownSource::Surrogate(_) => {
                 "  nothing is flown: the spread and the noise are given".to_owned()
             }
-            LaydownSource::Case { case, .. } => match case.air.lateral {
-                Lateral::VonKarman { .. } => {
-                    format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")")
-                }
-                Lateral::Uniform => {
-                    format!("  {path}: its eddies are given a place in space (air.lateral = \"von-karman\")")
-                }
-            },
+            LaydownSource::Case { .. } => {
+                format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")")
+            }
         }
     };
     let mut lines = vec!["air".to_owned()];

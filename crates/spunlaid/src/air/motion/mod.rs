@@ -248,6 +248,14 @@ impl Lateral {
             Self::VonKarman { cutoff } => Some(cutoff),
         }
     }
+
+    /// What it is where all filaments hang in one air: a field in space, with the usual cut-off where there was none.
+    pub(crate) const fn in_one_air(self) -> Self {
+        match self {
+            Self::Uniform => Self::VonKarman { cutoff: Self::USUAL_CUTOFF },
+            Self::VonKarman { .. } => self,
+        }
+    }
 }
 
 /// Where the mean flow of a profile widens as it slows.

@@ -273,7 +273,7 @@ impl Reading<'_> {
         key: &str,
         read: Result<(Case, Vec<Note>), Error>,
     ) -> Result<Option<Arc<Case>>, Error> {
-        let (case, notes) = match read {
+        let (mut case, notes) = match read {
             Ok(read) => read,
             Err(Error::File(error)) => {
                 self.key_values.reject(key, error.into());
@@ -312,6 +312,8 @@ impl Reading<'_> {
                     let (place, key) = (self.key_values.whole(), of_air.to_owned());
                     self.note(vec![self.key_values.placed(Note { place, key, value: None, what })]);
                 }
+                // What is flown is what is written and told.
+                case.air.lateral = case.air.lateral.in_one_air();
                 return Ok(Some(Arc::new(case)));
             }
         };

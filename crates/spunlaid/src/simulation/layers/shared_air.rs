@@ -4,7 +4,6 @@ use super::few::{FewFlight, FewPlan, FlownSheet};
 use super::flown_curtain::{FlownCurtain, FlownLayers};
 use super::flyer::Flights;
 use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, WebSpec};
-use crate::air::Lateral;
 use crate::fibre::Case;
 use crate::ground::error::Place as ErrorPlace;
 use crate::ground::place::Place;
@@ -208,7 +207,7 @@ impl WebSpec {
     /// None of filaments in airs of their own.
     pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
         let case = self.layers.get(layer)?.source.case()?;
-        Some(case.air.lateral.cutoff().unwrap_or(Lateral::USUAL_CUTOFF))
+        case.air.lateral.in_one_air().cutoff()
     }
 
     /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
@@ -284,9 +283,7 @@ pub(super) fn beam_on<'a>(
         return Err(fault.into());
     };
     let mut case = Case::clone(case);
-    if case.air.lateral == Lateral::Uniform {
-        case.air.lateral = Lateral::VonKarman { cutoff: Lateral::USUAL_CUTOFF };
-    }
+    case.air.lateral = case.air.lateral.in_one_air();
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
     let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, None));

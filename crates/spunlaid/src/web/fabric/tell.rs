@@ -15,6 +15,7 @@ use crate::web::map::{Map, Orientation, straight_fibres};
 use crate::web::scan::{Findings, PatchFindings};
 use std::borrow::Cow;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Sides of the patches of which thin places are told [m].
 pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
@@ -119,22 +120,25 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
-    let uneven = |side: usize| match keys.saleable_width {
-        Some(_) => unevenness(map, side),
-        None => {
-            let same = |found: &&Unevenness| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
-            laid.patches.iter().find(same).copied()
-        }
+    let told = |side: usize| {
+        let same = |found: &&Unevenness| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
+        laid.patches.iter().find(same).copied()
     };
+    // The formation number is of the part of the sheet of which the CV beside it is, whatever is sold.
+    let of_cv = of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
     let patches = each(threads, sides.len(), |i| {
         let thin = thin_places(map, sides[i])?;
-        let formation = uneven(sides[i]).filter(|_| length > 0.0);
-        let formation = formation.map(|found| formation_number(&found, straight_fibres(length, thin.patch)));
+        let found = told(sides[i]).filter(|_| length > 0.0);
+        let formation = found.map(|found| formation_number(&found, at_random(&of_cv, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
+    let uneven = |side: usize| match (keys.saleable_width, told(side)) {
+        (None, Some(told)) => Some(told),
+        (_, told) => Some(with_error_of(unevenness(map, side)?, told)),
+    };
     let local = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
         let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
-        let found = uneven(side).or_else(|| unevenness(map, side))?;
+        let found = uneven(side)?;
         Some((local_weights(map, length, &found), found))
     });
     let air = (!laid.filaments.is_empty()).then(|| {
@@ -197,12 +201,17 @@ fn unknown_neck_in() -> String {
         .to_owned()
 }
 
+/// The columns of a map without the strips at its edges.
+fn columns(map: &Map, margins: [f64; 2]) -> Range<usize> {
+    let [first, last] = margins.map(|width| (width / map.cell).round().max(0.0) as usize);
+    first..map.columns - last
+}
+
 /// The part of the map that is told of, and its first column: what is sold, or all but the edges.
 fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
     let map = laid.map;
     let cells = |width: f64| (width / map.cell).round().max(0.0) as usize;
-    let [first, last] = laid.margins.map(cells);
-    let all = first..map.columns - last;
+    let all = columns(map, laid.margins);
     let within = match keys.saleable_width {
         None => all,
         Some(width) => {
@@ -220,6 +229,25 @@ fn of_this_weight(filaments: &[Filaments], basis_weight: f64) -> Vec<Filaments> 
     let whole: f64 = filaments.iter().map(|of| of.basis_weight).sum();
     let share = |of: &Filaments| Filaments { basis_weight: of.basis_weight * basis_weight / whole, ..*of };
     filaments.iter().map(share).collect()
+}
+
+/// CV of filaments that are straight and lie at random: the variances of the kinds add up.
+fn at_random(filaments: &[Filaments], patch: f64) -> f64 {
+    let whole: f64 = filaments.iter().map(|of| of.basis_weight).sum();
+    let square = |of: &Filaments| {
+        let (length, _) = lengths(std::slice::from_ref(of));
+        (of.basis_weight / whole * straight_fibres(length, patch)).powi(2)
+    };
+    filaments.iter().map(square).sum::<f64>().sqrt()
+}
+
+/// The unevenness of the part that is sold with at least the relative error of that of the web, which knows how few
+/// filaments were flown.
+fn with_error_of(part: Unevenness, told: Option<Unevenness>) -> Unevenness {
+    let Some(told) = told else { return part };
+    let of_web = told.standard_error.map(|error| error / told.cv * part.cv);
+    let standard_error = part.standard_error.zip(of_web).map(|(own, of_web)| own.max(of_web));
+    Unevenness { standard_error, ..part }
 }
 
 /// Length of fibre per area [1/m], and the mean of the diameter over it [m].
