@@ -196,6 +196,48 @@ fn a_web_whose_air_changes_across_its_width_is_doubted() {
     assert!(!told(&desk("x", &table(axes, 1, velocity)), &[]).contains("lets the air change"));
 }
 
+/// The air of a slot, fast between 19 mm on both sides of its middle; filaments in its middle, beside it, in the slow
+/// air and outside of the field.
+#[test]
+fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
+    let (_, axes) = ORIENTATIONS[1];
+    let slot = |[_, y, _]: [f64; 3]| [if y.abs() < 0.02 { 20.0 } else { 2.0 }, 0.0, 0.0];
+    let desk = desk("-z", &table(axes, 1, slot));
+    fs::write(desk.path("web.toml"), desk_case(&desk) + WEB).unwrap();
+    let told = |more: &[&str]| {
+        let output = desk.with("check web.toml", more).output().unwrap();
+        let said = String::from_utf8([output.stderr, output.stdout].concat()).unwrap();
+        assert!(output.status.success(), "{said}");
+        said
+    };
+    let at = |x: &str| format!("air.field_root=[\"{x}\", \"0 m\", \"0 m\"]");
+    let said = told(&["line.depth=20 mm"]);
+    let place = "the middle of the slot is at [0 m, 0 m, 0 m] of the field (air.field_root); filaments are fed from \
+        -10 mm to 10 mm from there along the machine direction, -x, and side by side along the cross direction, y";
+    assert!(said.contains(place) && !said.contains("feeds filaments"), "{said}");
+    assert!(!told(&[&at("4 mm")]).contains("feeds filaments"));
+    for (root, depth, doubt) in [
+        (
+            "8 mm",
+            "0 mm",
+            "feeds filaments at 0 m along the machine direction, off the middle of the fast air at",
+        ),
+        (
+            "-35 mm",
+            "10 mm",
+            "feeds filaments from -5 mm to 5 mm along the machine direction, in air of 2 m/s, while",
+        ),
+        (
+            "0 mm",
+            "110 mm",
+            "feeds filaments from -55 mm to 55 mm along the machine direction, some of them outside",
+        ),
+    ] {
+        let said = told(&[&at(root), &format!("line.depth={depth}")]);
+        assert!(said.contains(doubt) && said.contains("(air.field_root)"), "{doubt}\n{said}");
+    }
+}
+
 /// What the filaments do to the air stands in the axes of the file, along the fibre's axis against the flow.
 #[test]
 fn invariant_sources_are_those_of_the_first_orientation_turned() {

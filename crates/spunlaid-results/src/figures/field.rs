@@ -59,8 +59,11 @@ pub fn field_figure(case: &Case, results: Option<&Results>) -> Option<Figure> {
     };
     let caption = format!(
         "Speed of the mean flow in two planes through the root, of {}{fibres}. The arrows are the machine direction (MD), \
-         in which the belt runs, and the cross direction (CD), each with its axis in the field. Grey: outside the field.",
+         in which the belt runs, and the cross direction (CD), each with its axis in the field. The spot, the {}, is at {} \
+         of the field. Grey: outside the field.",
         placed.field.describe(),
+        if case.line.is_some() { "middle of the slot" } else { "root" },
+        PlacedField::in_words(placed.root),
     );
     let charts: Vec<&Chart> = charts.iter().collect();
     Some(Figure::stacked("air_slices", "The field and the line", &charts, caption))

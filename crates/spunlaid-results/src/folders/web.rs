@@ -2,7 +2,7 @@
 
 use super::contents::{Contents, Maker, Making, Page};
 use crate::Failure;
-use crate::figures::{SPINLINE, effects_figure, spinline_figures, web_figures};
+use crate::figures::{SPINLINE, effects_figure, field_figure, spinline_figures, web_figures};
 use crate::output::folder::{CASE_FILES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::load::load_of;
@@ -87,7 +87,9 @@ impl Contents for WebFolder<'_> {
         };
         let tried = [self.advice, self.guesses].into_iter().flatten();
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
-        let figures: Vec<Figure> = web_figures(web, findings).into_iter().chain(effects).collect();
+        let field = spec.layers.iter().find_map(|layer| field_figure(layer.source.case()?, None));
+        let figures: Vec<Figure> =
+            web_figures(web, findings).into_iter().chain(effects).chain(field).collect();
         let spinlines = spinlines(spec);
         let of_spinlines = spinlines.iter().flat_map(|spinline| &spinline.figures);
         let all: Vec<&Figure> = figures.iter().chain(of_spinlines).collect();

@@ -118,24 +118,25 @@ const TWELVE: [OneOfTwelve; 12] = [
     ("slot of 20 mm, strong turbulence", 1, &[("air.intensity_factor", "1.5")]),
 ];
 
-/// Webs of each of the twelve lines.
+/// Webs of each of the twelve lines, unless another number is asked for.
 const AIRS: usize = 6;
 
 /// Prints for twelve lines how far a few filaments are off all of them in the same air.
 pub fn few_and_all() {
+    let airs = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(AIRS);
     title(&format!(
-        "A few filaments less all of them in the same air, {AIRS} webs of each line [points of CV]"
+        "A few filaments less all of them in the same air, {airs} webs of each line [points of CV]"
     ));
     println!("  line                            patch       all     told    (rms)    error  untold");
-    let webs = each(processors(), AIRS * TWELVE.len(), |number| {
-        let (_, line, set) = TWELVE[number / AIRS];
-        let seed = (1 + number % AIRS).to_string();
+    let webs = each(processors(), airs * TWELVE.len(), |number| {
+        let (_, line, set) = TWELVE[number / airs];
+        let seed = (1 + number % airs).to_string();
         ["\"all\"", "\"auto\""].map(|flown| {
             let set = [set, &[("web.flown", flown), ("web.seed", &seed)]].concat();
             web(&lines()[line].1, &set).0.patches
         })
     });
-    for ((name, ..), webs) in TWELVE.iter().zip(webs.chunks(AIRS)) {
+    for ((name, ..), webs) in TWELVE.iter().zip(webs.chunks(airs)) {
         for patch in 0..webs[0][0].len() {
             let mean = |of: &dyn Fn(&PatchFindings, &PatchFindings) -> f64| {
                 webs.iter().map(|[all, few]| of(&all[patch], &few[patch])).sum::<f64>() / webs.len() as f64

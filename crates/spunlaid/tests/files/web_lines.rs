@@ -1,6 +1,7 @@
 //! Webs in the words of a line: throughput, titre, holes and basis weight, and the speeds that follow.
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
+use spunlaid::air::Lateral;
 use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
@@ -175,7 +176,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
         [("feed.speed", format!("{:e} m/s", speeds[0])), ("belt.speed", format!("{:e} m/s", speeds[1]))];
     let alone = alone.map(|(key, value)| (key.to_owned(), value));
     let mut alone = read_case("../../cases/spunbond.toml".as_ref(), &alone).unwrap().0;
-    alone.air.lateral = alone.air.lateral.in_one_air();
+    alone.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
     assert_eq!(alone, flown);
     // A spinline is solved with the throughput.
     let file = read("whole_line_fibre", &[("line.throughput", "0.4 g/min")]);

@@ -5,6 +5,7 @@ use crate::args::{Check, overrides};
 use crate::commands::plural;
 use crate::failure::Failure;
 use crate::say;
+use spunlaid::air::{Axis, PlacedField};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::input::{LaydownSource, LayerSpec, WebSpec, read_web};
@@ -104,21 +105,35 @@ fn air(spec: &WebSpec) -> Vec<String> {
         let path = layer.source.path().display();
         match &layer.source {
             LaydownSource::Surrogate(_) => {
-                "  nothing is flown: the spread and the noise are given".to_owned()
+                vec!["  nothing is flown: the spread and the noise are given".to_owned()]
             }
-            LaydownSource::Case { .. } => {
-                format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")")
+            LaydownSource::Case { case, .. } => {
+                let eddies = format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")");
+                let field = case.air.flow.field().map(|placed| place_in_field(placed, &layer.filaments));
+                [Some(eddies), field].into_iter().flatten().collect()
             }
         }
     };
     let mut lines = vec!["air".to_owned()];
-    for line in spec.layers.iter().map(flown) {
+    for line in spec.layers.iter().flat_map(flown) {
         if !lines.contains(&line) {
             lines.push(line);
         }
     }
     lines.extend(if spec.flies() { in_one_air(spec) } else { independent() });
     lines
+}
+
+/// Where the filaments are fed in a field.
+fn place_in_field(placed: &PlacedField, filaments: &Filaments) -> String {
+    let [from, to] = filaments.depths().map(|y| Dimension::Length.pretty_to(y + 0.0, 3));
+    let fed = if from == to { format!("at {from}") } else { format!("from {from} to {to}") };
+    let [_, machine, cross] = placed.axes().map(Axis::name);
+    format!(
+        "  the middle of the slot is at {} of the field (air.field_root); filaments are fed {fed} from there along the \
+        machine direction, {machine}, and side by side along the cross direction, {cross}, as if the air were the same",
+        PlacedField::in_words(placed.root)
+    )
 }
 
 /// Whether the filaments come down at random places of one row.

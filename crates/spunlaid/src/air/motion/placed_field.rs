@@ -2,7 +2,7 @@
 
 use super::FileContent;
 use crate::air::field::{AirAround, Field, Hint, Local};
-use crate::ground::{Fault, Vec3};
+use crate::ground::{Dimension, Fault, Vec3};
 
 /// A direction along an axis of a field, forwards or backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,6 +91,13 @@ pub(crate) const LENGTH_CONSTANT: f64 = 0.43;
 pub(crate) const TIME_CONSTANT: f64 = 0.30;
 
 impl PlacedField {
+    /// A place in words, `[0 m, 25 mm, 0 m]`.
+    pub fn in_words(at: Vec3<f64>) -> String {
+        // Without the sign of a zero.
+        let shown = |x: f64| Dimension::Length.pretty_to(x + 0.0, 4);
+        format!("[{}, {}, {}]", shown(at.x), shown(at.y), shown(at.z))
+    }
+
     /// The velocity at a place of the fibre's frame [m/s]. The origin is the root.
     pub(crate) fn velocity(&self, at: Vec3<f64>, hint: &mut Hint) -> Vec3<f64> {
         self.at(at, hint).velocity

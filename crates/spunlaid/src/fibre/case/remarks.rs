@@ -4,7 +4,7 @@ use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
 use crate::air::field::is_even;
-use crate::air::{Flow, Hint, SpectrumShape};
+use crate::air::{Flow, Hint, PlacedField, SpectrumShape};
 use crate::fibre::drag::NormalLaw;
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Vec3};
@@ -15,6 +15,10 @@ const LOW_DRAG: f64 = 0.5;
 const LEAST_SLOWING: f64 = 0.9;
 /// Change of the velocity over the width of a web, over its mean, above which a web is warned [-].
 const MOST_ACROSS: f64 = 0.05;
+/// Speed over the largest along the machine direction at the inlet from which on a place lies in the air of the slot [-].
+const IN_SLOT: f64 = 0.5;
+/// Distance of a row from the middle of that air, over the width of the air, above which a web is warned [-].
+const MOST_OFF_MIDDLE: f64 = 0.125;
 
 impl Case {
     /// Notes and warnings.
@@ -196,6 +200,66 @@ impl Case {
         })
     }
 
+    /// What is said of a web whose filaments are fed beside the air of a field, or not in its middle.
+    ///
+    /// * `from`, `to` – where they are fed along the machine direction, seen from the root [m]
+    pub(crate) fn fed_off_the_middle(&self, [from, to]: [f64; 2]) -> Option<Remark> {
+        const PLACES: i32 = 400;
+        let Flow::Field(placed) = &self.air.flow else { return None };
+        let mut hint = Hint::default();
+        let mut speed = |y: f64| {
+            let at = self.fibre.direction * (0.5 * self.fibre.rest_length()) + Vec3::new(0.0, y, 0.0);
+            Some(self.air.local(at, &mut hint)).filter(|air| air.inside).map(|air| air.velocity.norm())
+        };
+        let shown = |y: f64| Dimension::Length.pretty_to(y + 0.0, 3);
+        let fed = match to - from > 0.0 {
+            true => {
+                format!("feeds filaments from {} to {} along the machine direction", shown(from), shown(to))
+            }
+            false => format!("feeds filaments at {} along the machine direction", shown(from)),
+        };
+        let remedy = "choose the place in the middle of the slot, at its upper end (air.field_root)";
+        if [from, to].into_iter().any(|y| speed(y).is_none()) {
+            return Some(Remark::warning(format!(
+                "{fed}, some of them outside of the region where the flow is known, where they meet the air of its \
+                 edge; {remedy}, or a smaller line.depth"
+            )));
+        }
+        let ((low, high), reach) = (placed.extent(), self.fibre.length);
+        let (low, high) = (low.y.max(-reach), high.y.min(reach));
+        let place = |i: i32| low + (high - low) * (f64::from(i) + 0.5) / f64::from(PLACES);
+        let middle = 0.5 * (from + to);
+        let here = speed(middle)?;
+        let speeds: Vec<(f64, f64)> =
+            (0..PLACES).filter_map(|i| Some((place(i), speed(place(i))?))).collect();
+        let (slowest, fastest) =
+            speeds.iter().fold((here, here), |(least, most), (_, v)| (least.min(*v), most.max(*v)));
+        if slowest >= IN_SLOT * fastest {
+            return None;
+        }
+        let velocity = |speed: f64| Dimension::Velocity.pretty_to(speed, 3);
+        if here < IN_SLOT * fastest {
+            let at = speeds.iter().find(|(_, v)| *v == fastest).map_or(middle, |(y, _)| *y);
+            return Some(Remark::warning(format!(
+                "{fed}, in air of {}, while that at {} has {}; {remedy}",
+                velocity(here),
+                shown(at),
+                velocity(fastest)
+            )));
+        }
+        // The fast air on both sides, up to the first slow one.
+        let is_slow = |(_, v): &&(f64, f64)| *v < IN_SLOT * fastest;
+        let before = speeds.iter().rev().filter(|(y, _)| *y < middle).find(is_slow).map_or(low, |(y, _)| *y);
+        let after = speeds.iter().filter(|(y, _)| *y > middle).find(is_slow).map_or(high, |(y, _)| *y);
+        (((0.5 * (before + after) - middle) / (after - before)).abs() > MOST_OFF_MIDDLE).then(|| {
+            Remark::warning(format!(
+                "{fed}, off the middle of the fast air at the inlet, which reaches from {} to {}; {remedy}",
+                shown(before),
+                shown(after)
+            ))
+        })
+    }
+
     /// Whether the root is farther outside of a field's box than rounding.
     fn root_outside(&self) -> Option<Note> {
         let Flow::Field(placed) = &self.air.flow else {
@@ -210,17 +274,13 @@ impl Case {
         {
             return None;
         }
-        let shown = |v: Vec3<f64>| {
-            let shown = |x: f64| Dimension::Length.pretty_to(x * placed.unit, 4);
-            format!("[{}, {}, {}]", shown(v.x), shown(v.y), shown(v.z))
-        };
         let what = Remark::warning(format!(
             "is outside of the box around the field, {} to {}; the air at the nearest point of the field is used \
              there",
-            shown(low),
-            shown(high)
+            PlacedField::in_words(low * placed.unit),
+            PlacedField::in_words(high * placed.unit)
         ));
-        let value = Some(shown(root));
+        let value = Some(PlacedField::in_words(placed.root));
         Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
     }
 

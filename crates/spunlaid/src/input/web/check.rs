@@ -112,9 +112,16 @@ impl Reading<'_> {
                 self.refuse(key, Dimension::Length.pretty(side), what);
             }
         }
-        if let Some(what) = layer.source.case().and_then(|case| case.changes_across(sheet.width)) {
-            let (place, key) = (self.key_values.whole(), "air.field_machine_direction".to_owned());
-            self.note(vec![Note { place, key, value: None, what }]);
+        let of_field = layer.source.case().map(|case| {
+            let off_middle = case.fed_off_the_middle(layer.filaments.depths());
+            [
+                (case.changes_across(sheet.width), "air.field_machine_direction"),
+                (off_middle, "air.field_root"),
+            ]
+        });
+        for (what, key) in of_field.into_iter().flatten() {
+            let (place, key) = (self.key_values.whole(), key.to_owned());
+            self.note(what.map(|what| Note { place, key, value: None, what }).into_iter().collect());
         }
         let fed = sheet.length * layer.feed_speed / layer.belt_speed;
         let density = layer.linear_density();

@@ -125,7 +125,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         laid.patches.iter().find(same).copied()
     };
     // The formation number is of the part of the sheet of which the CV beside it is, whatever is sold.
-    let of_cv = of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
+    let of_cv =
+        of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
     let patches = each(threads, sides.len(), |i| {
         let thin = thin_places(map, sides[i])?;
         let found = told(sides[i]).filter(|_| length > 0.0);

@@ -101,6 +101,51 @@ fn stat_straight_fibres_at_random_have_a_formation_number_of_one() {
     }
 }
 
+/// The formation number is the square of the CV that is told over that of straight fibres at random of the mass between
+/// the edges, with the error of that CV, whatever is sold; of two kinds of filaments the variances add up.
+#[test]
+fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
+    let (cell, mut random) = (0.5e-3, Random::new(5));
+    // Half as heavy along the edges, 30 mm wide, and a tenth heavier in the middle, which is sold.
+    let of_column = |column: usize| match column {
+        0..60 | 340..400 => 0.5,
+        150..250 => 1.1,
+        _ => 1.0,
+    };
+    let map = map([400, 200], cell, |i| of_column(i % 400) * (1.0 + 0.2 * random.normal()));
+    let kinds = [(16e-6, 0.6), (28e-6, 0.4)].map(|(diameter, share)| Filaments {
+        diameter,
+        density: 910.0,
+        basis_weight: share * map.basis_weight(),
+    });
+    let told = Unevenness { patch: 10e-3, cv: 0.2, standard_error: Some(0.013) };
+    let laid = Laid {
+        map: &map,
+        margins: [30e-3; 2],
+        reach: Some([0.0, 0.2]),
+        filaments: kinds.to_vec(),
+        orientation: None,
+        patches: vec![told],
+        defects: Vec::new(),
+    };
+    let weight = map.between(60..340).basis_weight();
+    // τ x CV² = 0.9464 of each kind, with its share of the mass squared.
+    let kind = |of: &Filaments, share: f64| {
+        let length = share * weight / (0.25 * PI * of.diameter * of.diameter * of.density);
+        share * share * 0.946_41 / (length * told.patch)
+    };
+    let at_random = kind(&kinds[0], 0.6) + kind(&kinds[1], 0.4);
+    for saleable_width in [None, Some(50e-3)] {
+        let fabric = tell(&laid, &FabricKeys { saleable_width, ..FabricKeys::USUAL }, 1);
+        let with_number = fabric.patches.iter().find(|patch| patch.formation.is_some()).unwrap();
+        assert_eq!(fabric.patches.iter().filter(|patch| patch.formation.is_some()).count(), 1);
+        let Some(Known::Value(number, Some(error))) = with_number.formation else { panic!("no error") };
+        assert!((with_number.thin.patch - told.patch).abs() < 1e-9);
+        assert!((number * at_random / (told.cv * told.cv) - 1.0).abs() < 1e-5, "{number}");
+        assert!((error / number / (2.0 * 0.013 / 0.2) - 1.0).abs() < 1e-12, "{error}");
+    }
+}
+
 /// The map of a web, read as that of a gauge: what follows from a map is the same.
 #[test]
 fn identical_a_map_that_is_laid_and_one_that_is_measured() {

@@ -146,16 +146,22 @@ impl Filaments {
         }
     }
 
-    /// How far they are spread in machine direction where they are fed [m].
-    pub(crate) fn depth(&self) -> f64 {
+    /// From where to where they are fed in machine direction, seen from the middle of the slot [m].
+    pub fn depths(&self) -> [f64; 2] {
         match self {
-            Self::AtRandom { .. } => 0.0,
-            Self::Slot { depth, .. } => *depth,
+            Self::AtRandom { .. } => [0.0; 2],
+            Self::Slot { depth, .. } => [-0.5 * depth, 0.5 * depth],
             Self::Rows(rows) => {
                 let md = || rows.iter().map(|row| row.md);
-                (md().fold(f64::NEG_INFINITY, f64::max) - md().fold(f64::INFINITY, f64::min)).max(0.0)
+                [md().fold(f64::INFINITY, f64::min), md().fold(f64::NEG_INFINITY, f64::max)]
             }
         }
+    }
+
+    /// How far they are spread in machine direction where they are fed [m].
+    pub(crate) fn depth(&self) -> f64 {
+        let [from, to] = self.depths();
+        (to - from).max(0.0)
     }
 
     /// Whether another web of this kind has its filaments at other places in cross direction.
