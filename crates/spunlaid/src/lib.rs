@@ -57,6 +57,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 // Each wing imports only from the wings above it, and so do the rooms of a wing. tests/rooms.rs checks this.
+#[macro_use]
 pub mod ground;
 
 pub mod air;

@@ -16,6 +16,7 @@ const WINGS: &[(&str, &[&[&str]])] = &[
     (
         "ground",
         &[
+            &["named"],
             &["lanes"],
             &["vec3", "fft", "nodes", "sort", "random", "place"],
             &["error"],

@@ -95,13 +95,6 @@ fn shorter(check: &FinerCheck, case: &Case) -> String {
     }
 }
 
-const fn name(refined: Refinement) -> &'static str {
-    match refined {
-        Refinement::TimeStep => "time step",
-        Refinement::Elements => "mesh",
-    }
-}
-
 /// `in the first 36 ms of 250 ms: `, of a check over a part of a run that may differ from the whole.
 fn part(check: &FinerCheck, case: &Case) -> String {
     let time = |seconds| Dimension::Time.pretty_to(seconds, 3);
@@ -116,7 +109,7 @@ pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
         (!changes.is_empty()).then(|| {
             format!(
                 "the check of the {} is beyond its limit of {} %: {}{}; {}",
-                name(check.refined),
+                check.refined.name(),
                 100.0 * FINE_ENOUGH,
                 part(check, case),
                 changes.join(", "),
@@ -144,7 +137,7 @@ fn kept(check: &FinerCheck, case: &Case) -> &'static str {
 
 /// That a check was not made, and why.
 pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
-    format!("{}: not checked: {why}", name(refined))
+    format!("{}: not checked: {why}", refined.name())
 }
 
 /// An estimate of a run with its whole error: by chance, and what the checks found beyond their limit. Those over a
@@ -193,7 +186,7 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
         let each: Vec<String> =
             beyond(check).map(|change| format!("the {}", told(check, change, case))).collect();
         if !each.is_empty() {
-            let (name, part) = (name(check.refined), part(check, case));
+            let (name, part) = (check.refined.name(), part(check, case));
             text += &format!(" {kept} the check of the {name} found: {part}{}.", each.join("; "));
         }
     }

@@ -93,24 +93,12 @@ impl<'a> Staging<'a> {
         replace: bool,
         stop: &'a AtomicBool,
     ) -> Result<Self, Failure> {
-        Self::prepare(folder, entries, replace, None, stop)
+        Self::with_origin(folder, entries, replace, None, stop)
     }
 
     /// [`Staging::new`]. Results of the same origin, if there is one, are replaced in any case; `entries`
     /// have [`ORIGIN`].
     pub fn with_origin(
-        folder: &Path,
-        entries: &'static [&'static str],
-        replace: bool,
-        origin: Option<Origin>,
-        stop: &'a AtomicBool,
-    ) -> Result<Self, Failure> {
-        let staging = Self::prepare(folder, entries, replace, origin, stop)?;
-        staging.origin.iter().try_for_each(|origin| staging.write(ORIGIN, origin.text()))?;
-        Ok(staging)
-    }
-
-    fn prepare(
         folder: &Path,
         entries: &'static [&'static str],
         replace: bool,
@@ -157,6 +145,7 @@ impl<'a> Staging<'a> {
             is_published,
         };
         fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
+        staging.origin.iter().try_for_each(|origin| staging.write(ORIGIN, origin.text()))?;
         Ok(staging)
     }
 

@@ -4,10 +4,21 @@ use super::document::Section;
 use super::table::{Cell, Row, Table, Tone};
 use spunlaid::experiment::{Claim, Verdict};
 
-/// A row for each claim, with its figure if it is about one.
+/// The claims for a page and for a terminal; nothing if there are none.
 ///
 /// * `head` – of the column of what is claimed
-pub(super) fn claim_table(claims: &[Claim], head: &'static str) -> Table {
+/// * `verdicts` – what they mean
+pub(super) fn claim_sections(claims: &[Claim], head: &'static str, verdicts: &str) -> Vec<Section<'static>> {
+    if claims.is_empty() {
+        return Vec::new();
+    }
+    let page =
+        Section::new("claims", "Claim by claim").open().table(claim_table(claims, head)).caption(verdicts);
+    vec![page, in_short(claims)]
+}
+
+/// A row for each claim, with its figure if it is about one.
+fn claim_table(claims: &[Claim], head: &'static str) -> Table {
     let has_figures = claims.iter().any(|claim| !claim.figure.is_empty());
     let row = |claim: &Claim| {
         let tone = match claim.verdict {
@@ -32,7 +43,7 @@ pub(super) fn claim_table(claims: &[Claim], head: &'static str) -> Table {
 }
 
 /// The claims for a terminal.
-pub(super) fn claims_in_short(claims: &[Claim]) -> Section<'static> {
+fn in_short(claims: &[Claim]) -> Section<'static> {
     let verdict = |claim: &Claim| {
         let figure = if claim.figure.is_empty() { String::new() } else { format!("{:<4} ", claim.figure) };
         (format!("{figure}{:<13} {}", claim.verdict.name(), claim.claim), claim.evidence.clone())

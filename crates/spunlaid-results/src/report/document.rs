@@ -142,6 +142,8 @@ const MOST_NAMES: usize = 120;
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Seen {
     Page,
+    /// On the page, and its sentences on a terminal.
+    Brief,
     Terminal,
     Both,
 }
@@ -195,6 +197,11 @@ impl<'a> Section<'a> {
     /// Shown by a terminal too, and not folded on the page.
     pub(super) fn told(self) -> Self {
         Self { seen: Seen::Both, ..self.open() }
+    }
+
+    /// A terminal shows its sentences too.
+    pub(super) fn brief(self) -> Self {
+        Self { seen: Seen::Brief, ..self }
     }
 
     /// Not folded.

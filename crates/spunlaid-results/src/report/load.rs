@@ -1,7 +1,7 @@
 //! What filaments do to their air: the section of the reports of webs and of runs, and its sentences.
 
 use super::document::Section;
-use super::table::{Content, Layout, Row, Table};
+use super::table::{Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
 use spunlaid::fibre::{Load, LoadPlace};
@@ -13,7 +13,7 @@ const TITLE: &str = "What the filaments do to their air";
 /// Share of the momentum of the air from which on the given air is far from that of the line.
 const LARGE: f64 = 0.2;
 
-/// The section for a page; none where nothing is known.
+/// The section; none where nothing is known.
 ///
 /// * `loads` – of each layer, with its name where there are several
 pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Section<'static>> {
@@ -25,7 +25,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         if let Some(name) = name {
             section = section.heading(format!("Layer {name}"));
         }
-        section = section.paragraph(load_words(load)).table(numbers(load));
+        section = section.paragraph(load_words(load)).table(Table::of_measures(OF_LOADS, load));
         if !load.places.is_empty() {
             section = section.table(along_way(load));
         }
@@ -34,23 +34,11 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         true => " What heat they bring is not known, because they come from no spinline.",
         false => "",
     };
-    Some(section.caption(format!(
+    Some(section.brief().caption(format!(
         "The force is the drag on the flown filaments (without implicit tension the balance of their momentum), ± one \
         standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken \
         to keep its mass flow.{heat}"
     )))
-}
-
-/// The same in sentences, for a terminal.
-pub(super) fn loads_in_short(loads: &[(Option<&str>, &Load)]) -> Section<'static> {
-    let words = |(name, load): &(Option<&str>, &Load)| match name {
-        Some(name) => format!("Layer {name}: {}", load_words(load)),
-        None => load_words(load),
-    };
-    match loads {
-        [] => Section::new("", ""),
-        _ => Section::new("", TITLE).paragraphs(loads.iter().map(words)).on_terminal(),
-    }
 }
 
 /// What filaments do to their air, in a few sentences.
@@ -105,22 +93,6 @@ fn per_cent(share: f64) -> String {
 
 fn faster(change: f64) -> String {
     format!("{} {}", per_cent(change.abs()), if change < 0.0 { "slower" } else { "faster" })
-}
-
-/// The numbers of a load that are known.
-fn numbers(load: &Load) -> Table {
-    let columns = [
-        ("Result", Content::Words),
-        ("Value", Content::Numbers),
-        ("Unit", Content::Words),
-        ("Meaning", Content::Meanings),
-    ];
-    let row = |row: Measured<Load>| {
-        let value = text(&row)?;
-        let named = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
-        Some(named.detail(row.remark.unwrap_or_default()))
-    };
-    Table::of(columns).laid_out(Layout::Results).rows(measured(OF_LOADS, load).filter_map(row))
 }
 
 /// The load at places on the way, as far as it is known.

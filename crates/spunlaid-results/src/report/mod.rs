@@ -21,6 +21,7 @@ mod light_table;
 mod load;
 mod methods;
 mod paper;
+mod patches;
 mod pictures;
 mod run;
 mod run_table;

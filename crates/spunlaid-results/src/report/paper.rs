@@ -1,6 +1,6 @@
 //! The report of `spunlaid reproduce`: the paper's claims with evidence and verdict, its figures, its choices.
 
-use super::claims::{claim_table, claims_in_short};
+use super::claims::claim_sections;
 use super::document::{Report, Section};
 use super::methods::{methods, of_case};
 use super::table::{Row, Table};
@@ -25,18 +25,13 @@ pub fn paper_report<'a>(
         0 => "The paper’s figures, drawn anew".to_owned(),
         all => format!("{holds} of the paper’s {all} claims hold"),
     };
-    let mut report = Report::new("reproduce", headline).lead(how);
-    if !claims.is_empty() {
-        let table = claim_table(claims, "What the paper says");
-        report = report.with(Section::new("claims", "Claim by claim").open().table(table).caption(
-            "The program computes the verdicts from the data. A trend is almost linear if a straight line \
-            explains 97\u{202f}% of the variance. A difference is real if it is larger than three standard \
-            errors. A step in the wrong direction counts against a trend if it is larger than 2.5 standard \
-            errors. “Nearly constant” means a change of at most 10\u{202f}%. “Open” means that the errors \
-            are too large to decide; more replicates would help.",
-        ));
-    }
-    report = report.with(claims_in_short(claims));
+    let verdicts = "The program computes the verdicts from the data. A trend is almost linear if a straight line \
+        explains 97\u{202f}% of the variance. A difference is real if it is larger than three standard errors. A \
+        step in the wrong direction counts against a trend if it is larger than 2.5 standard errors. “Nearly \
+        constant” means a change of at most 10\u{202f}%. “Open” means that the errors are too large to decide; \
+        more replicates would help.";
+    let sections = claim_sections(claims, "What the paper says", verdicts);
+    let mut report = Report::new("reproduce", headline).lead(how).with_all(sections);
     if !choices.is_empty() {
         let heads = [
             "Choice",

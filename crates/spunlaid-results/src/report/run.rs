@@ -2,14 +2,14 @@
 
 use super::document::{Part, Report, Section};
 use super::frames;
-use super::load::{loads_in_short, section_of_loads};
+use super::load::section_of_loads;
 use super::methods::{methods, of_case};
-use super::run_table::{Whole, capitalised, replicate_table, result_table};
+use super::run_table::{Whole, replicate_table, result_table};
 use super::spinline::section_of_fibre;
 use super::view::View;
 use super::words::{self, count};
 use crate::Failure;
-use crate::numbers::{THIN, number};
+use crate::numbers::{THIN, capitalised, number};
 use crate::output::doubt;
 use crate::output::finer::{self, CheckWords};
 use crate::output::load::load_of_spinline;
@@ -61,7 +61,6 @@ pub fn run_report<'a>(
         .with(numbers(results, &whole, &doubt::statistics_in_errors(checks, case)).told())
         .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
         .with_all(section_of_loads(&loads))
-        .with(loads_in_short(&loads))
         .with(under_headings(figures))
         .with(trust(finer).told())
         .with(energy(case, results))

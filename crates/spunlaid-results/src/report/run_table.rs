@@ -2,7 +2,7 @@
 
 use super::table::{Content, Layout, Row, Table};
 use super::words::{estimate_text, unbroken};
-use crate::numbers::{number, signed};
+use crate::numbers::{capitalised, number, signed};
 use spunlaid::ground::Estimate;
 use spunlaid::simulation::{Aggregate, Number, Results};
 
@@ -64,11 +64,6 @@ fn value(one: &Number, whole: &Whole<'_>) -> String {
         Aggregate::Mean => estimate_text(&whole(one), factor),
         Aggregate::Median | Aggregate::Largest => number(one.value() * factor),
     }
-}
-
-pub(super) fn capitalised(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }
 
 /// One row for each replicate that was not lost, and how many more there are.

@@ -2,16 +2,14 @@
 
 use super::document::{Part, Report, Section};
 use super::methods::methods;
-use super::table::{Content, Layout, Row, Table};
+use super::table::Table;
 use super::unevenness::grams;
 use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
-use crate::output::measured::text;
 use crate::output::spinline::{SpinResults, freezing, influence, model_error, numerical_error};
 use crate::output::web::Layer;
 use spunlaid::fibre::{Case, End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measured, OF_SPINLINES};
+use spunlaid::simulation::OF_SPINLINES;
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
@@ -64,23 +62,12 @@ fn section<'a>(
     SpinResults { rows, influences }: &SpinResults,
     figures: &'a [Figure],
 ) -> Section<'a> {
-    let columns = [
-        ("Result", Content::Words),
-        ("Value", Content::Numbers),
-        ("Unit", Content::Words),
-        ("Meaning", Content::Meanings),
-    ];
-    let row = |row: Measured<Solution>| {
-        let value = text(&row).unwrap_or_default();
-        let row_of = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
-        row_of.detail(row.remark.unwrap_or_default())
-    };
     let first = rows.first();
-    let results = first.into_iter().flat_map(|first| measured(OF_SPINLINES, first).map(row));
+    let results = first.map(|first| Table::of_measures(OF_SPINLINES, first)).unwrap_or_default();
     let is_low = first.is_some_and(|row| row.has_low_birefringence);
     let section = section
         .paragraphs(sentences.into_iter().chain(curtain(rows)))
-        .table(Table::of(columns).laid_out(Layout::Results).rows(results))
+        .table(results)
         .paragraph(format!("{} {}", numerical_error(rows), model_error(is_low)));
     let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
     let section = match &told[..] {

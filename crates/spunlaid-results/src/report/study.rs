@@ -1,6 +1,6 @@
 //! The report of a study: question, ranking, figures and points. It does not depend on the time of computation.
 
-use super::claims::{claim_table, claims_in_short};
+use super::claims::claim_sections;
 use super::document::{Report, Section};
 use super::effects::effect_cell;
 use super::methods::{Reference, methods, of_case, of_web};
@@ -36,21 +36,15 @@ pub fn study_report<'a>(
         Some(answer) => (answer, format!("{question} ")),
         None => (question, String::new()),
     };
-    let judged = (!claims.is_empty()).then(|| {
-        let section = Section::new("claims", "Claim by claim").table(claim_table(claims, "What is claimed"));
-        section.caption(
-            "The program judges the claims of the study file by the results. A factor matters more, and ends \
-            differ, by more than three standard errors. A step in the wrong direction counts against a rise or a \
-            fall if it is larger than 2.5. “Open” means that the errors are too large to decide; more \
-            replicates would help.",
-        )
-    });
+    let verdicts = "The program judges the claims of the study file by the results. A factor matters more, and ends \
+        differ, by more than three standard errors. A step in the wrong direction counts against a rise or a \
+        fall if it is larger than 2.5. “Open” means that the errors are too large to decide; more replicates \
+        would help.";
     Report::new("sweep", title)
         .lead(format!("{asked}{}", summary(study, results)))
         .lead(phases(study))
         .with(points_in_short(study, results))
-        .with_all((!claims.is_empty()).then(|| claims_in_short(claims)))
-        .with_all(judged.map(Section::open))
+        .with_all(claim_sections(claims, "What is claimed", verdicts))
         .with_all(ranking(study, rankings, refusal).map(Section::open))
         .with(Section::of_figures(figures).open())
         .with(points(study, results))

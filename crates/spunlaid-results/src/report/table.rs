@@ -1,6 +1,9 @@
 //! A table of a report: what its columns and rows are; the page says how they are drawn.
 
+use crate::output::measured::text;
 use askama::Template;
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measure, Measured};
 
 /// Rows under heads. The first column holds their names.
 #[derive(Debug, Default, Template)]
@@ -105,6 +108,22 @@ impl Table {
     pub(super) fn of(columns: impl IntoIterator<Item = (impl Into<String>, Content)>) -> Self {
         let columns = columns.into_iter().map(|(head, content)| Column { head: head.into(), content });
         Self { columns: columns.collect(), ..Self::default() }
+    }
+
+    /// Results with their values, units and meanings; those without a value are left out.
+    pub(super) fn of_measures<T>(measures: &'static [Measure<T>], found: &T) -> Self {
+        let columns = [
+            ("Result", Content::Words),
+            ("Value", Content::Numbers),
+            ("Unit", Content::Words),
+            ("Meaning", Content::Meanings),
+        ];
+        let row = |row: Measured<T>| {
+            let value = text(&row)?;
+            let named = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
+            Some(named.detail(row.remark.unwrap_or_default()))
+        };
+        Self::of(columns).laid_out(Layout::Results).rows(measured(measures, found).filter_map(row))
     }
 
     /// Names with a value each, without heads.

@@ -26,7 +26,7 @@ impl Section<'_> {
     pub(super) fn text(&self, room: usize) -> String {
         let part = |part: &Part<'_>| match part {
             Part::Heading(words) | Part::Paragraph(words) => format!("{words}\n"),
-            Part::Table(table) => table.text(room),
+            Part::Table(table) if self.seen != Seen::Brief => table.text(room),
             Part::List(all) => all.iter().map(|words| format!("  {words}\n")).collect(),
             Part::Descriptions(all) => {
                 all.iter().map(|(name, words)| format!("  {name}\n    {words}\n")).collect()

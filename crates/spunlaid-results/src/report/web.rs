@@ -5,8 +5,9 @@ use super::document::{Part, Report, Section};
 use super::effects::{Advised, advice_card, effects_table, guess_card};
 use super::fabric::fabric_section;
 use super::light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
-use super::load::{loads_in_short, section_of_loads};
+use super::load::section_of_loads;
 use super::methods::{methods, of_web};
+use super::patches::patch_table;
 use super::scale::Judged;
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
@@ -18,7 +19,7 @@ use super::words::{count, metres, millimetres};
 use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
-use crate::output::web::{Layer, PatchTable, Performance};
+use crate::output::web::{Layer, Performance};
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
@@ -86,7 +87,6 @@ pub fn web_report<'a>(
         .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
         .with_all(section_of_loads(&loads))
-        .with(loads_in_short(&loads))
         .with(charge(spec, findings))
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
@@ -110,17 +110,15 @@ fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'
 
 /// How uneven it is over patches of each size, and what makes it so.
 fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
-    let PatchTable { heads, rows } = PatchTable::new(findings);
     Section::new("verdict", "How uneven over which size")
         .paragraphs(verdict(findings))
-        .table(Table::new(heads).rows(rows.into_iter().map(Row::from)))
+        .table(patch_table(findings, Table::new))
         .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)))
         .paragraph(sentences([summary(web), laid_weight(web, findings)]))
 }
 
 /// The unevenness for a terminal.
 fn uneven_in_short(findings: &Findings) -> Section<'static> {
-    let PatchTable { heads, rows } = PatchTable::new(findings);
     let whole = if findings.patches.iter().any(|patch| patch.few.is_some()) {
         "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few \
         filaments flown)"
@@ -128,7 +126,7 @@ fn uneven_in_short(findings: &Findings) -> Section<'static> {
         "of this map ± its standard error by chance alone"
     };
     Section::new("", format!("Unevenness, CV: {whole}, and as expected"))
-        .table(Table::of_numbers(heads).rows(rows.into_iter().map(Row::from)))
+        .table(patch_table(findings, Table::of_numbers))
         .on_terminal()
 }
 

@@ -7,27 +7,20 @@ pub const REAL: f64 = 3.0;
 /// Number of standard errors up to which a step in the wrong direction counts as chance.
 pub(crate) const CHANCE: f64 = 2.5;
 
-/// Whether a claim holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The data support it.
-    Holds,
-    /// The data contradict it.
-    Fails,
-    /// The errors are too large to decide. More replicates would help.
-    Open,
+named! {
+    /// Whether a claim holds.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Verdict {
+        /// The data support it.
+        Holds = "holds",
+        /// The data contradict it.
+        Fails = "does not hold",
+        /// The errors are too large to decide. More replicates would help.
+        Open = "open",
+    }
 }
 
 impl Verdict {
-    /// The verdict in words.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "does not hold",
-            Self::Open => "open",
-        }
-    }
-
     /// Of something that is known without doubt.
     pub(crate) const fn of(holds: bool) -> Self {
         if holds { Self::Holds } else { Self::Fails }

@@ -3,29 +3,17 @@
 use crate::ground::Vec3;
 use std::f64::consts::PI;
 
-/// How the fibre's first node is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Root {
-    /// Held in place, free to turn.
-    Pinned,
-    /// Held in place and direction. A rotational spring of `2EI/l` makes the static deflection second order in
-    /// the element length.
-    Clamped,
-    /// Not held: a cut fibre that flies away.
-    Free,
-}
-
-impl Root {
-    /// Every kind of root.
-    pub(crate) const ALL: [Self; 3] = [Self::Pinned, Self::Clamped, Self::Free];
-
-    /// Name in the case file.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Pinned => "pinned",
-            Self::Clamped => "clamped",
-            Self::Free => "free",
-        }
+named! {
+    /// How the fibre's first node is held.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Root {
+        /// Held in place, free to turn.
+        Pinned = "pinned",
+        /// Held in place and direction. A rotational spring of `2EI/l` makes the static deflection second order in
+        /// the element length.
+        Clamped = "clamped",
+        /// Not held: a cut fibre that flies away.
+        Free = "free",
     }
 }
 

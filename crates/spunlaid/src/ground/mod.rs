@@ -2,9 +2,12 @@
 //! transforms, chance; units, errors and their words; threads, tables, logs of keyed rows; statistics.
 //!
 //! ```text
-//! lanes → vec3, fft, nodes, sort, random, place → error → units, threads, removed
+//! named → lanes → vec3, fft, nodes, sort, random, place → error → units, threads, removed
 //!       → company, log → file, table → statistics → effects
 //! ```
+
+#[macro_use]
+mod named;
 
 // Vector instructions are unsafe to call; nothing else in the workspace is.
 #[allow(unsafe_code)]

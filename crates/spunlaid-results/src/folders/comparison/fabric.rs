@@ -1,27 +1,20 @@
 //! What two fabrics have in common, laid or scanned.
 
-use super::web::{Web, WebNumber, are_alike};
+use super::web::{Web, WebNumber, are_alike, measure};
 use crate::numbers::significant;
+use crate::output::comparison::ComparedMeasure;
 use serde_json::Value as Json;
-use spunlaid::simulation::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS, Unit};
+use spunlaid::simulation::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS};
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;
 /// The number of a fabric that goes with the square of its CV.
 const SQUARE_OF_CV: &str = "formation";
 
-/// A number that both have.
-pub(super) struct InCommon {
-    pub(super) label: String,
-    pub(super) column: String,
-    pub(super) unit: Unit,
-    pub(super) values: [WebNumber; 2],
-}
-
 /// Every number that is told of both fabrics with what is known of it: of the whole, of patches and strips.
-pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
+pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
     let fabrics = webs.map(|web| (&web.fabric, web.name.as_str()));
-    let mut found = both(OF_FABRICS, ["", ""], fabrics);
+    let mut found = both(OF_FABRICS, ["", ""], fabrics, |_, values| values);
     let parts = |list: &str, key: &str, size: f64| {
         fabrics.map(|(fabric, name)| (part(&fabric[list], key, size), name))
     };
@@ -30,22 +23,18 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<InCommon> {
         let told = if are_alike(side, PATCH) { &OF_FABRIC_PATCHES[1..] } else { &OF_FABRIC_PATCHES[1..2] };
         let size = significant(side * 1e3, 3);
         let words = [&format!(", patches of {size} mm"), &format!("_{size}_mm")];
-        let of_patches = both(told, words.map(String::as_str), parts("patches", "patch_m", side));
-        found.extend(of_patches.into_iter().map(|one| match one.column.starts_with(SQUARE_OF_CV) {
-            true => InCommon { values: squared(webs, side, one.values), ..one },
-            false => one,
-        }));
+        let squared = |column: &str, [a, b]: [WebNumber; 2]| match column {
+            SQUARE_OF_CV => [webs[0].squared(side, a), webs[1].squared(side, b)],
+            _ => [a, b],
+        };
+        found.extend(both(told, words.map(String::as_str), parts("patches", "patch_m", side), squared));
     }
     for (direction, list) in [("MD", "strips_md"), ("CD", "strips_cd")] {
         let words = [&format!(", strips along {direction}"), &format!("_{list}")];
         let strips = fabrics.map(|(fabric, name)| (&fabric[list], name));
-        found.extend(both(OF_STRIPS, words.map(String::as_str), strips));
+        found.extend(both(OF_STRIPS, words.map(String::as_str), strips, |_, values| values));
     }
     found
-}
-
-fn squared([a, b]: [&Web; 2], side: f64, [of_a, of_b]: [WebNumber; 2]) -> [WebNumber; 2] {
-    [a.squared(side, of_a), b.squared(side, of_b)]
 }
 
 /// The part of nearly this size; nothing if there is none.
@@ -55,15 +44,19 @@ fn part<'a>(list: &'a Json, key: &str, size: f64) -> &'a Json {
 }
 
 /// * `words` – behind the label and behind the name of a measure
-fn both<T>(measures: &[Measure<T>], [of, ending]: [&str; 2], parts: [(&Json, &str); 2]) -> Vec<InCommon> {
-    let in_common = |measure: &Measure<T>| {
-        let [a, b] = parts.map(|(json, name)| number(&json[measure.entry()], name));
-        Some(InCommon {
-            label: format!("{}{of}", measure.label),
-            column: format!("{}{ending}", measure.entry()),
-            unit: measure.unit,
-            values: [a?, b?],
-        })
+/// * `known` – numbers of a measure, with all that is known of them
+fn both<T>(
+    measures: &[Measure<T>],
+    [of, ending]: [&str; 2],
+    parts: [(&Json, &str); 2],
+    known: impl Fn(&str, [WebNumber; 2]) -> [WebNumber; 2],
+) -> Vec<ComparedMeasure> {
+    let in_common = |told: &Measure<T>| {
+        let [a, b] = parts.map(|(json, name)| number(&json[told.entry()], name));
+        let values = known(told.entry(), [a?, b?]);
+        let unit = told.unit.readable(values[0].value);
+        let (label, column) = (format!("{}{of}", told.label), format!("{}{ending}", told.entry()));
+        Some(measure(label, column, (unit.shown, unit.per_si), values.map(Ok), None))
     };
     measures.iter().filter_map(in_common).collect()
 }

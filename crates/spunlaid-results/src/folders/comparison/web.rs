@@ -1,8 +1,11 @@
 //! The results of a web, laid or scanned, as far as they are compared.
 
+use crate::numbers::significant;
+use crate::output::comparison::ComparedMeasure;
 use crate::output::web::MapFile;
 use serde_json::Value as Json;
-use spunlaid::ground::NORMAL_95;
+use spunlaid::ground::statistics::difference_of_logarithms;
+use spunlaid::ground::{Difference, Estimate, NORMAL_95};
 use spunlaid::web::FEWEST;
 use spunlaid::web::scan::Doubt;
 use std::path::{Path, PathBuf};
@@ -136,6 +139,8 @@ impl Web {
     }
 }
 
+/// How many standard errors an end of an interval is away, over 1.96, where the standard error alone would mislead.
+const FAR: f64 = 1.5;
 /// Part of a number below which its standard error is a share of it.
 const SMALL: f64 = 1.0 / 3.0;
 
@@ -193,6 +198,64 @@ impl WebNumber {
         let [below, above] = [end(false)?, end(true)?];
         self.doubt.is_none().then_some([self.value - below, self.value + above])
     }
+}
+
+/// A number of two webs, or why one has none.
+///
+/// * `unit` – and the factor to it from SI
+/// * `objection` – why nothing is said of such numbers
+pub(super) fn measure(
+    label: String,
+    column: String,
+    (unit, per_si): (&'static str, f64),
+    values: [Result<WebNumber, String>; 2],
+    objection: Option<String>,
+) -> ComparedMeasure {
+    let doubt_of = |value: &Result<WebNumber, String>| match value {
+        Ok(number) => number.doubt.clone(),
+        Err(reason) => Some(reason.clone()),
+    };
+    let doubts: Vec<String> = values.iter().filter_map(doubt_of).collect();
+    let doubt = objection.or_else(|| (!doubts.is_empty()).then(|| doubts.join("; ")));
+    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics
+    // in Medicine 27 (2008) 1693–1702. A standard error is from many parts of a web, and a normal
+    // distribution serves. Errors that are shares of their numbers are those of logarithms: a CV and its square then
+    // have one verdict.
+    let difference = |a: &WebNumber, b: &WebNumber| {
+        let up = b.value > a.value;
+        if a.is_of_shares() && b.is_of_shares() {
+            let errors = [a.log_error_towards(up)?, b.log_error_towards(!up)?];
+            return Some(difference_of_logarithms([a.value, b.value], errors));
+        }
+        let standard_error = a.error_towards(up)?.hypot(b.error_towards(!up)?);
+        Some(Difference { value: b.value - a.value, standard_error, degrees: f64::INFINITY })
+    };
+    let difference = match (&values, &doubt) {
+        ([Ok(a), Ok(b)], None) => difference(a, b),
+        _ => None,
+    };
+    let remark = match (&values, &difference) {
+        ([Ok(a), Ok(b)], Some(difference)) if !difference.is_beyond_chance() => {
+            let up = b.value > a.value;
+            let far = [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, per_si));
+            far.reduce(|a, b| format!("{a}; {b}"))
+        }
+        _ => None,
+    };
+    let means = values.map(|number| {
+        let (mean, standard_error) =
+            number.map_or((f64::NAN, None), |number| (number.value, number.standard_error));
+        Estimate { mean, standard_error, values: Vec::new() }
+    });
+    ComparedMeasure { label, column, unit, per_si, means, difference, remark, doubt }
+}
+
+/// That the interval of a number reaches far further to one side than its standard error tells.
+fn far_end(number: &WebNumber, up: bool, per_si: f64) -> Option<String> {
+    let ([low, high], error) = (number.interval()?, number.standard_error?);
+    let is_far = number.error_towards(up)? > FAR * error;
+    let [value, low, high] = [number.value, low, high].map(|value| significant(value * per_si, 3));
+    is_far.then(|| format!("{value} has the 95 % interval {low} to {high}"))
 }
 
 /// The CV at a patch of nearly the same size, moved to that size along the slope to its neighbour.

@@ -2,20 +2,16 @@
 
 use super::super::finished::read_summary;
 use super::Found;
-use super::fabric::{InCommon, in_common};
+use super::fabric::in_common;
 use super::maps::maps;
-use super::web::{Patch, Web, WebNumber, are_alike};
+use super::web::{Patch, Web, WebNumber, are_alike, measure};
 use crate::Failure;
 use crate::figures::{ComparedPatch, SEEN, overlaid_webs};
 use crate::numbers::significant;
 use crate::output::comparison::{ComparedMeasure, Comparison};
-use spunlaid::ground::statistics::difference_of_logarithms;
-use spunlaid::ground::{Difference, Error, Estimate, Fault};
+use spunlaid::ground::{Error, Fault};
 use spunlaid::web::scan::shortest_sharp_wave;
 use std::path::PathBuf;
-
-/// How many standard errors an end of an interval is away, over 1.96, where the standard error alone would mislead.
-const FAR: f64 = 1.5;
 
 /// Reads the folders if the first holds a web.
 ///
@@ -76,35 +72,23 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     let of_patch = |side: f64, [whose, end]: [&str; 2], values: [Result<WebNumber, String>; 2]| {
         let side = significant(side * 1e3, 3);
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
-        measure(label, column, ("%", 100.0), values)
+        measure(label, column, ("%", 100.0), values, None)
     };
     let mut sides: Vec<f64> = first.sides().collect();
     sides.extend(other.sides().filter(|side| !has(first, *side)));
     sides.sort_by(f64::total_cmp);
     let of_map = |side: f64| of_patch(side, ["CV", ""], [first.cv(side), other.cv(side)]);
     let mut measures: Vec<ComparedMeasure> = sides.into_iter().map(of_map).collect();
-    let names =
-        [("cloudiness index", "cloudiness", ("%", 100.0)), ("texture along MD", "texture_md", ("", 1.0))];
-    for (i, (label, column, unit)) in names.into_iter().enumerate() {
+    let of_clouds = [
+        ("cloudiness index", "cloudiness", ("%", 100.0), blur_objection([first, other])),
+        ("texture along MD", "texture_md", ("", 1.0), wave_mismatch(first, other)),
+    ];
+    for (i, (label, column, unit, objection)) in of_clouds.into_iter().enumerate() {
         if let (Some(a), Some(b)) = (first.clouds[i].clone(), other.clouds[i].clone()) {
-            measures.push(measure(label.to_owned(), column.to_owned(), unit, [Ok(a), Ok(b)]));
+            measures.push(measure(label.to_owned(), column.to_owned(), unit, [Ok(a), Ok(b)], objection));
         }
     }
-    measures.extend(in_common([first, other]).into_iter().map(|InCommon { label, column, unit, values }| {
-        let unit = unit.readable(values[0].value);
-        measure(label, column, (unit.shown, unit.per_si), values.map(Ok))
-    }));
-    for measure in &mut measures {
-        let doubt = match measure.column.as_str() {
-            "cloudiness" => blur_objection([first, other]),
-            "texture_md" => wave_mismatch(first, other),
-            _ => None,
-        };
-        if let Some(doubt) = doubt {
-            measure.difference = None;
-            measure.doubt = Some(doubt);
-        }
-    }
+    measures.extend(in_common([first, other]));
     let weight = |web: &Web| {
         web.weight
             .map_or_else(|| "unknown".to_owned(), |weight| format!("{} g/m²", significant(weight * 1e3, 3)))
@@ -144,61 +128,6 @@ fn wave_mismatch(first: &Web, other: &Web) -> Option<String> {
     })
 }
 
-fn measure(
-    label: String,
-    column: String,
-    (unit, per_si): (&'static str, f64),
-    values: [Result<WebNumber, String>; 2],
-) -> ComparedMeasure {
-    let doubts: Vec<&str> = values
-        .iter()
-        .filter_map(|value| match value {
-            Ok(number) => number.doubt.as_deref(),
-            Err(reason) => Some(reason),
-        })
-        .collect();
-    let doubt = (!doubts.is_empty()).then(|| doubts.join("; "));
-    // The ends of both intervals that face each other make that of the difference: Zou and Donner, Statistics
-    // in Medicine 27 (2008) 1693–1702. A standard error is from many parts of a web, and a normal
-    // distribution serves. Errors that are shares of their numbers are those of logarithms: a CV and its square then
-    // have one verdict.
-    let difference = |a: &WebNumber, b: &WebNumber| {
-        let up = b.value > a.value;
-        if a.is_of_shares() && b.is_of_shares() {
-            let errors = [a.log_error_towards(up)?, b.log_error_towards(!up)?];
-            return Some(difference_of_logarithms([a.value, b.value], errors));
-        }
-        let standard_error = a.error_towards(up)?.hypot(b.error_towards(!up)?);
-        Some(Difference { value: b.value - a.value, standard_error, degrees: f64::INFINITY })
-    };
-    let difference = match (&values, &doubt) {
-        ([Ok(a), Ok(b)], None) => difference(a, b),
-        _ => None,
-    };
-    let remark = match (&values, &difference) {
-        ([Ok(a), Ok(b)], Some(difference)) if !difference.is_beyond_chance() => {
-            let up = b.value > a.value;
-            let far = [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, per_si));
-            far.reduce(|a, b| format!("{a}; {b}"))
-        }
-        _ => None,
-    };
-    let means = values.map(|number| {
-        let (mean, standard_error) =
-            number.map_or((f64::NAN, None), |number| (number.value, number.standard_error));
-        Estimate { mean, standard_error, values: Vec::new() }
-    });
-    ComparedMeasure { label, column, unit, per_si, means, difference, remark, doubt }
-}
-
-/// That the interval of a number reaches far further to one side than its standard error tells.
-fn far_end(number: &WebNumber, up: bool, per_si: f64) -> Option<String> {
-    let ([low, high], error) = (number.interval()?, number.standard_error?);
-    let is_far = number.error_towards(up)? > FAR * error;
-    let [value, low, high] = [number.value, low, high].map(|value| significant(value * per_si, 3));
-    is_far.then(|| format!("{value} has the 95 % interval {low} to {high}"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::web::tests::number;
@@ -207,7 +136,7 @@ mod tests {
     #[test]
     fn the_ends_that_face_each_other_decide_and_a_doubt_leaves_no_verdict() {
         let compared =
-            |values: [WebNumber; 2]| measure(String::new(), String::new(), ("", 1.0), values.map(Ok));
+            |values: [WebNumber; 2]| measure(String::new(), String::new(), ("", 1.0), values.map(Ok), None);
         // Upwards the first reaches 13, downwards the second 11.1; the logarithms have this distance together.
         let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
         let far = (13.0_f64 / 10.0).ln().hypot((15.1_f64 / 11.1).ln());
@@ -243,7 +172,7 @@ mod tests {
                     doubt: None,
                 };
                 let values = [power_of(&first), power_of(&second)];
-                measure(String::new(), String::new(), ("%", 1.0), values.map(Ok))
+                measure(String::new(), String::new(), ("%", 1.0), values.map(Ok), None)
             };
             let distance = |power: i32| {
                 let difference = of(power).difference.unwrap();

@@ -78,20 +78,13 @@ fn picture(map: &Map) -> Result<Vec<u8>, String> {
 pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
     let each = (map.cells.len() as f64 / most as f64).sqrt().ceil() as usize;
     let each = each.max(map.columns.max(map.rows).div_ceil(LONGEST_SIDE)).clamp(1, map.columns.min(map.rows));
-    let [width, height] = [map.columns, map.rows].map(|size| size / each);
-    let mut sums = vec![0u64; width * height];
-    for row in 0..height * each {
-        let into = &mut sums[row / each * width..][..width];
-        for (pixel, cells) in into.iter_mut().zip(map.row(row).chunks_exact(each)) {
-            *pixel += cells.iter().map(|quanta| u64::from(*quanta)).sum::<u64>();
-        }
-    }
+    let (sides, sums) = map.squares(each);
     let count = sums.len() as f64;
     let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;
     let variance = sums.iter().map(|sum| (*sum as f64 - mean).powi(2)).sum::<f64>() / count;
     let deviation = variance.sqrt().max(1e-9 * mean).max(f64::MIN_POSITIVE);
     let levels: Vec<u8> = sums.into_iter().map(|sum| grey((sum as f64 - mean) / deviation)).collect();
-    png([width, height], png::BitDepth::Eight, &levels, &[], None).map(|png| (png, each))
+    png(sides, png::BitDepth::Eight, &levels, &[], None).map(|png| (png, each))
 }
 
 /// The map as on a light table, a pixel for each cell.

@@ -3,7 +3,7 @@
 use super::fabric::fabric_rows;
 use crate::Failure;
 use crate::failure::undrawable;
-use crate::numbers::{HARD, THIN, number, plus_minus};
+use crate::numbers::{HARD, THIN, capitalised, number, plus_minus};
 use crate::output::pictures::SOFTWARE;
 use spunlaid::web::Fabric;
 use spunlaid::web::map::Findings;
@@ -79,9 +79,7 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
 
 /// A note as a sentence.
 fn sentence(note: &str) -> String {
-    let mut letters = note.chars();
-    let begun: String =
-        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect());
+    let begun = capitalised(note);
     if begun.ends_with('.') { begun } else { begun + "." }
 }
 

@@ -121,25 +121,14 @@ impl Task for Look<'_> {
     }
 }
 
-/// The axes in which places and velocities are told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlaceAxes {
-    /// Of the case: from the root or the inlet, x along gravity, y in machine direction, z in cross direction.
-    Line,
-    /// Of the file of a CFD field.
-    Field,
-}
-
-impl PlaceAxes {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Line, Self::Field];
-
-    /// What they are called.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::Field => "field",
-        }
+named! {
+    /// The axes in which places and velocities are told.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PlaceAxes {
+        /// Of the case: from the root or the inlet, x along gravity, y in machine direction, z in cross direction.
+        Line = "line",
+        /// Of the file of a CFD field.
+        Field = "field",
     }
 }
 

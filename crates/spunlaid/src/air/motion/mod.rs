@@ -258,25 +258,14 @@ impl Lateral {
     }
 }
 
-/// Where the mean flow of a profile widens as it slows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Widening {
-    /// Nowhere: the velocity of the profile is all.
-    None,
-    /// Along y, the machine direction, as in a plane channel.
-    MachineDirection,
-}
-
-impl Widening {
-    /// Both.
-    pub(crate) const ALL: [Self; 2] = [Self::None, Self::MachineDirection];
-
-    /// Name in the case file.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::MachineDirection => "md",
-        }
+named! {
+    /// Where the mean flow of a profile widens as it slows.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Widening {
+        /// Nowhere: the velocity of the profile is all.
+        None = "none",
+        /// Along y, the machine direction, as in a plane channel.
+        MachineDirection = "md",
     }
 }
 

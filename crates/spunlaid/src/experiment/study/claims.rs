@@ -36,28 +36,16 @@ pub enum Statement {
     Follows(usize, Way),
 }
 
-/// How a result follows a factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
-    /// It rises from the least to the greatest value.
-    Rises,
-    /// It falls.
-    Falls,
-    /// It has its greatest or its least value between the ends.
-    Turns,
-}
-
-impl Way {
-    /// All.
-    pub(crate) const ALL: [Self; 3] = [Self::Rises, Self::Falls, Self::Turns];
-
-    /// The word in a study file.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Rises => "rises",
-            Self::Falls => "falls",
-            Self::Turns => "turns",
-        }
+named! {
+    /// How a result follows a factor.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Way {
+        /// It rises from the least to the greatest value.
+        Rises = "rises",
+        /// It falls.
+        Falls = "falls",
+        /// It has its greatest or its least value between the ends.
+        Turns = "turns",
     }
 }
 

@@ -38,22 +38,14 @@ pub enum Levels {
     },
 }
 
-/// How values are spaced over a range.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spacing {
-    /// With equal differences.
-    Linear,
-    /// With equal ratios.
-    Logarithmic,
-}
-
-impl Spacing {
-    /// Name in the study file.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Logarithmic => "log",
-        }
+named! {
+    /// How values are spaced over a range.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Spacing {
+        /// With equal differences.
+        Linear = "linear",
+        /// With equal ratios.
+        Logarithmic = "log",
     }
 }
 

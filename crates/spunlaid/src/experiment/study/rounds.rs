@@ -106,22 +106,14 @@ impl Rounds {
 
     /// The replicates of every point that the journal does not hold yet.
     pub fn missing(&self, journal: &Journal) -> Vec<Batch> {
-        let mut batches = Vec::new();
-        for (point, &wanted) in self.required.iter().enumerate() {
-            let mut start = None;
-            for replicate in 0..=wanted {
-                let lacks = replicate < wanted && !journal.holds(point, replicate);
-                match (lacks, start) {
-                    (true, None) => start = Some(replicate),
-                    (false, Some(first)) => {
-                        batches.push(Batch { point, replicates: first..replicate });
-                        start = None;
-                    }
-                    _ => {}
-                }
-            }
-        }
-        batches
+        let of_point = |(point, wanted): (usize, &u64)| {
+            let lacking: Vec<u64> = (0..*wanted).filter(|i| !journal.holds(point, *i)).collect();
+            let batches = lacking.chunk_by(|a, b| a + 1 == *b);
+            batches
+                .map(|all| Batch { point, replicates: all[0]..all[0] + all.len() as u64 })
+                .collect::<Vec<_>>()
+        };
+        self.required.iter().enumerate().flat_map(of_point).collect()
     }
 
     /// Goes on to the next round, once the journal holds all fibres of this one. False if the study is complete.

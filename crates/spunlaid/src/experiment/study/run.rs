@@ -6,7 +6,7 @@ use super::pack::{Batch, LostReplicate, fly_and_land};
 use super::rounds::Rounds;
 use super::{Point, Study, spinlines, webs};
 use crate::ground::Error;
-use crate::ground::threads::{lock, look_while};
+use crate::ground::threads::{lock, look_while, unlock};
 use crate::simulation::{Keep, RunControl, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -64,27 +64,33 @@ pub fn fly_bundle(
     bundle: &[Batch],
     computing: RunControl<'_>,
 ) -> Result<Vec<Record>, Error> {
-    let (mut all, steps) = (Vec::new(), AtomicU64::new(0));
-    webs::lay((points, sides), bundle, computing, &steps, |record| {
-        all.push(record);
+    let (all, steps) = (Mutex::new(Vec::new()), AtomicU64::new(0));
+    make((points, sides), bundle, computing, &steps, &|records: Vec<Record>| {
+        lock(&all).extend(records);
         Ok(())
     })?;
-    spinlines::solve(points, bundle, computing, |record| {
-        all.push(record);
-        Ok(())
-    })?;
-    let bundle: Vec<Batch> = flights(points, bundle);
-    let land = |trajectories, lost| Ok(records(trajectories, lost));
-    fly_and_land(points, &bundle, Keep::NUMBERS, computing, land, |records| {
-        all.extend(records);
-        Ok::<(), Error>(())
-    })?;
+    let mut all = unlock(all);
+    all.sort_by_key(|record| (record.point, record.replicate));
     Ok(all)
 }
 
-/// The batches that are flown.
-fn flights(points: &[Point], batches: &[Batch]) -> Vec<Batch> {
-    batches.iter().filter(|batch| points[batch.point].experiment.case().is_some()).cloned().collect()
+/// Makes the replicates of some batches: lays webs, solves spinlines and flies fibres.
+///
+/// * `steps` – becomes larger by those of the webs
+/// * `keep` – receives the records of each web, of each spinline and of each flight, from several threads
+fn make(
+    (points, sides): (&[Point], &[f64]),
+    batches: &[Batch],
+    computing: RunControl<'_>,
+    steps: &AtomicU64,
+    keep: &(impl Fn(Vec<Record>) -> Result<(), Error> + Sync),
+) -> Result<(), Error> {
+    webs::lay((points, sides), batches, computing, steps, |record| keep(vec![record]))?;
+    spinlines::solve(points, batches, computing, |record| keep(vec![record]))?;
+    let flies = |batch: &&Batch| points[batch.point].experiment.case().is_some();
+    let flown: Vec<Batch> = batches.iter().filter(flies).cloned().collect();
+    let land = |trajectories, lost| keep(records(trajectories, lost));
+    fly_and_land(points, &flown, Keep::NUMBERS, computing, land, Ok)
 }
 
 fn fly_missing(
@@ -99,27 +105,14 @@ fn fly_missing(
     if batches.is_empty() {
         return Ok(());
     }
-    let keep = |records: &[Record]| {
-        lock(journal).add(records)?;
-        lacking.landed(records, progress);
-        Ok(())
-    };
-    let land =
-        |trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>| keep(&records(trajectories, lost));
     with_sync(journal, |failed| {
-        webs::lay((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, |record| {
+        let keep = |records: Vec<Record>| {
             failed().map_or(Ok(()), Err)?;
-            keep(&[record])
-        })?;
-        spinlines::solve(&study.points, &batches, computing, |record| {
-            failed().map_or(Ok(()), Err)?;
-            keep(&[record])
-        })?;
-        let batches = flights(&study.points, &batches);
-        fly_and_land(&study.points, &batches, Keep::NUMBERS, computing, land, |()| match failed() {
-            Some(error) => Err(error),
-            None => Ok(()),
-        })
+            lock(journal).add(&records)?;
+            lacking.landed(&records, progress);
+            Ok(())
+        };
+        make((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, &keep)
     })?
 }
 
@@ -127,7 +120,7 @@ fn fly_missing(
 /// `work` receives a function that returns the error of a failed flush.
 fn with_sync<T>(
     journal: &Mutex<Journal>,
-    work: impl FnOnce(&dyn Fn() -> Option<Error>) -> T,
+    work: impl FnOnce(&(dyn Fn() -> Option<Error> + Sync)) -> T,
 ) -> Result<T, Error> {
     let Some(file) = lock(journal).handle()? else {
         return Ok(work(&|| None));

@@ -85,17 +85,19 @@ pub struct PolymerFile {
     pub source: String,
 }
 
-/// A polymer whose constants the program has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Polymer {
-    /// Isotactic polypropylene.
-    Pp,
-    /// Polyethylene terephthalate.
-    Pet,
-    /// Polyamide 6.
-    Pa6,
-    /// Polylactide.
-    Pla,
+named! {
+    /// A polymer whose constants the program has.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Polymer {
+        /// Isotactic polypropylene.
+        Pp = "pp",
+        /// Polyethylene terephthalate.
+        Pet = "pet",
+        /// Polyamide 6.
+        Pa6 = "pa6",
+        /// Polylactide.
+        Pla = "pla",
+    }
 }
 
 /// 0 °C [K].
@@ -118,19 +120,6 @@ const CHOSEN: Crystals = Crystals {
 };
 
 impl Polymer {
-    /// Every polymer.
-    pub const ALL: [Self; 4] = [Self::Pp, Self::Pet, Self::Pa6, Self::Pla];
-
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pp => "pp",
-            Self::Pet => "pet",
-            Self::Pa6 => "pa6",
-            Self::Pla => "pla",
-        }
-    }
-
     /// Its constants.
     ///
     /// * `crystallises` – whether crystallisation is computed. Polypropylene freezes where crystallisation

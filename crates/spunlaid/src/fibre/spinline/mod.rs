@@ -124,17 +124,19 @@ pub enum End {
     TakeUp(f64),
 }
 
-/// How the melt resists stretching.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    /// `N_1 = 3ηv'`.
-    Newtonian,
-    /// Giesekus, one mode.
-    Giesekus,
-    /// Phan-Thien–Tanner, linear.
-    Ptt,
-    /// Phan-Thien–Tanner, exponential.
-    PttExponential,
+named! {
+    /// How the melt resists stretching.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Law {
+        /// `N_1 = 3ηv'`.
+        Newtonian = "newtonian",
+        /// Giesekus, one mode.
+        Giesekus = "giesekus",
+        /// Phan-Thien–Tanner, linear.
+        Ptt = "ptt",
+        /// Phan-Thien–Tanner, exponential.
+        PttExponential = "ptt-exponential",
+    }
 }
 
 /// The rows of holes that one stream of air crosses, the quenched side first.
@@ -144,21 +146,6 @@ pub struct Curtain {
     pub rows: u64,
     /// Filaments per width in each row [1/m].
     pub filaments_per_metre: f64,
-}
-
-impl Law {
-    /// Every law.
-    pub const ALL: [Self; 4] = [Self::Newtonian, Self::Giesekus, Self::Ptt, Self::PttExponential];
-
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Newtonian => "newtonian",
-            Self::Giesekus => "giesekus",
-            Self::Ptt => "ptt",
-            Self::PttExponential => "ptt-exponential",
-        }
-    }
 }
 
 impl Spinline {

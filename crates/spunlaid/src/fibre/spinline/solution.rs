@@ -85,22 +85,14 @@ pub struct Freezing {
     pub by: FreezingCause,
 }
 
-/// What makes the thread solid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FreezingCause {
-    /// It is as cold as the freezing temperature.
-    Temperature,
-    /// Enough of it has crystallised.
-    Crystallisation,
-}
-
-impl FreezingCause {
-    /// Its name in results.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Temperature => "temperature",
-            Self::Crystallisation => "crystallisation",
-        }
+named! {
+    /// What makes the thread solid.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FreezingCause {
+        /// It is as cold as the freezing temperature.
+        Temperature = "temperature",
+        /// Enough of it has crystallised.
+        Crystallisation = "crystallisation",
     }
 }
 

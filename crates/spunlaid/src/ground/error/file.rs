@@ -3,41 +3,30 @@
 use super::{Fault, memory, shortest};
 use std::fmt;
 
-/// The kind of a file that is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileKind {
-    /// A case.
-    Case,
-    /// A study.
-    Study,
-    /// A web.
-    Web,
-    /// A spinline.
-    Spinline,
-    /// A velocity record.
-    Record,
-    /// A field of air.
-    Field,
-    /// A profile or a spectrum.
-    Table,
-    /// A scan or a map of a web.
-    Scan,
+named! {
+    /// The kind of a file that is read.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum FileKind {
+        /// A case.
+        Case = "case file",
+        /// A study.
+        Study = "study file",
+        /// A web.
+        Web = "file of a web",
+        /// A spinline.
+        Spinline = "file of a spinline",
+        /// A velocity record.
+        Record = "velocity record",
+        /// A field of air.
+        Field = "field of air",
+        /// A profile or a spectrum.
+        Table = "table",
+        /// A scan or a map of a web.
+        Scan = "scan of a web",
+    }
 }
 
 impl FileKind {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Case => "case file",
-            Self::Study => "study file",
-            Self::Web => "file of a web",
-            Self::Spinline => "file of a spinline",
-            Self::Record => "velocity record",
-            Self::Field => "field of air",
-            Self::Table => "table",
-            Self::Scan => "scan of a web",
-        }
-    }
-
     const fn formats(self) -> &'static str {
         match self {
             Self::Case | Self::Study | Self::Web | Self::Spinline => "UTF-8 text",

@@ -1,15 +1,17 @@
 //! The instruction sets.
 
-/// An instruction set for which the kernel is compiled. All give the same bits; they differ in speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Isa {
-    /// x86-64 with AVX-512 F, DQ and VL: eight lanes in one register.
-    Avx512,
-    /// x86-64 with AVX2, FMA and F16C: eight lanes in two registers.
-    Avx2,
-    /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled
-    /// for size, and fused multiply-add is computed in software, exactly but slowly.
-    Baseline,
+named! {
+    /// An instruction set for which the kernel is compiled. All give the same bits; they differ in speed.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Isa {
+        /// x86-64 with AVX-512 F, DQ and VL: eight lanes in one register.
+        Avx512 = "AVX-512",
+        /// x86-64 with AVX2, FMA and F16C: eight lanes in two registers.
+        Avx2 = "AVX2",
+        /// The instructions that every machine of the target has, in one plain kernel. On x86-64 it is compiled
+        /// for size, and fused multiply-add is computed in software, exactly but slowly.
+        Baseline = "baseline",
+    }
 }
 
 impl Isa {
@@ -42,14 +44,5 @@ impl Isa {
     /// The fastest instruction set that this machine can run.
     pub fn detect() -> Self {
         Self::available()[0]
-    }
-
-    /// A short name: `AVX-512`, `AVX2`, `baseline`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Avx512 => "AVX-512",
-            Self::Avx2 => "AVX2",
-            Self::Baseline => "baseline",
-        }
     }
 }

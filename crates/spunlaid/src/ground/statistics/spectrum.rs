@@ -4,31 +4,21 @@ use crate::ground::fft::{Complex, InverseTransform};
 use crate::ground::lanes::{Lanes, WIDTH};
 use std::f64::consts::PI;
 
-/// The window function that multiplies each segment.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Window {
-    /// `sin²`: little leakage from distant frequencies.
-    #[default]
-    Hann,
-    /// `sin²` on a pedestal: a narrower line, but more leakage from distant frequencies.
-    Hamming,
-    /// One everywhere: the narrowest line and the most leakage.
-    Rectangular,
+named! {
+    /// The window function that multiplies each segment.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Window {
+        /// `sin²`: little leakage from distant frequencies.
+        #[default]
+        Hann = "hann",
+        /// `sin²` on a pedestal: a narrower line, but more leakage from distant frequencies.
+        Hamming = "hamming",
+        /// One everywhere: the narrowest line and the most leakage.
+        Rectangular = "rectangular",
+    }
 }
 
 impl Window {
-    /// All windows.
-    pub const ALL: [Self; 3] = [Self::Hann, Self::Hamming, Self::Rectangular];
-
-    /// Name on the command line: `hann`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Hann => "hann",
-            Self::Hamming => "hamming",
-            Self::Rectangular => "rectangular",
-        }
-    }
-
     fn at(self, place: f64) -> f64 {
         let hann = libm::sin(PI * place) * libm::sin(PI * place);
         match self {

@@ -28,26 +28,24 @@ const TABLE_1: (&str, &str) = file!("cases/table1.toml");
 /// The file of Table 1.
 pub const TABLE1: &str = TABLE_1.1;
 
-/// A parameter of Table 1 that the paper varies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Parameter {
-    /// Mean velocity, Figure 9.
-    Velocity,
-    /// Turbulence intensity, Figure 10.
-    Intensity,
-    /// Fibre diameter, Figure 11a.
-    Diameter,
-    /// Turbulent length scale, Figure 11b.
-    LengthScale,
-    /// Cut-off frequency at constant rms, Figure 11c.
-    Cutoff,
+named! {
+    /// A parameter of Table 1 that the paper varies.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Parameter {
+        /// Mean velocity, Figure 9.
+        Velocity = "mean air velocity",
+        /// Turbulence intensity, Figure 10.
+        Intensity = "turbulence intensity",
+        /// Fibre diameter, Figure 11a.
+        Diameter = "fibre diameter",
+        /// Turbulent length scale, Figure 11b.
+        LengthScale = "turbulent length scale",
+        /// Cut-off frequency at constant rms, Figure 11c.
+        Cutoff = "frequency of turbulence",
+    }
 }
 
 impl Parameter {
-    /// All of them, in the order of the figures.
-    pub const ALL: [Self; 5] =
-        [Self::Velocity, Self::Intensity, Self::Diameter, Self::LengthScale, Self::Cutoff];
-
     /// The number of its figure: `9`, `11a`.
     pub const fn figure(self) -> &'static str {
         match self {
@@ -56,17 +54,6 @@ impl Parameter {
             Self::Diameter => "11a",
             Self::LengthScale => "11b",
             Self::Cutoff => "11c",
-        }
-    }
-
-    /// Its name.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Velocity => "mean air velocity",
-            Self::Intensity => "turbulence intensity",
-            Self::Diameter => "fibre diameter",
-            Self::LengthScale => "turbulent length scale",
-            Self::Cutoff => "frequency of turbulence",
         }
     }
 

@@ -200,94 +200,45 @@ impl<T> Measure<T> {
         Self { column, label, unit, formula, ..Self::NUMBER }
     }
 
-    /// Another one that an observer takes: its name in a study file, in tables, and its label.
-    pub(super) const fn observed(
-        self,
-        name: &'static str,
-        column: &'static str,
-        label: &'static str,
-    ) -> Self {
-        Self { name, column, label, ..self }
-    }
-
-    /// Sets its definition in words.
-    pub(super) const fn meaning(self, meaning: &'static str) -> Self {
-        Self { meaning, ..self }
-    }
-
-    /// Sets its label on the terminal; empty leaves it out there.
-    pub(super) const fn short(self, short: &'static str) -> Self {
-        Self { short: Some(short), ..self }
-    }
-
-    /// Sets the statistic over the replicates that is shown.
-    pub(super) const fn aggregate(self, aggregate: Aggregate) -> Self {
-        Self { aggregate, ..self }
-    }
-
-    /// Sets the unit in which it is shown.
-    pub(super) const fn unit(self, unit: Unit) -> Self {
-        Self { unit, ..self }
-    }
-
-    /// Sets the SI value that is shown as zero.
-    pub(super) const fn zero(self, zero: f64) -> Self {
-        Self { zero, ..self }
-    }
-
-    /// Sets the number of digits that are shown.
-    pub(super) const fn digits(self, digits: i32) -> Self {
-        Self { digits: Some(digits), ..self }
-    }
-
-    /// Says what is special of a value.
-    pub(super) const fn remark(self, remark: fn(&T) -> Option<String>) -> Self {
-        Self { remark, ..self }
-    }
-
-    /// Limits it to some tables.
-    pub(super) const fn shown_if(self, is_shown: fn(&T) -> bool) -> Self {
-        Self { is_shown, ..self }
-    }
-
-    /// Adds its errors.
-    pub(super) const fn errors(self, errors: &'static [Self]) -> Self {
-        Self { errors, ..self }
-    }
-
-    /// Says what it is to the measure whose error it is.
-    pub(super) const fn role(self, role: ErrorRole) -> Self {
-        Self { role, ..self }
-    }
-
-    /// Puts it into studies under a name, in a column that is named as in `summary.json`.
-    pub(super) const fn named(self, name: &'static str) -> Self {
-        Self { name, ..self }
+    setters! {
+        pub(super) fn:
+        /// Another one that an observer takes: its name in a study file, in tables, and its label.
+        observed(name: &'static str, column: &'static str, label: &'static str) { name, column, label }
+        /// Sets its definition in words.
+        meaning(meaning: &'static str) { meaning }
+        /// Sets its label on the terminal; empty leaves it out there.
+        short(short: &'static str) { short: Some(short) }
+        /// Sets the statistic over the replicates that is shown.
+        aggregate(aggregate: Aggregate) { aggregate }
+        /// Sets the unit in which it is shown.
+        unit(unit: Unit) { unit }
+        /// Sets the SI value that is shown as zero.
+        zero(zero: f64) { zero }
+        /// Sets the number of digits that are shown.
+        digits(digits: i32) { digits: Some(digits) }
+        /// Says what is special of a value.
+        remark(remark: fn(&T) -> Option<String>) { remark }
+        /// Limits it to some tables.
+        shown_if(is_shown: fn(&T) -> bool) { is_shown }
+        /// Adds its errors.
+        errors(errors: &'static [Self]) { errors }
+        /// Says what it is to the measure whose error it is.
+        role(role: ErrorRole) { role }
+        /// Puts it into studies under a name, in a column that is named as in `summary.json`.
+        named(name: &'static str) { name }
+        /// Puts it into the tables of studies too.
+        main() { is_main: true }
+        /// Says that another part of `summary.json` has it.
+        elsewhere() { entry: Some("") }
+        /// Puts it into a figure of studies.
+        figure(figure: &'static Figure) { figure }
+        /// Sets its label in its figure.
+        series(series: &'static str) { series }
     }
 
     /// Puts it into studies under a name, in a column that has another name than in `summary.json`.
     pub(super) const fn kept(self, name: &'static str, column: &'static str) -> Self {
         Self { name, column, entry: Some(self.column), ..self }
-    }
-
-    /// Puts it into the tables of studies too.
-    pub(super) const fn main(self) -> Self {
-        Self { is_main: true, ..self }
-    }
-
-    /// Says that another part of `summary.json` has it.
-    pub(super) const fn elsewhere(self) -> Self {
-        Self { entry: Some(""), ..self }
-    }
-
-    /// Puts it into a figure of studies.
-    pub(super) const fn figure(self, figure: &'static Figure) -> Self {
-        Self { figure, ..self }
-    }
-
-    /// Sets its label in its figure.
-    pub(super) const fn series(self, series: &'static str) -> Self {
-        Self { series, ..self }
     }
 
     /// Its name in `summary.json` or `analysis.json`.

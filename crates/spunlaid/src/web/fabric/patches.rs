@@ -109,14 +109,7 @@ pub(super) fn lightest(map: &Map, side: usize, most: usize) -> Vec<([usize; 2], 
 /// Weights over their mean of patches side by side, whose side is about this: the nearest whole number of cells.
 pub(super) fn weights(map: &Map, patch: f64) -> Vec<f64> {
     let side = ((patch / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
-    let [columns, rows] = [map.columns / side, map.rows / side];
-    let mut sums = vec![0u64; columns * rows];
-    for row in 0..rows * side {
-        let sums = &mut sums[row / side * columns..][..columns];
-        for (sum, cells) in sums.iter_mut().zip(map.row(row).chunks_exact(side)) {
-            *sum += cells.iter().map(|cell| u64::from(*cell)).sum::<u64>();
-        }
-    }
+    let (_, sums) = map.squares(side);
     let mean = sums.iter().sum::<u64>() as f64 / sums.len() as f64;
     sums.into_iter().map(|sum| sum as f64 / mean).collect()
 }

@@ -88,6 +88,20 @@ impl Map {
         Self { columns, rows, cell, quantum: self.quantum / scale, closed: [false; 2], cells }
     }
 
+    /// Quanta in squares of so many cells, side by side: how many squares there are across and along, and the sums of
+    /// each, row after row. What is less than a square at the far edges is left out.
+    pub fn squares(&self, side: usize) -> ([usize; 2], Vec<u64>) {
+        let [columns, rows] = [self.columns / side, self.rows / side];
+        let mut sums = vec![0; columns * rows];
+        for row in 0..rows * side {
+            let into = &mut sums[row / side * columns..][..columns];
+            for (sum, cells) in into.iter_mut().zip(self.row(row).chunks_exact(side)) {
+                *sum += cells.iter().map(|quanta| u64::from(*quanta)).sum::<u64>();
+            }
+        }
+        ([columns, rows], sums)
+    }
+
     /// The quanta of a row.
     pub fn row(&self, row: usize) -> &[u32] {
         &self.cells[row * self.columns..][..self.columns]

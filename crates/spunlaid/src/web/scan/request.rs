@@ -12,30 +12,20 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// What the values of a picture are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LightKind {
-    /// Light that has come through the web.
-    Transmitted,
-    /// Light that a web on a black ground throws back.
-    Reflected,
-    /// Basis weights.
-    Weight,
+named! {
+    /// What the values of a picture are.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum LightKind {
+        /// Light that has come through the web.
+        Transmitted = "transmitted",
+        /// Light that a web on a black ground throws back.
+        Reflected = "reflected",
+        /// Basis weights.
+        Weight = "weight",
+    }
 }
 
 impl LightKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Transmitted, Self::Reflected, Self::Weight];
-
-    /// Its name: `transmitted`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Transmitted => "transmitted",
-            Self::Reflected => "reflected",
-            Self::Weight => "weight",
-        }
-    }
-
     /// What is usual for a picture.
     const fn usual(picture: &Picture) -> Self {
         if picture.holds_light() { Self::Transmitted } else { Self::Weight }

@@ -2,23 +2,25 @@
 
 use crate::ground::{Fault, FileError, Position};
 
-/// The shape of a cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// Four points.
-    Tetrahedron,
-    /// Five points: those of the base in order around it, then the tip.
-    Pyramid,
-    /// Six points, a triangular prism: those of one triangle in order around it, then the opposite ones.
-    Wedge,
-    /// Eight points: those of one face in order around it, then the opposite ones.
-    Hexahedron,
-    /// Ten points: those of one pentagon in order around it, then the opposite ones.
-    PentagonalPrism,
-    /// Twelve points: those of one hexagon in order around it, then the opposite ones.
-    HexagonalPrism,
-    /// Any number of faces; added with [`Cells::push_polyhedron`].
-    Polyhedron,
+named! {
+    /// The shape of a cell.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Shape {
+        /// Four points.
+        Tetrahedron = "a tetrahedron",
+        /// Five points: those of the base in order around it, then the tip.
+        Pyramid = "a pyramid",
+        /// Six points, a triangular prism: those of one triangle in order around it, then the opposite ones.
+        Wedge = "a wedge",
+        /// Eight points: those of one face in order around it, then the opposite ones.
+        Hexahedron = "a hexahedron",
+        /// Ten points: those of one pentagon in order around it, then the opposite ones.
+        PentagonalPrism = "a pentagonal prism",
+        /// Twelve points: those of one hexagon in order around it, then the opposite ones.
+        HexagonalPrism = "a hexagonal prism",
+        /// Any number of faces; added with [`Cells::push_polyhedron`].
+        Polyhedron = "a polyhedron",
+    }
 }
 
 impl Shape {
@@ -64,19 +66,6 @@ impl Shape {
             Self::PentagonalPrism => 10,
             Self::HexagonalPrism => 12,
             Self::Polyhedron => 0,
-        }
-    }
-
-    /// Name with its article.
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Tetrahedron => "a tetrahedron",
-            Self::Pyramid => "a pyramid",
-            Self::Wedge => "a wedge",
-            Self::Hexahedron => "a hexahedron",
-            Self::PentagonalPrism => "a pentagonal prism",
-            Self::HexagonalPrism => "a hexagonal prism",
-            Self::Polyhedron => "a polyhedron",
         }
     }
 }

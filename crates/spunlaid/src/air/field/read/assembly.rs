@@ -122,7 +122,7 @@ impl<'l> Assembly<'l> {
         let (mut field, more) = join(parts, &gaps)?;
         warnings.extend(more);
         if !field.has_turbulence() {
-            sources.retain(|(quantity, _)| *quantity == Measure::Velocity.symbol());
+            sources.retain(|(quantity, _)| *quantity == Measure::Velocity.name());
         }
         (field.lacks, field.sources, field.layout) = (lacks, sources, layout.clone());
         Ok((field, warnings))

@@ -154,14 +154,16 @@ pub(super) fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], F
     Ok(best)
 }
 
-/// The dimension of a quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Measure {
-    Length,
-    Velocity,
-    K,
-    Epsilon,
-    Omega,
+named! {
+    /// The dimension of a quantity.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(super) enum Measure {
+        Length = "length",
+        Velocity = "velocity",
+        K = "k",
+        Epsilon = "ε",
+        Omega = "ω",
+    }
 }
 
 impl Measure {
@@ -212,17 +214,6 @@ impl Measure {
             Self::K => "air.field_k",
             Self::Epsilon => "air.field_epsilon",
             Self::Omega => "air.field_omega",
-        }
-    }
-
-    /// Its name or symbol in messages.
-    pub(super) const fn symbol(self) -> &'static str {
-        match self {
-            Self::Length => "length",
-            Self::Velocity => "velocity",
-            Self::K => "k",
-            Self::Epsilon => "ε",
-            Self::Omega => "ω",
         }
     }
 

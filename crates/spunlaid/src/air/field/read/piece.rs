@@ -112,7 +112,7 @@ impl Reader<'_, '_> {
 
     /// Notes from which arrays a quantity was read, once for all pieces.
     fn note(&mut self, measure: Measure, names: String) {
-        let source = (measure.symbol(), names);
+        let source = (measure.name(), names);
         if !self.sources.contains(&source) {
             self.sources.push(source);
         }

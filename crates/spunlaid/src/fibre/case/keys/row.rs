@@ -258,61 +258,23 @@ impl NewKey {
 }
 
 impl<T> Key<T> {
-    pub(crate) const fn required(self, example: &'static str) -> Self {
-        Self { omission: Omission::Required(example), ..self }
-    }
-
-    pub(crate) const fn value(self, value: &'static str) -> Self {
-        Self { omission: Omission::Value(value), ..self }
-    }
-
-    pub(crate) const fn follows(self, words: &'static str) -> Self {
-        Self { omission: Omission::Follows(words), ..self }
-    }
-
-    pub(crate) const fn meaning(self, meaning: &'static str) -> Self {
-        Self { meaning, ..self }
-    }
-
-    pub(crate) const fn synonyms(self, synonyms: &'static [&'static str]) -> Self {
-        Self { synonyms, ..self }
-    }
-
-    pub(crate) const fn label(self, label: &'static str) -> Self {
-        Self { label, ..self }
-    }
-
-    pub(crate) const fn slider(self, least: f64, greatest: f64) -> Self {
-        Self { slider: Some((least, greatest)), ..self }
-    }
-
-    pub(crate) const fn usual(self, least: f64, greatest: f64) -> Self {
-        Self { usual: Some((least, greatest)), ..self }
-    }
-
-    pub(crate) const fn varies(self) -> Self {
-        Self { varies: true, ..self }
-    }
-
-    pub(crate) const fn fixed(self) -> Self {
-        Self { varies: false, ..self }
-    }
-
-    pub(crate) const fn in_flight(self) -> Self {
-        Self { in_flight: true, ..self }
-    }
-
-    pub(crate) const fn read_last(self) -> Self {
-        Self { read_last: true, ..self }
-    }
-
-    /// Words that may stand in place of a number.
-    pub(crate) const fn or_words(self, words: &'static [&'static str]) -> Self {
-        Self { words, ..self }
-    }
-
-    pub(crate) const fn derived(self, derived: fn(&T) -> bool) -> Self {
-        Self { derived, ..self }
+    setters! {
+        pub(crate) fn:
+        required(example: &'static str) { omission: Omission::Required(example) }
+        value(value: &'static str) { omission: Omission::Value(value) }
+        follows(words: &'static str) { omission: Omission::Follows(words) }
+        meaning(meaning: &'static str) { meaning }
+        synonyms(synonyms: &'static [&'static str]) { synonyms }
+        label(label: &'static str) { label }
+        slider(least: f64, greatest: f64) { slider: Some((least, greatest)) }
+        usual(least: f64, greatest: f64) { usual: Some((least, greatest)) }
+        varies() { varies: true }
+        fixed() { varies: false }
+        in_flight() { in_flight: true }
+        read_last() { read_last: true }
+        /// Words that may stand in place of a number.
+        or_words(words: &'static [&'static str]) { words }
+        derived(derived: fn(&T) -> bool) { derived }
     }
 }
 

@@ -21,15 +21,16 @@ use crate::ground::Estimate;
 pub(super) use flights::Paths;
 pub use flights::RunPaths;
 pub use plan::{FinerPlan, FinerPlans};
-use std::fmt::{self, Display, Formatter};
 
-/// What is finer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refinement {
-    /// The time step.
-    TimeStep,
-    /// The elements.
-    Elements,
+named! {
+    /// What is finer.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Refinement {
+        /// The time step.
+        TimeStep = "time step",
+        /// The elements.
+        Elements = "mesh",
+    }
 }
 
 /// A statistic that is compared: the mean of some measures.
@@ -202,22 +203,31 @@ impl FinerCheck {
 }
 
 /// Why the step or the mesh of a run is not checked. Its text is a sentence without a full stop.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unchecked {
     /// The case says so.
+    #[error("it was not asked for")]
     NotAsked,
     /// The results are there before the check has been flown.
+    #[error("these results were written before the check was flown")]
     Pending,
     /// It was interrupted.
+    #[error("it was stopped")]
     Stopped,
     /// It would cost more than it may.
+    #[error(
+        "it would take {times:.digits$} times the computing time of the run; write run.checks = \"full\" for it",
+        digits = usize::from(*.times < 10.0)
+    )]
     Dear {
         /// Computing time of a check of the whole run, in computing times of the run.
         times: f64,
     },
     /// There are too few recorded instants, or the fibre does not come down.
+    #[error("the run is too short for it")]
     TooShort,
     /// Another reason.
+    #[error("{0}")]
     Other(String),
 }
 
@@ -229,25 +239,5 @@ impl Unchecked {
     /// Whether the error of the run is left open though it could be known.
     pub const fn leaves_doubt(&self) -> bool {
         matches!(self, Self::Pending | Self::Stopped | Self::Dear { .. })
-    }
-}
-
-impl Display for Unchecked {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotAsked => write!(f, "it was not asked for"),
-            Self::Pending => write!(f, "these results were written before the check was flown"),
-            Self::Stopped => write!(f, "it was stopped"),
-            Self::Dear { times } => {
-                let digits = usize::from(*times < 10.0);
-                write!(
-                    f,
-                    "it would take {times:.digits$} times the computing time of the run; write run.checks = \
-                    \"full\" for it"
-                )
-            }
-            Self::TooShort => write!(f, "the run is too short for it"),
-            Self::Other(why) => write!(f, "{why}"),
-        }
     }
 }

@@ -1,37 +1,27 @@
 //! The table of the unevenness over patches, the same in the report and on the terminal.
 
+use super::table::{Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
 use spunlaid::simulation::{ErrorRole, Measure, OF_PATCHES};
 use spunlaid::web::map::{Findings, PatchFindings};
 
 /// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PatchTable {
-    /// Heads of the columns.
-    pub heads: Vec<&'static str>,
-    /// The cells of each row.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl PatchTable {
-    /// The table of a web that has been laid.
-    pub fn new(findings: &Findings) -> Self {
-        // That of a web of few filaments holds what these do too.
-        let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
-            true => ["Patch", "CV of this web", "by chance", "95 % interval"],
-            false => ["Patch", "CV of this map", "by chance", "95 % by chance"],
-        };
-        let declared = columns(findings);
-        let row = |patch: &PatchFindings| {
-            let cells = declared.iter().map(|measure| cell(text(&measure.of(patch))));
-            cells_of_map(patch).into_iter().chain(cells).collect()
-        };
-        Self {
-            heads: of_map.into_iter().chain(declared.iter().map(|measure| measure.terse())).collect(),
-            rows: findings.patches.iter().map(row).collect(),
-        }
-    }
+///
+/// * `with` – a table with some heads
+pub(super) fn patch_table(findings: &Findings, with: fn(Vec<&'static str>) -> Table) -> Table {
+    // That of a web of few filaments holds what these do too.
+    let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
+        true => ["Patch", "CV of this web", "by chance", "95 % interval"],
+        false => ["Patch", "CV of this map", "by chance", "95 % by chance"],
+    };
+    let declared = columns(findings);
+    let row = |patch: &PatchFindings| {
+        let cells = declared.iter().map(|measure| cell(text(&measure.of(patch))));
+        Row::from(cells_of_map(patch).into_iter().chain(cells).collect::<Vec<_>>())
+    };
+    let heads = of_map.into_iter().chain(declared.iter().map(|measure| measure.terse()));
+    with(heads.collect()).rows(findings.patches.iter().map(row))
 }
 
 /// The declared columns that a web has, in their order: after that of the CV its further errors,
