@@ -129,7 +129,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     let sentence =
-        "40 filaments of all were flown, evenly across, on a sheet of 160\u{202f}mm × 1.25\u{202f}m;";
+        "Of all filaments, 40 were flown, evenly across, on a sheet of 160\u{202f}mm × 1.25\u{202f}m;";
     assert!(page.contains(sentence), "no {sentence}");
 
     // The same bits from any number of threads, and from the folder.

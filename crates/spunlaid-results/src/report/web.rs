@@ -288,13 +288,12 @@ fn error_sentences(findings: &Findings) -> String {
         None => "an unknown part".to_owned(),
     };
     if let (Some(_), Some(together)) = (patch.few, &findings.laid.shared_air) {
-        let filaments = together.few.iter().map(|few| few.filaments).sum();
+        let filaments: u64 = together.few.iter().map(|few| few.filaments).sum();
         let sheets = together.few.iter().map(|few| few.sheet.map(metres).join(" × "));
         let mut sheets: Vec<String> = sheets.collect();
         sheets.dedup();
         let flown = format!(
-            "{} of all were flown, evenly across, on a sheet of {}",
-            count(filaments, "filament"),
+            "Of all filaments, {filaments} were flown, evenly across, on a sheet of {}",
             sheets.join(" and of ")
         );
         if patch.doubt.is_some() {
