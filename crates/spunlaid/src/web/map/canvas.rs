@@ -1,7 +1,7 @@
 //! A map on which many threads draw at once.
 
+use super::basis_weight::Map;
 use super::laid_web::{HIGHEST, LaidWeb, too_full};
-use super::map::Map;
 use super::window::floor;
 use super::{Edges, Sheet};
 use crate::ground::Fault;

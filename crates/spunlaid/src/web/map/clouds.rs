@@ -1,6 +1,6 @@
 //! The clouds of a web: how the variance of its basis weight divides among their sizes.
 
-use super::map::Map;
+use super::basis_weight::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
 use crate::ground::Estimate;

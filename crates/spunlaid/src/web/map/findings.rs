@@ -1,12 +1,12 @@
 //! Everything that is found out about a web.
 
+use super::basis_weight::Map;
 use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
 use super::laid_web::{LaidWeb, LayControl, SharedAirFindings};
 use super::lay::lay;
-use super::map::Map;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};

@@ -1,7 +1,7 @@
 //! What has been laid.
 
+use super::basis_weight::Map;
 use super::few_findings::{FewDoubt, LayerFew};
-use super::map::Map;
 use super::window::Strand;
 use crate::fibre::SheetHeight;
 use crate::ground::statistics::student_t_95_at;

@@ -6,6 +6,7 @@
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
+mod basis_weight;
 mod canvas;
 mod clouds;
 mod defects;
@@ -16,7 +17,6 @@ mod few_findings;
 mod findings;
 mod laid_web;
 mod lay;
-mod map;
 mod one_fibre;
 mod orientation;
 mod plan;
@@ -27,6 +27,7 @@ mod waves;
 mod window;
 
 use crate::web::surrogate::Surrogate;
+pub use basis_weight::Map;
 pub(crate) use canvas::{Canvas, CanvasPart};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
@@ -46,7 +47,6 @@ pub use laid_web::{
     TimeSpent,
 };
 pub use lay::{lay, pieces, strands};
-pub use map::Map;
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! How uneven a web is: the coefficient of variation of its basis weight over square patches.
 
-use super::map::Map;
+use super::basis_weight::Map;
 use super::waves::{FEWEST, Parts, Places, Powers};
 use crate::ground::statistics::{interval_of_deviation, interval_of_deviation_by, student_t_95_at};
 

@@ -14,9 +14,9 @@ mod products;
 #[cfg(test)]
 mod tests;
 
+use super::basis_weight::Map;
 use super::canvas::Canvas;
 use super::few_findings::{FewFilamentsCv, LayerFew};
-use super::map::Map;
 use super::uniformity::{boxes, unevenness};
 use super::{Edges, Sheet};
 use crate::ground::Error;
