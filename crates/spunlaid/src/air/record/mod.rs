@@ -17,7 +17,7 @@
 //! formulas are in `docs/analyse.md` of the repository.
 //!
 //! **Limits.** Samples are evenly spaced to within 1 %; up to [`LONGEST_GAP`] missing samples in a row are
-//! interpolated linearly. A record has at least 64 samples and at most [`MOST_NUMBERS`] numbers of 8 bytes.
+//! interpolated linearly. A record has at least 64 samples and at most `MOST_NUMBERS` numbers of 8 bytes.
 //! Text is read line by line, Parquet as a whole.
 //!
 //! ```

@@ -21,7 +21,7 @@ pub(crate) const AIMS: [Aim; 2] = [
 
 /// The side of the patches by whose CV a web is judged [m].
 ///
-/// * `text` – a length, or the name of one of [`AIMS`], for which the nearest of the patches of the web is taken
+/// * `text` – a length, or the name of one of `AIMS`, for which the nearest of the patches of the web is taken
 ///
 /// # Errors
 /// If it is neither, or if the web is not looked at over such patches.

@@ -144,7 +144,7 @@ fn length(batch: &Batch) -> u64 {
 /// * `take` – receives point and trajectory; the replicates of a batch come in order
 ///
 /// # Errors
-/// When a fibre is lost ([`Error::lost_fibre`]), when the computation is stopped, and every error of `take`.
+/// When a fibre is lost (`Error::lost_fibre`), when the computation is stopped, and every error of `take`.
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],

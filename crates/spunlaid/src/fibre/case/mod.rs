@@ -217,7 +217,7 @@ impl Case {
         self.air.eddies_along(self.along(), self.fibre.elements)
     }
 
-    /// Steps from one look at the flow around the fibre to the next, see [`Air::time_between_looks`].
+    /// Steps from one look at the flow around the fibre to the next, see `Air::time_between_looks`.
     pub fn steps_between_looks(&self) -> u64 {
         let time = match self.line {
             Some(line) if self.air.field_cutoff().is_some() => {

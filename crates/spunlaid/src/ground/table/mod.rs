@@ -14,8 +14,8 @@
 //!   any others.
 //! * **Encoding** is UTF-8; a line that is not valid UTF-8 is read as Latin-1.
 //!
-//! Memory is bounded: a line has at most [`LONGEST_LINE`] bytes, and the header is looked for in the first
-//! [`LINES_AHEAD`] lines. Errors name the line and the column.
+//! Memory is bounded: a line has at most `LONGEST_LINE` bytes, and the header is looked for in the first
+//! `LINES_AHEAD` lines. Errors name the line and the column.
 //!
 //! ```
 //! use spunlaid::ground::error::{FileError, FileKind};

@@ -62,7 +62,7 @@ impl StudyFile {
 /// What is asked of a study besides its file.
 #[derive(Clone, Copy, Debug)]
 pub struct StudyChanges<'a> {
-    /// The number of points requested; required above [`MOST_POINTS_UNASKED`].
+    /// The number of points requested; required above `MOST_POINTS_UNASKED`.
     pub points: Option<u64>,
     /// Number of replicates of every point, in place of that of the file.
     pub replicates: Option<u64>,
@@ -83,7 +83,7 @@ impl StudyChanges<'_> {
 
 /// Reads a study file and the case or web it names, and resolves and checks every point.
 ///
-/// * `points` – the number of points requested; required above [`MOST_POINTS_UNASKED`]
+/// * `points` – the number of points requested; required above `MOST_POINTS_UNASKED`
 ///
 /// # Errors
 /// When a file cannot be read, and when the study or any of its points is wrong; the error lists all

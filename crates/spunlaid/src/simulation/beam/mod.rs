@@ -65,7 +65,7 @@ pub struct BeamControl<'a> {
     pub isa: Isa,
     /// Ends the flights when it is set.
     pub stop: &'a AtomicBool,
-    /// Grows by the steps of each filament; [`Beam::steps`] says about how many there are.
+    /// Grows by the steps of each filament; `Beam::steps` says about how many there are.
     pub steps: &'a AtomicU64,
 }
 

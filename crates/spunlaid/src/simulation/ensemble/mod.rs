@@ -233,7 +233,7 @@ impl EndPath {
         self.whole.push(point);
     }
 
-    /// All of the last recorded instants, [`EndPath::LAST`] at most.
+    /// All of the last recorded instants, `EndPath::LAST` at most.
     pub fn last(&self) -> impl Iterator<Item = &EndPoint> {
         self.last.iter()
     }

@@ -55,7 +55,7 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 /// place, as it was fed: what round fibres leave bare that lie independently of each other within 2 mm.
 ///                                                                                            theory.md (110)
 ///
-/// * `local` – of [`local_weights`]
+/// * `local` – of `local_weights`
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `diameter` – of the fibres, the mean over their length [m]
 /// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share

@@ -29,11 +29,11 @@ pub(crate) const NONE_FOUND: f64 = 3.0;
 pub struct ThinPlaces {
     /// Side of the square patches [m].
     pub patch: f64,
-    /// Patches per area that are lighter than the shares [`LIGHTER`] of the mean [1/m²].
+    /// Patches per area that are lighter than the shares `LIGHTER` of the mean [1/m²].
     pub lighter: [Known; LIGHTER.len()],
-    /// Patches per area that are heavier than [`HEAVIER`] of the mean [1/m²].
+    /// Patches per area that are heavier than `HEAVIER` of the mean [1/m²].
     pub heavier: Known,
-    /// The weights, over the mean, of which the shares [`QUANTILES`] of the patches are lighter.
+    /// The weights, over the mean, of which the shares `QUANTILES` of the patches are lighter.
     pub quantiles: [Known; QUANTILES.len()],
 }
 
