@@ -142,12 +142,6 @@ impl FewFilaments<'_> {
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
             told.blocks.push(blocks);
-            let by_filling =
-                filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
-            if let Some(by_filling) = by_filling {
-                told.cvs.push(by_filling);
-                continue;
-            }
             let small = if *patch < small_patch(pitch) { SMALL * cv } else { 0.0 };
             // One half differs from the other as the places of its filaments do. The depths of a slot are
             // known better from all filaments than from two halves, which may agree by chance.
@@ -155,14 +149,27 @@ impl FewFilaments<'_> {
                 Arrangement::Slot => 0.5 * products.variance(cv * cv, count, self.all).sqrt() / cv,
                 Arrangement::Rows | Arrangement::AtRandom => 0.5 * (halves[0] - halves[1]),
             };
+            // The error falls faster than the pitch.
+            let by_pitch = (0.5 * off).hypot(by_places).hypot(small);
+            let by_filling =
+                filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
+            if let Some(mut by_filling) = by_filling {
+                // Filled maps of all and of every second one may agree and both be wrong. In a slot the few
+                // say the CV without them too: what is between the two beyond its error is one of the filling.
+                if self.arrangement == Arrangement::Slot {
+                    let apart = (by_filling.cv - cv).powi(2) - by_pitch * by_pitch;
+                    by_filling.by_pitch = by_filling.by_pitch.max(apart.max(0.0).sqrt());
+                }
+                told.cvs.push(by_filling);
+                continue;
+            }
             told.cvs.push(FewFilamentsCv {
                 patch: *patch,
                 cv,
                 // The waves of the few hold the chance of their depths too, which is an error by the few. The
                 // clouds leave the same part of the CV open whether the own part lies in them or not.
                 by_chance: all.standard_error.map(|error| error * cv / all.cv),
-                // The error falls faster than the pitch.
-                by_pitch: (0.5 * off).hypot(by_places).hypot(small),
+                by_pitch,
                 of_halves: off / cv,
                 own: whole[1],
                 few: all.cv,

@@ -291,3 +291,20 @@ fn a_lost_filament_is_left_out() {
     let (whole, without) = (row(48), row(17));
     assert!(whole.cv != without.cv && (without.cv / whole.cv - 1.0).abs() < 0.05, "{whole:?} {without:?}");
 }
+
+/// Maps filled from all and from every second one may agree and both be wrong.
+#[test]
+fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
+    let (sheet, field) = (sheet(&[10.0]), Field::new(7));
+    let row = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, z)));
+    let flown = few(&sheet, Arrangement::Slot, 480, row(48));
+    let filled_as = |count: usize| {
+        let map = few(&sheet, Arrangement::Slot, 480, row(count)).map(None).unwrap();
+        let filled = FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0 };
+        flown.tell(0, Some(&filled), 2).unwrap().cvs[0]
+    };
+    let (alone, right, wrong) = (flown.tell(0, None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
+    assert!(wrong.cv > alone.cv + 2.0 * alone.by_pitch, "{alone:?} {wrong:?}");
+    assert!(wrong.by_pitch > 0.8 * (wrong.cv - alone.cv), "{alone:?} {wrong:?}");
+    assert!(right.by_pitch < alone.by_pitch, "{alone:?} {right:?}");
+}
