@@ -5,7 +5,7 @@ use crate::ground::units::{Dimension, UnitAdvice, excerpt};
 
 /// The header of a column, split into name and unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Head {
+pub struct Head {
     /// The text in the file.
     pub text: String,
     /// The text without the unit.
@@ -80,7 +80,7 @@ impl Head {
     ///
     /// # Errors
     /// When the header has no unit, or a unit of another dimension.
-    pub(crate) fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
+    pub fn factor(&self, dimension: Dimension, example: &'static str) -> Result<f64, FileError> {
         let fault = match &self.unit {
             None => Fault::new(
                 format!("contains {} and has no unit", dimension.name()),

@@ -47,8 +47,7 @@ mod start;
 use crate::ground::error::{Fault, FileError, FileKind, Position, counted};
 use crate::ground::units::excerpt;
 use cells::{Digits, Looks, Parting, number};
-pub(crate) use head::Head;
-pub use head::scale;
+pub use head::{Head, scale};
 pub(crate) use logical::Meaning;
 pub(crate) use parquet::ParquetTable;
 pub(crate) use stamp::{FORMS, Stamp};
@@ -98,7 +97,7 @@ impl<R: Read> Table<R> {
     ///
     /// # Errors
     /// When the source cannot be read, is not text or has no rows of numbers.
-    pub(crate) fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
+    pub fn open(source: R, kind: FileKind, skip: u64) -> Result<Self, FileError> {
         let mut lines = Lines::open(source, kind, skip)?;
         let mut ahead = VecDeque::new();
         while ahead.len() < LINES_AHEAD {
@@ -134,7 +133,7 @@ impl<R: Read> Table<R> {
     }
 
     /// The headers of the columns; `column 1`, `column 2` … if the file has no names.
-    pub(crate) fn heads(&self) -> &[Head] {
+    pub fn heads(&self) -> &[Head] {
         &self.heads
     }
 
@@ -153,7 +152,7 @@ impl<R: Read> Table<R> {
     /// # Errors
     /// When the file cannot be read, the row has too few or too many cells, or nothing tells whether the signs in a
     /// column that was read are those of decimals or of thousands.
-    pub(crate) fn next_row(&mut self) -> Result<bool, FileError> {
+    pub fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;
         loop {
             match self.ahead.pop_front() {
@@ -241,7 +240,7 @@ impl<R: Read> Table<R> {
     ///
     /// # Errors
     /// When the cell holds text or infinity.
-    pub(crate) fn number(&mut self, column: usize) -> Result<f64, FileError> {
+    pub fn number(&mut self, column: usize) -> Result<f64, FileError> {
         let mut decimals = self.decimals;
         let text = self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()]);
         let number = number(text, self.parting, &mut decimals);
