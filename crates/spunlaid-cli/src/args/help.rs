@@ -113,7 +113,7 @@ to each cell is written for the CFD program, and their heat if they come from a 
 is a web, or a case with [line] and [web], because the filaments per metre of width have to be
 known.
 
-With --at the air of the case is told at the places of a table: velocity u, v, w and its magnitude
+With --at the air of the case is given at the places of a table: velocity u, v, w and its magnitude
 [m/s], k [m²/s²], length [m] and cut-off frequency [Hz] of the eddies, for every kind of air. Cells
 are empty where the air is not known, as outside of a field.
 
@@ -178,7 +178,7 @@ and how a filament lies, in one of three ways:
     tells, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the unevenness
 
 A throughput and a basis weight may stand in [line] in place of the speeds. Several beams are
-[[layer]] tables, each with its own [layer.line]; what stands above them is that of all.
+[[layer]] tables, each with its own [layer.line]; what stands above them holds for all.
 `spunlaid keys` and `spunlaid keys --web` explain every key. The results folder holds
   report.html    for the browser: the web on a light table, what would make it more even, figures
   summary.json   basis weight, CV over patches with errors, directions, clouds, advice

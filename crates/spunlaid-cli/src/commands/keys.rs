@@ -211,12 +211,12 @@ fn may_change(key: &KeyEntry) -> String {
 const HEAD: &str = "# The keys of a case
 
 This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with this word in their
-name, meaning or other words, or with this unit: `spunlaid keys dtex`.
+name or meaning, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as `kg/m³`.
-`--set air.velocity=\"20 m/s\"` sets a key for one run. `spunlaid sweep` can vary all keys but those marked *fixed*; a program
-can change those marked *flight* during a flight. A range is the usual one: a value outside of it is most likely in a wrong
-unit, so the program warns, and uses it. Quantities are above zero unless their row says otherwise.
+`--set air.velocity=\"20 m/s\"` sets a key for one run. A study can vary all keys but those marked *fixed*; those marked
+*flight* can change during a flight. A range is the usual one: the program warns of a value outside of it, most likely in a
+wrong unit, and uses it. Quantities are above zero unless their row says otherwise.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 

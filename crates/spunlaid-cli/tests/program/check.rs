@@ -175,7 +175,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         from them (web.flown)\n",
         "#   the field takes ",
         "--set line.depth=\"20 mm\"\n",
-        "#   What the filaments do to their air can be told with the size of the slot: line.depth",
+        "#   What the filaments do to their air can be found with the size of the slot: line.depth",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
     ] {
         assert!(said.contains(part), "{part}\n{said}");

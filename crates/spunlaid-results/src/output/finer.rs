@@ -74,16 +74,16 @@ fn meaning(check: &FinerCheck) -> &'static str {
         }
         (Refinement::TimeStep, Some(_)) => "The error of the step is at most about 2.5 times as large.",
         (Refinement::TimeStep, None) => {
-            "Implicit tension damps axial waves by as much at half the step, so the error is not known: the difference \
-            is the least that can be told."
+            "Implicit tension damps axial waves by as much at half the step, so the error is not known; it is \
+            at least the difference."
         }
         (Refinement::Elements, _) if has_order => {
             "Where two halvings show that the error falls with the square of the length, it is 4/3 of the difference; \
-            elsewhere it is not known, and the difference is the least that can be told."
+            elsewhere it is not known, and at least the difference."
         }
         (Refinement::Elements, _) => {
-            "It was not shown that the error falls with the square of the length, so it is not known: the difference \
-            is the least that can be told."
+            "It was not shown that the error falls with the square of the length, so it is not known; it is \
+            at least the difference."
         }
     }
 }

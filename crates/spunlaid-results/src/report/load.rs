@@ -52,11 +52,11 @@ pub fn load_words(load: &Load) -> String {
     });
     let missing = load.air.is_none().then(|| match load.places.is_empty() {
         true => {
-            "What the filaments do to their air can be told with the size of the slot: line.depth, beside \
+            "What the filaments do to their air can be found with the size of the slot: line.depth, beside \
             line.filaments_per_metre."
                 .to_owned()
         }
-        false => "How much this is of the momentum of the air cannot be told without the size of the slot; a web has it in \
+        false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it in \
         line.depth, beside line.filaments_per_metre."
             .to_owned(),
     });

@@ -314,7 +314,7 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
 fn intervals(study: &Study) -> &'static str {
     if study.noun() == "spinline" {
         "The intervals come from the scatter of the points about the straight lines. A spinline has no \
-        chance in it: they tell how far straight lines are from the curves."
+        chance in it: they say how far straight lines are from the curves."
     } else {
         "The intervals come from the differences between replicates; with common phases, each replicate of \
         all points is compared with the same replicate."

@@ -24,7 +24,7 @@ type Row = (Removed, &'static str, &'static str, &'static str);
 const AT_ONCE: &str = "lay the sheet at once on one machine, by spunlaid.web(file)";
 
 const NO_HOLES: &str =
-    "leave it out: the bare area is told of every web, and thin places say where a fabric is weak";
+    "leave it out: every web has its bare area, and thin places say where a fabric is weak";
 
 /// Every removed name.
 pub const REMOVED: &[Row] = &[
@@ -38,7 +38,7 @@ pub const REMOVED: &[Row] = &[
         Removed::Key,
         "neighbours",
         "0.1.0",
-        "lay a web of this case (spunlaid web), which tells how far neighbours come down together",
+        "lay a web of this case (spunlaid web), which says how far neighbours come down together",
     ),
     (
         Removed::Command,
@@ -70,7 +70,7 @@ pub const REMOVED: &[Row] = &[
         Removed::Key,
         "laydown.results",
         "0.1.0",
-        "name the case of that run (laydown.case), or write the spreads σ₁ and σ₂ and the noise A that it tells as \
+        "name the case of that run (laydown.case), or write the spreads σ₁ and σ₂ and the noise A that it gives as \
          laydown.sigma_md, laydown.sigma_cd and laydown.noise",
     ),
     (Removed::Command, "web --for holes", "0.1.0", "write --for 2mm, the patches that it judged by"),

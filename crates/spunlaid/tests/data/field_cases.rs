@@ -109,7 +109,7 @@ fn rejects_a_unit_for_coordinates_that_tell_theirs() {
     let said = refused.unwrap_err();
     assert!(
         said.contains("air.field_unit")
-            && said.contains("scales coordinates whose unit the file tells (x_mm)"),
+            && said.contains("scales coordinates whose unit is in the file (x_mm)"),
         "{said}"
     );
 }

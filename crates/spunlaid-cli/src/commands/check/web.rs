@@ -201,7 +201,7 @@ fn guesses(spec: &WebSpec) -> Vec<String> {
         return Vec::new();
     }
     let each = format!(
-        "  {}: spunlaid web also tells the CV for half and twice of each, from a few filaments",
+        "  {}: spunlaid web also gives the CV for half and twice of each, from a few filaments",
         spec.guessed.join(", ")
     );
     vec!["guesses (web.guessed)".to_owned(), each]

@@ -237,7 +237,7 @@ impl Line {
         format!(
             "\n[web]\nwidth = \"{}\"\nlength = \"1 m\"   # of the stretch that is looked at\n\
             # edges = \"cut\"   # if the edges of the web are to be seen; \
-            without, it is a part of a wide web\nguessed = \"{}\"   # made up: the CV is also told \
+            without, it is a part of a wide web\nguessed = \"{}\"   # made up: the CV is also given \
             for half and twice of each; take out what you have measured\n{}",
             exact_text(Dimension::Length, self.width),
             self.guessed(),

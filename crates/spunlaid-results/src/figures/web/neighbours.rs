@@ -46,7 +46,7 @@ pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
         &chart,
         "Correlation of the places where two filaments of the web come down at equal fed length, over the \
         distance of their inlets in cross direction: one if they come down beside each other all the time, \
-        zero if they know nothing of each other. Filaments of one row are compared with those of the same \
+        zero if their places are independent. Filaments of one row are compared with those of the same \
         row, those in a slot wherever they hang in its depth. Bars are one standard error, from the scatter \
         between stretches of the fibre and from the places of the filaments.",
     ))

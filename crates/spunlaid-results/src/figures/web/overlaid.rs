@@ -71,7 +71,7 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
         "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and \
         bands are 95 % intervals: they hold the CV of all such webs, with the error of the model where \
         fibres were flown. An open circle has no interval, so nothing is said about its difference; the \
-        table tells why.",
+        table says why.",
     )
 }
 

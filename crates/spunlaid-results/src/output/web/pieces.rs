@@ -78,7 +78,7 @@ impl MapFile {
         if found != head {
             let [columns, rows] = self.cells;
             return Err(format!(
-                "its map.npy is not the map of {columns} × {rows} cells that its summary.json tells of"
+                "its map.npy is not the map of {columns} × {rows} cells of its summary.json"
             ));
         }
         let middle = self.sides().map(|side| 0.5 * side);

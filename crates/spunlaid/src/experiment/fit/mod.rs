@@ -177,7 +177,7 @@ fn check(question: Question<'_>) -> Result<(), Fault> {
         return Err(Fault::new(message, "name the keys that you know least"));
     }
     if question.webs < FEWEST_WEBS {
-        let message = format!("{} webs are too few to tell chance from difference", question.webs);
+        let message = format!("{} webs are too few to see a difference beyond chance", question.webs);
         return Err(Fault::new(message, format!("ask for {FEWEST_WEBS} or more")));
     }
     if numbers < keys {

@@ -342,7 +342,7 @@ impl Check<'_> {
         let path = || format!("\"{}\"", placed.field.path().display());
         if let Some(coordinate) = placed.field.measured_coordinate().filter(|_| placed.unit != 1.0) {
             let fault = Fault::new(
-                format!("scales coordinates whose unit the file tells ({coordinate})"),
+                format!("scales coordinates whose unit is in the file ({coordinate})"),
                 "leave it out, or take the unit out of the names of the coordinates",
             );
             self.blame_key("air.field_unit", format!("\"{}\"", Dimension::Length.pretty(placed.unit)), fault);

@@ -51,7 +51,7 @@ impl Reading<'_> {
                     );
                     let remedy = format!(
                         "give it the spectrum of the record (air.spectrum) in place of the record; or let \
-                        `spunlaid run` fly it, and write the spreads σ₁ and σ₂ and the noise A that it tells as \
+                        `spunlaid run` fly it, and write the spreads σ₁ and σ₂ and the noise A that it gives as \
                         {laydown}.sigma_md, {laydown}.sigma_cd and {laydown}.noise in place of the case"
                     );
                     let key = key.unwrap_or_else(|| format!("{laydown}.case"));
@@ -64,7 +64,7 @@ impl Reading<'_> {
                         "is a known number, and another layer flies: the filaments of a web all fly, or none does",
                         format!(
                             "name a case there ({laydown}.case); or let `spunlaid run` fly the case of the other \
-                            layer, and write the spreads and the noise that it tells in its [laydown]"
+                            layer, and write the spreads and the noise that it gives in its [laydown]"
                         ),
                     );
                     self.key_values.reject(&key, fault);

@@ -135,11 +135,15 @@ pub(super) const RESIDENCE: Declaration = Declaration {
     measures: &[Measure {
         name: "residence_radius",
         column: "residence_radius_m",
-        label: "Circle of 90 % of the time",
+        label: "Radius with 90 % of the positions",
         meaning: "radius of the circle around its mean position, seen along the flow, in which it is at 90 % \
              of the recorded instants",
         unit: MILLIMETRES,
-        figure: &figure("residence", "Circle of 90 % of the time", "circle of 90 % of the time"),
+        figure: &figure(
+            "residence",
+            "Radius with 90 % of the positions",
+            "radius with 90 % of the positions",
+        ),
         series: "radius",
         ..Measure::NUMBER
     }],

@@ -149,7 +149,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[0])),
     )
-    .meaning("weight over the mean below which this share of the patches is")
+    .meaning("weight over the mean below which this share of the patches lies")
     .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
     Measure::new(
         "weight_of_5_percent",
@@ -157,28 +157,28 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[1])),
     )
-    .meaning("weight over the mean below which this share of the patches is"),
+    .meaning("weight over the mean below which this share of the patches lies"),
     Measure::new(
         "median_weight",
         "Median",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[2])),
     )
-    .meaning("weight over the mean below which this share of the patches is"),
+    .meaning("weight over the mean below which this share of the patches lies"),
     Measure::new(
         "weight_of_95_percent",
         "Heaviest 5 %",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[3])),
     )
-    .meaning("weight over the mean below which this share of the patches is"),
+    .meaning("weight over the mean below which this share of the patches lies"),
     Measure::new(
         "weight_of_99_percent",
         "Heaviest 1 %",
         PERCENT,
         Told(|patch: &FabricPatch| Some(patch.thin.quantiles[4])),
     )
-    .meaning("weight over the mean below which this share of the patches is"),
+    .meaning("weight over the mean below which this share of the patches lies"),
 ];
 
 /// The numbers of the strips in one direction.
@@ -251,7 +251,7 @@ pub const OF_STREAKS: &[Measure<Streak>] = &[
          zero where it is heavier",
     ),
     Measure::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak: &Streak| streak.found))
-        .meaning("the same in this map, with its error by chance; it shows from two errors on"),
+        .meaning("the same in this map, with its error by chance; a dip of more than two errors can be seen"),
     Measure::new("length_m", "Shows from a length of", METRES, Told(|streak: &Streak| streak.length))
         .meaning(
             "length of a scan from which on the dip exceeds the 95 % bound of chance; none where the \

@@ -22,7 +22,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             .observed("sigma_md", "sigma_md_m", "Spread in machine direction")
             .meaning(
                 "standard deviation in machine direction of the place of the laid fibre about its \
-                 straight trace, which a fibre leaves that comes down at one place",
+                 straight trace, that of a fibre which always comes down at one place",
             )
             .series("machine direction"),
         SPREAD
@@ -55,8 +55,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 "Belt speed found from the laid fibre, over the true one",
             )
             .meaning(
-                "mean of −d md/ds along the laid fibre over belt speed / feed speed: one within its \
-                 error, a check",
+                "belt speed found from the laid fibre (mean of −d md/ds, times the feed speed) over \
+                 that of the case: a check, one within its error",
             )
             .figure(&figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds")),
         RATIO_OF

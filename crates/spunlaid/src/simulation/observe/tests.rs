@@ -78,11 +78,9 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check_list(OF_STRIPS);
 }
 
-/// A table of measures for `docs/measures.md`.
-fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item = &'static Measure<T>>) {
-    let part = [("Strips", "md"), ("Holes", "50")].into_iter().find(|(of, _)| title.starts_with(of));
-    let part = part.map_or("10", |(_, part)| part);
-    let _ = write!(text, "\n## {title}\n\n| name | in studies | meaning |\n|---|---|---|\n");
+/// A list of measures for `docs/measures.md`.
+fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item = &'static Measure<T>>) {
+    let part = if title.starts_with("Strips") { "md" } else { "10" };
     // Measures with the same meaning share a row.
     let mut rows: Vec<(Vec<String>, Vec<String>, &str)> = Vec::new();
     for measure in measures {
@@ -90,7 +88,7 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
         let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
         let kept = match measure.column.replace('#', part) {
             column if is_kept && column != name => Some(format!("`{column}`")),
-            _ => is_kept.then(|| "yes".to_owned()),
+            _ => is_kept.then(String::new),
         };
         let name = format!("`{name}`");
         match rows.last_mut() {
@@ -104,9 +102,14 @@ fn table<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Ite
             _ => rows.push((vec![name], kept.into_iter().collect(), measure.meaning)),
         }
     }
+    let _ = write!(text, "\n## {title}\n\n");
     for (names, kept, meaning) in rows {
-        let meaning = meaning.replace('|', "\\|");
-        let _ = writeln!(text, "| {} | {} | {meaning} |", names.join(", "), kept.join(", "));
+        let kept = match &kept[..] {
+            [] => String::new(),
+            [same] if same.is_empty() => " *study*".to_owned(),
+            _ => format!(" (in studies {})", kept.join(", ")),
+        };
+        let _ = writeln!(text, "- {}{kept}: {meaning}", names.join(", "));
     }
 }
 
@@ -116,8 +119,8 @@ fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
         (`crates/spunlaid/src/simulation/observe/`). Names are those of `summary.json`, of a velocity record those \
         of `analysis.json`, and end with the unit; a name without one is that of a ratio or a count. Studies keep \
-        some of them, under the same name or that of the second column, here of patches of 10 mm and of strips \
-        along MD. [results.md](results.md) says where they stand.\n"
+        those marked *study*, some under another name, here of patches of 10 mm and of strips along MD. \
+        [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
@@ -127,22 +130,22 @@ fn every_measure_stands_in_the_docs() {
         }
     }
     for group in groups {
-        table(&mut text, group.title, observed().filter(|measure| measure.group == group));
+        list(&mut text, group.title, observed().filter(|measure| measure.group == group));
     }
-    table(&mut text, "The patches of a web", with_errors(OF_PATCHES));
-    table(&mut text, "A web", with_errors(OF_WEBS));
-    table(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
-    table(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
-    table(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
-    table(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
-    table(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
-    table(&mut text, "A scan", with_errors(OF_SCANS));
-    table(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
-    table(&mut text, "A velocity record", with_errors(OF_RECORDS));
-    table(&mut text, "A component of a velocity record", with_errors(OF_COMPONENTS));
-    table(&mut text, "A spinline", with_errors(OF_SPINLINES));
-    table(&mut text, "The load of the filaments on their air", with_errors(OF_LOADS));
-    table(&mut text, "The load between the inlet and a place", with_errors(OF_LOAD_PLACES));
+    list(&mut text, "The patches of a web", with_errors(OF_PATCHES));
+    list(&mut text, "A web", with_errors(OF_WEBS));
+    list(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
+    list(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
+    list(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
+    list(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
+    list(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
+    list(&mut text, "A scan", with_errors(OF_SCANS));
+    list(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
+    list(&mut text, "A velocity record", with_errors(OF_RECORDS));
+    list(&mut text, "A component of a velocity record", with_errors(OF_COMPONENTS));
+    list(&mut text, "A spinline", with_errors(OF_SPINLINES));
+    list(&mut text, "The load of the filaments on their air", with_errors(OF_LOADS));
+    list(&mut text, "The load between the inlet and a place", with_errors(OF_LOAD_PLACES));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
     if std::env::var_os("SPUNLAID_RENEW").is_some() {
         std::fs::write(&path, &text).unwrap();

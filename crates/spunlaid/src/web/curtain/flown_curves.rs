@@ -75,7 +75,7 @@ impl FlownCurves {
         if points == 0 || curves.len() != places.len() {
             let (places, curves) = (places.len(), curves.len());
             return Err(Fault::plain(format!(
-                "{curves} flown curves, the shortest of {points} points, for {places} places tell nothing of \
+                "{curves} flown curves, the shortest of {points} points, for {places} places say nothing of \
                 the filaments between them"
             )));
         }

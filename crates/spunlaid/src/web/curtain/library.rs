@@ -101,7 +101,7 @@ impl Library {
             return Err(Fault::new(
                 format!(
                     "the flown curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
-                    them would know each other",
+                    them would resemble each other",
                     points as f64 * spacing,
                     half_lag * spacing
                 ),
@@ -114,8 +114,8 @@ impl Library {
         if turn < NARROWEST * fade_across {
             return Err(Fault::new(
                 format!(
-                    "the flown curtain is {:.0} mm wide, and filaments know each other half over {:.0} mm; \
-                    tiles of it would know each other",
+                    "the flown curtain is {:.0} mm wide, and filaments are correlated by half over {:.0} mm; \
+                    tiles of it would resemble each other",
                     turn * 1e3,
                     half[0].max(half[1]) * 1e3
                 ),

@@ -140,22 +140,22 @@ impl Serialize for Known {
 const WORDS: &[(&[&str], &str)] = &[
     (
         &["formation", "cloudiness", "evenness", "uniformity"],
-        "Formation and cloudiness are results, not keys: `spunlaid web` tells the CV over patches, the \
+        "Formation and cloudiness are results, not keys: `spunlaid web` gives the CV over patches, the \
         cloudiness and the formation number, 1 for straight fibres at random (docs/fabric.md).",
     ),
     (
         &["pinhole", "pin hole", "hole", "pore", "bare", "hydrohead", "hydrostatic head"],
-        "Holes and hydrohead are not told, because bonds and the calender make them: `spunlaid web` tells the bare \
+        "Holes and hydrohead are not given, because bonds and the calender make them: `spunlaid web` gives the bare \
         area and thin places (docs/fabric.md).",
     ),
     (
         &["thin spot", "thin place", "thick place", "thick spot"],
-        "Thin and thick places are results, not keys: `spunlaid web` tells patches per square metre that are \
+        "Thin and thick places are results, not keys: `spunlaid web` gives the patches per square metre that are \
         lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
     ),
     (
         &["strength", "tensile", "tenacity", "elongation", "tear"],
-        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` tells the \
+        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` gives the \
         weakest section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
     ),
     (

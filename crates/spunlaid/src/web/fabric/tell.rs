@@ -176,10 +176,10 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
 /// Why no air permeability is told.
 fn no_permeability(filaments: &[Filaments], thickness: Option<f64>) -> String {
     match thickness {
-        None => "the air permeability is not told: it needs the thickness of the fabric (fabric.thickness)"
+        None => "the air permeability is not known: it needs the thickness of the fabric (fabric.thickness)"
             .to_owned(),
         Some(thickness) => format!(
-            "the air permeability is not told: at fabric.thickness = {} µm fibre would fill {} % of the \
+            "the air permeability is not known: at fabric.thickness = {} µm fibre would fill {} % of the \
             fabric, and the formulas hold up to 30 %",
             (thickness * 1e6).round(),
             (100.0 * solid_fraction(filaments, thickness)).round()
@@ -313,7 +313,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     };
     // What else is not told needs the fibres, and that is said once.
     fabric.notes = vec![format!(
-        "a scan does not tell what needs its fibres: stiffness, bare area, air \
+        "a scan does not show what needs its fibres: stiffness, bare area, air \
         permeability{formation}"
     )];
     // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.

@@ -76,7 +76,7 @@ impl Display for Doubt {
             ),
             Self::FewFilaments { sides, why, pitch, enough } => write!(
                 f,
-                "the CV over patches of {} is not known, because {}: too few filaments were flown to tell \
+                "the CV over patches of {} is not known, because {}: too few filaments were flown to know \
                 what all do. The map, the picture and all that follows from them are no better. Fly {}",
                 millimetres(sides),
                 reason(*why, *pitch),
@@ -150,14 +150,14 @@ impl Display for Doubt {
 fn reason(why: FewDoubt, pitch: f64) -> String {
     match why {
         FewDoubt::Halves(patch, off) => format!(
-            "every second one of the flown filaments would tell a CV over patches of {} that is {} % {}",
+            "every second one of the flown filaments would give a CV over patches of {} that is {} % {}",
             millimetres(&[patch]),
             per_cent(off.abs(), 2),
             if off > 0.0 { "higher" } else { "lower" }
         ),
         FewDoubt::Own(patch) => format!(
             "over patches of {} nearly all of the unevenness is what each flown filament makes for itself, \
-            and what is left for all cannot be told from zero",
+            and what is left for all cannot be distinguished from zero",
             millimetres(&[patch])
         ),
         FewDoubt::Neighbours(correlation) => format!(

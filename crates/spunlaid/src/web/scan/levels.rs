@@ -114,7 +114,7 @@ pub(super) fn believed_shading(
             format!(
                 "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a lens \
                 make {most} % at most: the bare lamp may be visible beside the web, or the web itself \
-                changes, and the picture cannot tell which"
+                changes, and the picture does not show which"
             ),
             "give a picture of the lamp without web, or cut out the web, or say that the lamp is even",
         )

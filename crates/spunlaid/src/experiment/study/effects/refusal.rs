@@ -37,7 +37,7 @@ pub enum Refusal {
         correlation: f64,
     },
     /// Several factors depend on each other.
-    #[error("{key} follows from the other keys at all points, so its effect cannot be told from theirs")]
+    #[error("{key} follows from the other keys at all points, so its effect cannot be separated from theirs")]
     Dependent {
         /// Key of one of them.
         key: String,

@@ -59,10 +59,7 @@ pub(super) const KEYS: &[Key] = &[
     choose("belt.contact", || Contact::ALL.map(|contact| contact.name()).to_vec())
         .access(at!(fed, line, contact))
         .value("stick")
-        .meaning(
-            "What holds the fibre on the belt: it sticks where it touches down, or it slides against \
-             friction.",
-        )
+        .meaning("Whether the fibre sticks where it touches down, or slides against friction.")
         .label("Contact with the belt"),
     quantity("belt.friction", Dimension::Ratio, NotNegative)
         .access(of_friction!(coefficient))
@@ -87,8 +84,8 @@ pub(super) const KEYS: &[Key] = &[
         .follows("a quarter of the distance to the belt")
         .usual(1e-7, 2.0)
         .meaning(
-            "Length of fibre behind the newest touch-down that still moves. What comes after it is \
-             laid; arches in the air stay where they are.",
+            "Length of fibre behind the newest touch-down that still moves. The rest is laid; arches \
+             in the air stay where they are.",
         )
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
@@ -109,8 +106,7 @@ pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Po
     // From coiling threads to the fastest spinning.
     .usual(1e-3, 200.0)
     .meaning(
-        "Speed at which the fibre is fed at the inlet, the spinning speed. The fibre is then laid on \
-         a belt.",
+        "Speed at which the fibre is fed at the inlet, the spinning speed. The fibre is then laid on a belt.",
     )
     .synonyms(&["filament speed", "draw-off speed"])
     .label("Feed speed *v*_{f}")

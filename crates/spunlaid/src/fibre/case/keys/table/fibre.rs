@@ -44,7 +44,7 @@ pub(super) const KEYS: &[Key] = &[
         .derived(|case| case.line.is_some())
         .required("1 m")
         .usual(0.001, 30.0)
-        .meaning("Length of the fibre, from its root to its free end. A fed fibre has none.")
+        .meaning("Length of the fibre from its root to its free end. A fed fibre has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
     quantity("fibre.diameter", Dimension::Length, Positive)
@@ -109,8 +109,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("0 s")
         .usual(1e-7, 0.1)
         .meaning(
-            "Time constant τ of the bending viscosity: the bending moment is EI (κ + τ dκ/dt), with \
-             the curvature κ. It damps the bending of a soft polymer.",
+            "Time constant τ of the bending viscosity, which damps the bending of a soft polymer: the \
+             bending moment is EI (κ + τ dκ/dt), with the curvature κ.",
         )
         .label("Bending viscosity *τ*")
         .slider(0.0, 1e-3)
@@ -132,10 +132,7 @@ pub(super) const KEYS: &[Key] = &[
              fibre, 1/125 of the distance to the belt",
         )
         .usual(1e-6, 1.0)
-        .meaning(
-            "Length of the elements of the fibre. Shorter elements resolve shorter waves, and the run \
-             takes longer.",
-        )
+        .meaning("Length of the elements of the fibre. Shorter ones resolve shorter waves and take longer.")
         .label("Element length *l*")
         .slider(2e-3, 0.1)
         .read_last(),

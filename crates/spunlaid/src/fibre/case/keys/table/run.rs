@@ -66,7 +66,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(run.seed))
         .value("1")
         .in_study("seed = 1")
-        .meaning("Seed of the random phases. The same seed gives the same results to the last bit."),
+        .meaning("Seed of the random phases. The same seed gives the same results, to the last bit."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec())
         .access(at!(run.scheme))
         .value("semi-implicit-euler")
@@ -117,8 +117,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("auto")
         .meaning(
             "What the checks of time step and mesh may cost. `auto`: together a fifth of the flight, \
-             and the run says what is not checked; `full`: as much as they take for the whole run; \
-             `none`: nothing is checked.",
+             and the run says what is not checked; `full`: as much as they need for the whole run; \
+             `none`: no checks.",
         )
         .label("Checks"),
     quantity("run.damping", Dimension::Rate, NotNegative)

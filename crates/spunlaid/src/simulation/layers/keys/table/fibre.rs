@@ -20,16 +20,13 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .derived(is_flown)
         .required("18 µm")
-        .meaning(
-            "Diameter of the round filaments; with `laydown.case`, and where a filament flies, that \
-             of the case.",
-        )
+        .meaning("Diameter of the round filaments; of filaments that fly, that of their case.")
         .label("Fibre diameter *d*"),
     positive("fibre.density", Dimension::Density)
         .access(at!(layer, layer_mut, density))
         .derived(is_flown)
         .required("910 kg/m³")
-        .meaning("Density of the polymer; with `laydown.case` that of the case.")
+        .meaning("Density of the polymer; of filaments that fly, that of their case.")
         .label("Fibre density"),
     positive("fibre.linear_density", Dimension::LinearDensity)
         .access(Access {
@@ -52,9 +49,9 @@ pub(super) const LAYER: &[WebKey] = &[key("layer.name", Kind::Text("first beam")
     .access(at!(layer, layer_mut, name))
     .follows("the layer's number")
     .meaning(
-        "Name of a layer. Each beam of a web of several layers is a `[[layer]]` with its own \
-         `[layer.line]`, `[layer.laydown]` and `[layer.fibre]`; the basis weights add up. Tables of a \
-         filament above the layers are those of all.",
+        "Name of a layer. Each beam is a `[[layer]]` with its own `[layer.line]`, `[layer.laydown]` \
+         and `[layer.fibre]`; the basis weights add up. Tables of a filament above the layers hold \
+         for all.",
     )];
 
 /// The numbers of a surrogate.
@@ -78,8 +75,8 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .told(|_: &WebSpec| None)
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
-            "Path of the case of a fed fibre, relative to this file. It is flown, and the web is made \
-             of what it lays. Keys that stand in this file too, as `air.velocity`, replace those of \
+            "Path of the case of a fed fibre, relative to this file. It is flown, and its laid fibres \
+             make the web. Keys that stand in this file too, such as `air.velocity`, replace those of \
              the case.",
         ),
     positive("laydown.sigma_md", Dimension::Length)

@@ -48,8 +48,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`feed_speed` and the filament give it")
         .usual(1e-8, 1e-3)
         .meaning(
-            "Mass flow of a hole, in place of `line.feed_speed`, which is the throughput over the \
-             linear density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
+            "Mass flow of a hole, in place of `line.feed_speed`, which is then throughput / linear \
+             density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
         )
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole"),
@@ -70,8 +70,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .of_all_layers()
         .required("3 m/s")
         .meaning(
-            "Speed of the belt, written once, in any of the layers. It may stand in place of \
-             `belt.speed` of a filament that flies.",
+            "Speed of the belt, written in one of the layers. It may stand in place of `belt.speed` \
+             of a filament that flies.",
         )
         .label("Belt speed"),
     positive("line.basis_weight", Dimension::BasisWeight)
@@ -92,8 +92,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`belt_speed` and the filaments give it")
         .usual(1e-3, 2.0)
         .meaning(
-            "Mass of the web per area, of all layers together, in place of `line.belt_speed`, in any \
-             of the layers: the belt is as fast as it takes to lay it.",
+            "Mass of the web per area, of all layers together, written in one of them. It stands in \
+             place of `line.belt_speed`, which follows.",
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),
@@ -144,9 +144,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("places at random in cross direction, all in the middle of the slot")
         .label("Depth of the slot")
         .meaning(
-            "Size of the slot in machine direction, with `filaments_per_metre`: the filaments come at \
-             an even pitch across the web, each at a random place of the depth, where those that fly \
-             hang in other eddies. The air comes through the same slot, which gives the load on it.",
+            "Size of the slot in machine direction. The `filaments_per_metre` then come at an even \
+             pitch across the web, each at a random depth, where those that fly meet other eddies. \
+             The air comes through the same slot, which gives the load on it.",
         )
         .label("Depth of the slot")
         .usual(1e-4, 1.0),
@@ -155,9 +155,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("none")
         .usual(1e-5, 1e-2)
         .meaning(
-            "Charge per mass of the filaments from a charging bar, of either sign: they drive each \
-             other apart along the machine direction. Only filaments that fly have one. No measured \
-             charge of a spunbond line is known to us.",
+            "Charge per mass of the filaments from a charging bar, which drives them apart along the \
+             machine direction. Only filaments that fly have one. No measured charge of a spunbond \
+             line is known to us.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
@@ -176,9 +176,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("no plates")
         .usual(1e-3, 1.0)
         .meaning(
-            "Distance of two earthed plates from the middle of the slot, one on each side, from inlet \
-             to belt, with `line.charge`. A curtain that is off the middle is pulled to the nearer \
-             plate. They stop no filament.",
+            "With `line.charge`: distance of two earthed plates from the middle of the slot, one on \
+             each side, from inlet to belt. The nearer plate pulls a curtain that is off the middle. \
+             They stop no filament.",
         )
         .synonyms(&["plates", "images"])
         .label("Distance of earthed plates"),
@@ -186,9 +186,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
-            "Rows of nozzles, in place of `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch \
-             = \"0.2 mm\", filaments = 5000 }, …]`. The offset is the place of the first nozzle of a \
-             row, from the edge of the web.",
+            "Place of the first nozzle of a row, from the edge of the web. Rows stand in place of \
+             `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = \
+             5000 }, …]`.",
         )
         .label("Place of the first nozzle")
         .usual(1e-6, 30.0),
@@ -205,8 +205,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("0.2 mm")
         .or_words(&[EVEN])
         .meaning(
-            "Distance from nozzle to nozzle in a row, or `\"even\"`: the width of the web over the \
-             number of filaments. With periodic edges, pitch times filaments is the width.",
+            "Distance from nozzle to nozzle in a row, or `\"even\"`: the width of the web over their \
+             number. With periodic edges, pitch times filaments is the width.",
         )
         .label("Distance of the nozzles")
         .usual(1e-6, 1.0),

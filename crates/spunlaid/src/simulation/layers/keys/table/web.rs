@@ -29,8 +29,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
-            "Size of the web in machine direction, a whole number of cells: a stretch of an endless \
-             web, closed to a ring.",
+            "Size of the web in machine direction, a whole number of cells. Its end joins its \
+             beginning, as in an endless web.",
         )
         .label("Length of the web")
         .usual(1e-3, 300.0),
@@ -69,8 +69,8 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .value("periodic")
         .meaning(
-            "What becomes of fibre beyond the edges in cross direction: `periodic`, it comes in at \
-             the other edge; `cut`, it is cut off, and the thinner strips, up to 3 σ_CD inwards of \
+            "What becomes of fibre beyond the edges in cross direction. `periodic`: it comes in at \
+             the other edge. `cut`: it is cut off, and the thinner strips, up to 3 σ_CD inwards of \
              the outermost filament, are left out of the unevenness.",
         )
         .label("Edges"),
@@ -93,9 +93,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[AUTO, ALL])
         .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
         .meaning(
-            "Filaments per metre of width that are flown for all others: neighbours come down almost \
-             alike. `all` flies every filament; `auto` as many as the length scale of the air asks \
-             for, and twice or four times as many where these are not enough.",
+            "Filaments per metre of width that are flown; the others follow from them, because \
+             neighbours come down almost alike. `all` flies every filament; `auto` as many as the \
+             length scale of the air asks for, and up to four times as many if these are not enough.",
         )
         .label("Filaments per metre that are flown"),
     positive("web.memory_limit", Dimension::Memory)
@@ -103,7 +103,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("4 GB")
         .fixed()
         .meaning(
-            "Most memory for the field of eddies of a web in one air. A web that needs more is \
+            "Largest memory for the field of eddies of a web in one air. A web that needs more is \
              refused before it is flown.",
         )
         .label("Memory limit")
@@ -122,7 +122,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`none`: every number counts as known")
         .meaning(
             "Keys of the web and of its cases whose numbers are guesses, with commas. `spunlaid web` \
-             also gives the CV for half and for twice of each. Take out each that has been measured.",
+             also gives the CV for half and twice of each. Take out what you have measured.",
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Guessed numbers"),
@@ -138,7 +138,7 @@ pub(super) const KEYS: &[WebKey] = &[
 pub(super) const FABRIC: &[WebKey] = &[
     positive("fabric.thickness", Dimension::Length)
         .access(at!(fabric.thickness))
-        .follows("no air permeability is told")
+        .follows("no air permeability is given")
         .meaning("Thickness of the finished fabric between its bonds, which follows from the calender.")
         .synonyms(&["caliper", "gauge", "loft"])
         .label("Thickness")
@@ -146,10 +146,7 @@ pub(super) const FABRIC: &[WebKey] = &[
     positive("fabric.saleable_width", Dimension::Length)
         .access(at!(fabric.saleable_width))
         .follows("all of the web between its edges")
-        .meaning(
-            "Width in the middle of the web that is sold. All numbers of the fabric are those of this \
-             width.",
-        )
+        .meaning("Width in the middle of the web that is sold, to which all numbers of the fabric belong.")
         .synonyms(&["trim", "slit width", "net width"])
         .label("Saleable width")
         .usual(1e-2, 30.0),
@@ -180,8 +177,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.strip.section))
         .value("5 mm")
         .meaning(
-            "Length of a section of a strip. The strip would tear at its lightest section if strength \
-             were that of the fibres.",
+            "Length of a section of a strip. If the fibres alone made the strength, a strip would \
+             tear at its lightest section.",
         )
         .synonyms(&["tensile", "weakest link"])
         .label("Section of a strip")
@@ -195,7 +192,7 @@ pub(super) const FABRIC: &[WebKey] = &[
         .usual(1.0, 1e4),
     quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
         .access(at!(fabric.measured_opacity))
-        .follows("no opacity is told")
+        .follows("no opacity is given")
         .meaning(
             "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included. The \
              program adds what the basis weight and its clouds do.",

@@ -125,8 +125,8 @@ pub(super) const KEYS: &[Key] = &[
         })
         .follows("in the plane of a plane flow, so that the air is the same along the cross direction")
         .meaning(
-            "Direction in the field that is the fibre's y, the machine direction, in which the belt \
-             runs; at a right angle to `air.field_axis`. The cross direction, z, follows.",
+            "Direction in the field that is the fibre's y, the machine direction of the belt, at a \
+             right angle to `air.field_axis`. The cross direction, z, follows.",
         )
         .synonyms(&["MD", "belt"])
         .label("Machine direction in the field"),
@@ -155,7 +155,7 @@ pub(super) const KEYS: &[Key] = &[
     key("air.field_epsilon", Kind::Text("epsilon"))
         .access(of_field_layout!(epsilon))
         .follows("the array with a usual name of ε")
-        .meaning("Array of the dissipation rate ε of the turbulence in a field."),
+        .meaning("Array of the dissipation rate ε of k in a field."),
     key("air.field_omega", Kind::Text("omega"))
         .access(of_field_layout!(omega))
         .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
@@ -221,7 +221,7 @@ pub(super) const KEYS: &[Key] = &[
         .meaning(
             "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine \
              direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the \
-             slot. `none`: the air only slows, and this is meant.",
+             slot. `none`: the air only slows, and no web warns of it.",
         )
         .label("Widening of the mean flow"),
 ];

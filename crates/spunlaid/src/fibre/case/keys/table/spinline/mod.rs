@@ -80,8 +80,8 @@ const LINE: &[Key] = &[
         .required("\"pp\"")
         .derived(no_spinline)
         .meaning(
-            "One of these polymers, or a file with all constants of one in a table \
-             [spinline.material]. Single constants may stand in [spinline.material] of the case.",
+            "One of these, or a file with all constants of a polymer in a table [spinline.material]. \
+             Single constants may stand in [spinline.material] of the case.",
         )
         .label("Polymer")
         .varies(),
@@ -142,7 +142,7 @@ const LINE: &[Key] = &[
         .required("1.6 m")
         .derived(no_spinline)
         .usual(0.02, 30.0)
-        .meaning("Length of the spinline, from the die to the inlet of the flown fibre, or to the take-up.")
+        .meaning("Length from the die to the inlet of the flown fibre, or to the take-up.")
         .label("Length of the spinline"),
 ];
 

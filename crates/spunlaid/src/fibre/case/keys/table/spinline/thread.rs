@@ -40,8 +40,8 @@ pub(super) const KEYS: &[Key] = &[
         })
         .value("false")
         .meaning(
-            "Whether crystallisation on the way is computed. How much orientation speeds it up was \
-             chosen and not measured, so its places are no predictions.",
+            "Whether crystallisation is computed. How much orientation speeds it up was chosen and \
+             not measured, so its places are no predictions.",
         )
         .label("Crystallisation")
         .varies(),
@@ -68,7 +68,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
         .usual(1e5, 1e9)
-        .meaning("Stress at which the thread breaks. A line in which it is reached is refused.")
+        .meaning("Stress at which the thread breaks; a line that reaches it is refused.")
         .label("Stress at break"),
 ];
 
@@ -143,9 +143,9 @@ pub(super) const END_KEYS: &[Key] = &[
         .or_words(&[FLOWN])
         .usual(1e-9, 1.0)
         .meaning(
-            "Tension at a free end: the pull of the fibre that flies on below. With \"flown\" some \
-             fibres fly, and their mean tension at the root is used, again and again until the speed \
-             stands within 0.1 %.",
+            "Tension at a free end: the pull of the fibre below it. With \"flown\" some fibres fly, \
+             and the mean tension at their root is used, again and again until the speed changes by \
+             less than 0.1 %.",
         )
         .label("Tension at the end"),
 ];
