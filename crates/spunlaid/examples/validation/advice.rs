@@ -16,8 +16,8 @@ use std::time::Instant;
 
 /// Long webs of each change.
 const SEEDS: u64 = 8;
-/// One of them: twice as long as a web whose CV is told, with twice as many filaments as fly in most airs.
-const LONG: [(&str, &str); 3] = [("web.width", "0.2 m"), ("web.length", "1 m"), ("web.flown", "500")];
+/// One of them: with twice as many filaments as fly in most airs. It is wide enough for the filaments that spread most.
+const LONG: [(&str, &str); 3] = [("web.width", "0.3 m"), ("web.length", "1 m"), ("web.flown", "500")];
 
 /// The air of spunbond.toml, and where the files of the lines are looked for.
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web.toml");
@@ -98,7 +98,7 @@ pub fn changes() {
     let all = !lines.iter().any(|(name, ..)| asked(name));
     let (mut within, mut count) = (0, 0);
     for (name, text, guesses) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
-        title(&format!("Changes of a line: {name}, against {SEEDS} webs of 0.2 m × 1 m each"));
+        title(&format!("Changes of a line: {name}, against {SEEDS} webs of 0.3 m × 1 m each"));
         let text = format!("{text}{}", REST.replace("none", guesses));
         let (base, told) = told(&text, threads);
         if asked("told") {

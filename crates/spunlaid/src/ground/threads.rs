@@ -3,7 +3,7 @@
 use crate::ground::error::Error;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::{Scope, ScopedJoinHandle};
 use std::time::Duration;
 
@@ -11,7 +11,8 @@ use std::time::Duration;
 ///
 /// * `work` – does the piece of a number
 pub fn each<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let Ok(done) = share(threads, pieces, |piece| Ok::<_, Infallible>(work(piece)));
+    let name = std::any::type_name_of_val(&work);
+    let Ok(done) = share(name, threads, pieces, |piece| Ok::<_, Infallible>(work(piece)));
     done
 }
 
@@ -24,28 +25,50 @@ pub(crate) fn try_each<T: Send>(
     pieces: usize,
     work: impl Fn(usize) -> Result<T, Error> + Sync,
 ) -> Result<Vec<T>, Error> {
-    share(threads, pieces, work)
+    share(std::any::type_name_of_val(&work), threads, pieces, work)
+}
+
+/// Some pieces of work that threads share.
+#[derive(Clone, Copy)]
+pub struct Shared<'a> {
+    /// What they do: the path of a function of this library.
+    pub name: &'static str,
+    /// Most threads that do them.
+    pub threads: usize,
+    /// Their number.
+    pub pieces: usize,
+    /// Does the piece of a number; a thread ends when it returns false.
+    pub work: &'a (dyn Fn(usize) -> bool + Sync),
+}
+
+static SHARER: OnceLock<fn(Shared<'_>)> = OnceLock::new();
+
+/// Lets something else than the threads of this room do all pieces of work from now on, as a trace that counts them.
+pub fn share_by(sharer: fn(Shared<'_>)) {
+    let _ = SHARER.set(sharer);
 }
 
 fn share<T: Send, E: Send>(
+    name: &'static str,
     threads: usize,
     pieces: usize,
     work: impl Fn(usize) -> Result<T, E> + Sync,
 ) -> Result<Vec<T>, E> {
     let results: Vec<Mutex<Option<Result<T, E>>>> = (0..pieces).map(|_| Mutex::new(None)).collect();
-    distribute(threads, pieces, &|piece| {
+    let work = |piece: usize| {
         let result = work(piece);
         let goes_on = result.is_ok();
         *lock(&results[piece]) = Some(result);
         goes_on
-    });
+    };
+    let sharer = SHARER.get().copied().unwrap_or(distribute);
+    sharer(Shared { name, threads, pieces, work: &work });
     // Pieces begin in order, so that those without a result come after one that failed.
     results.into_iter().map_while(unlock).collect()
 }
 
-/// Does pieces of work on some threads, each of which ends when a piece returns false. As it knows no type of
-/// a result, it is compiled once.
-fn distribute(threads: usize, pieces: usize, work: &(dyn Fn(usize) -> bool + Sync)) {
+/// Does pieces of work on some threads. As it knows no type of a result, it is compiled once.
+fn distribute(Shared { threads, pieces, work, .. }: Shared<'_>) {
     let next = AtomicUsize::new(0);
     let some = || {
         loop {

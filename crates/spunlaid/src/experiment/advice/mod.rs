@@ -34,9 +34,9 @@ pub type Advice = Trials<ChangedWeb, f64>;
 
 /// What is flown of webs in one air: where guesses are tried, which may be far from what the file says; where
 /// all changes are; and where those are compared once more that may be the best.
-const GUESSES: Compared = Compared { area: 0.06, pitches: 2.0 };
-const CHANGES: Compared = Compared { area: 0.08, pitches: 2.0 };
-const RACE: Compared = Compared { area: 0.12, pitches: 2.0 };
+const GUESSES: Compared = Compared { area: 0.045, pitches: 2.0 };
+const CHANGES: Compared = Compared { area: 0.06, pitches: 2.0 };
+const RACE: Compared = Compared { area: 0.09, pitches: 2.0 };
 /// How many times as long or as short eddies have no clouds in common with others.
 const OTHER_EDDIES: f64 = 1.5;
 /// Bits of a seed that are others in another air.

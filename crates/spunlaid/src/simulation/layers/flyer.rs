@@ -6,6 +6,7 @@
 
 use super::{LaydownSource, WebSpec};
 use crate::fibre::{Case, LaidPoint, WayPlace};
+use crate::ground::threads::each;
 use crate::ground::{Error, Estimate, Fault};
 use crate::web::map::{Doubt, Findings, find_laid, lay, pieces};
 use crate::web::surrogate::identify;
@@ -114,7 +115,11 @@ impl<'a> Flyer<'a> {
 impl FlownFibres {
     /// * `path` – of the case, for messages
     /// * `laid` – all points of each replicate
-    pub(super) fn gather(path: &Path, case: &Case, mut laid: Vec<Vec<LaidPoint>>) -> Result<Self, Error> {
+    pub(super) fn gather(
+        (path, case): (&Path, &Case),
+        mut laid: Vec<Vec<LaidPoint>>,
+        threads: usize,
+    ) -> Result<Self, Error> {
         let nothing = |reason: &str| Error::folder(path, Fault::plain(reason.to_owned()));
         let line = case.line.ok_or_else(|| nothing("its fibre is not fed on to a belt"))?;
         let spacing = case.fibre.rest_length();
@@ -122,11 +127,9 @@ impl FlownFibres {
         let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as u64;
         let belt_ratio = line.belt_ratio();
         let tracing = TraceSettings { spacing, belt_ratio, skip, reach: line.distance };
-        let (mut numbers, mut traces) = ([const { Vec::new() }; 3], Vec::new());
-        for points in &mut laid {
+        let traced = each(threads, laid.len(), |replicate| {
             let mut trace = Trace::new(tracing);
-            points.iter().for_each(|point| trace.add(point.md, point.cd));
-            points.drain(..points.len().min(skip as usize));
+            laid[replicate].iter().for_each(|point| trace.add(point.md, point.cd));
             let statistics = trace.finish();
             let sigmas = [statistics.sigma_md, statistics.sigma_cd];
             let found = identify(
@@ -135,11 +138,16 @@ impl FlownFibres {
                 [&statistics.correlation_md, &statistics.correlation_cd],
             );
             let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);
-            for (all, value) in numbers.iter_mut().zip([sigmas[0], sigmas[1], noise]) {
+            (statistics, [sigmas[0], sigmas[1], noise])
+        });
+        let (mut numbers, mut traces) = ([const { Vec::new() }; 3], Vec::new());
+        for (statistics, of_replicate) in traced {
+            for (all, value) in numbers.iter_mut().zip(of_replicate) {
                 all.extend(value.is_finite().then_some(value));
             }
             traces.push(statistics);
         }
+        laid.iter_mut().for_each(|points| drop(points.drain(..points.len().min(skip as usize))));
         let places = laid.iter().map(|points| points.iter().map(|point| [point.md, point.cd]).collect());
         let curves = Curves::new(spacing, belt_ratio, places.collect())?;
         let numbers = numbers.map(Estimate::new);

@@ -87,11 +87,11 @@ impl LayerBeam<'_> {
     }
 
     /// What some of its filaments have laid, each for itself.
-    fn gather(&self, mut flown: BeamFindings) -> Result<FlownFibres, Error> {
+    fn gather(&self, mut flown: BeamFindings, threads: usize) -> Result<FlownFibres, Error> {
         flown.kept.retain(|(filament, _)| self.beam().keeps(*filament));
         let one_air = self.one_air(flown.kept.iter().map(|(filament, _)| *filament));
         let (way, curves) = (flown.way, flown.kept.into_iter().map(|(_, points)| points).collect());
-        let gathered = FlownFibres::gather(self.path, &self.case, curves)?;
+        let gathered = FlownFibres::gather((self.path, &self.case), curves, threads)?;
         let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
         Ok(FlownFibres { curves: Arc::new(curves), way, ..gathered })
     }
@@ -136,7 +136,7 @@ impl Flyer<'_> {
                 of_layer.strands = Vec::new();
             }
             all.shared_air.add(number, of_layer);
-            let flown = Arc::new(layer.gather(flown)?);
+            let flown = Arc::new(layer.gather(flown, self.threads)?);
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, flown.numbers[1].mean])?;
             let (curves, surrogate) = (Arc::clone(&flown.curves), flown.surrogate());
