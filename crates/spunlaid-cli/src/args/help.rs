@@ -175,7 +175,7 @@ and how a filament lies, in one of three ways:
     filament is flown. `spunlaid run`, `spin` and `air` take the file too
   - [laydown] case = \"spunbond.toml\": they stand in that file, which several webs may share
   - [laydown] sigma_md, sigma_cd and noise: the numbers of the surrogate, which `spunlaid run`
-    tells, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the unevenness
+    gives, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the unevenness
 
 A throughput and a basis weight may stand in [line] in place of the speeds. Several beams are
 [[layer]] tables, each with its own [layer.line]; what stands above them holds for all.
@@ -205,7 +205,7 @@ If a fit is interrupted, the same command continues it and gives the same bits. 
 holds
   report.html    for the browser: values with 95 % intervals, curves, residuals, profiles
   fit.json       all numbers                 trials.csv   the misfit of each trial
-  web.toml       the web with the values that were found; with cases/ if it flies some
+  web.toml       the web with the values that were found; with case_files/ if it names files
   figures/       every figure as SVG, PNG and CSV
   journal        the numbers of every web; with it the fit can be continued
 
@@ -264,8 +264,8 @@ Examples:
 pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
-`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. In place of
-a folder a file may stand: that of a web is laid first, a case flown, a scan analysed; the results
+`spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. You may
+name a file in place of a folder: a web is laid first, a case flown, a scan analysed; the results
 are in results/NAME_flown and results/NAME_analysed. A scan that needs options is analysed before.
 
 The results folder holds
@@ -280,10 +280,10 @@ Examples:
   spunlaid compare scan.png line.toml          my scan against my line, in one step";
 
 pub(super) const CHECK_HELP: &str = "\
-Of a case it prints every default, the mesh, the limits of the time step, and and the expected time
-and memory. Of a web it prints the numbers of its line: grams per minute and
-hole, dtex, holes per metre, g/m², the speed of the belt, kg/h from each metre of width, and in
-which air the filaments hang. Of a study it prints its points. The output is itself such a file.
+Of a case it prints every default, the mesh, the limits of the time step, and the expected time
+and memory. Of a web it prints the numbers of its line: grams per minute and hole, dtex, holes per
+metre, g/m², the speed of the belt, kg/h from each metre of width, and in which air the filaments
+hang. Of a study it prints its points. The output is itself such a file.
 
 Examples:
   spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"
@@ -293,8 +293,8 @@ Examples:
 pub(super) const NEW_HELP: &str = "\
 Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a
 web, from the numbers by which a line is known; in a terminal it asks for those that are not
-given. The file also has the filament, which `spunlaid run` flies alone; beside it stands a table
-of the air between slot and belt, so FILE line.toml makes line.toml and line_air.csv. Each number
+given. The file also has the filament, which `spunlaid run` flies alone; a table of the air between
+slot and belt is written beside it: FILE line.toml makes line.toml and line_air.csv. Each number
 that follows from others has a comment that says how.
 
 Examples:

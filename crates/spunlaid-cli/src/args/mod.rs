@@ -215,7 +215,7 @@ pub(crate) struct Web {
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
     /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches; or for
-    /// thin-places or strips by the patches that these follow [default: the size that the eye judges first]
+    /// thin-places or strips by the patches that these follow [default: 10 mm, or the size nearest to it]
     #[arg(long = "for", value_name = "PATCH")]
     pub(crate) judged_by: Option<String>,
     /// Write a specification sheet of one page (PDF): every number with its error

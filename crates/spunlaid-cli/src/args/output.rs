@@ -65,7 +65,6 @@ pub(crate) struct Figures {
 
 /// Width of the figures of a command.
 #[derive(Clone, Debug, Args)]
-#[command(next_help_heading = "Figures")]
 pub(crate) struct FigureWidth {
     /// Width of the figures in print: one-column (84 mm), two-columns (174 mm) or as "90 mm"; PNG then has 300 dpi
     #[arg(long, value_name = "WIDTH", value_parser = width_named)]

@@ -85,7 +85,7 @@ fn what_cannot_be_compared_is_refused() {
     even.map.cells.iter_mut().for_each(|cell| *cell = 1000);
     assert!(target(&even).contains("does not vary"), "{}", target(&even));
     let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory()).unwrap_err().to_string();
-    assert!(few.contains("too few to tell chance from difference"), "{few}");
+    assert!(few.contains("too few to see a difference beyond chance"), "{few}");
     // The lamp is a guess: values, but no intervals.
     let guessed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
     let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory()).unwrap();
