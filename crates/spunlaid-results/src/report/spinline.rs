@@ -13,6 +13,8 @@ use spunlaid::simulation::OF_SPINLINES;
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
+/// Figures on the first screen: speed and temperature.
+const MAIN: usize = 2;
 /// Influences that are told in a sentence each.
 const TOLD: usize = 3;
 
@@ -39,9 +41,13 @@ pub fn spinline_report<'a>(
             "The thread from the die to the end is in spinline.parquet, all numbers are in summary.json, and \
             the numbers of each figure in figures/, beside this page.",
         );
+    let (main, others) = figures.split_at(MAIN.min(figures.len()));
+    let thread = Section::new("thread", "The thread from the die to the end").figures(main).open();
     Report::new("spin", headline)
         .lead(summary(spec, rows))
-        .with(section(Section::new("results", "Results"), Vec::new(), results, figures).told())
+        .with(thread)
+        .with(section(Section::new("results", "Results"), Vec::new(), results, &[]).told())
+        .with(Section::of_figures(others).open())
         .with(computed)
         .with(methods("spin", vec![spec.drag.along.source()], "spinline.toml of the results"))
         .with(file)
@@ -65,16 +71,18 @@ fn section<'a>(
     let first = rows.first();
     let results = first.map(|first| Table::of_measures(OF_SPINLINES, first)).unwrap_or_default();
     let is_low = first.is_some_and(|row| row.has_low_birefringence);
-    let section = section
-        .paragraphs(sentences.into_iter().chain(curtain(rows)))
-        .table(results)
-        .paragraph(format!("{} {}", numerical_error(rows), model_error(is_low)));
+    let section = section.paragraphs(sentences.into_iter().chain(curtain(rows)));
     let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
     let section = match &told[..] {
         [] => section,
         _ => section.heading("What decides the diameter").with(Part::List(told)),
     };
-    section.figures(figures)
+    section
+        .heading("All numbers")
+        .table(results)
+        .heading("How far these numbers can be trusted")
+        .paragraph(format!("{} {}", numerical_error(rows), model_error(is_low)))
+        .figures(figures)
 }
 
 /// The filament in a sentence.
