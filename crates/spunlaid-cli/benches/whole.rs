@@ -5,7 +5,7 @@
 //!
 //! Table 1 with implicit tension and steps of 500 µs on one thread: of all usual runs the one whose flights
 //! cost least beside what is recorded. Processor time, the least of some runs taken in turn; ratios hold on a
-//! busy machine. What was found is in `docs/performance.md`.
+//! busy machine. What was found is in `docs/validation.md`.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 

@@ -1,7 +1,7 @@
 //! What a flight costs, counted instead of timed: steps, samples of the turbulence, records, memory.
 //!
 //! Counts called frozen are no physics: one that changes says that a run has become dearer or cheaper. Change
-//! the number here when that is meant, and `docs/performance.md` with it. Other bounds follow from what is kept.
+//! the number here when that is meant, and `docs/validation.md` with it. Other bounds follow from what is kept.
 
 // An allocator that counts is unsafe to write.
 #![allow(clippy::expect_used, unsafe_code)]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _BUNDLE_S = 10.0
 """Computing time of a bundle [s], about: long beside the cost of a task, short beside the loss of a worker."""
 _STEP_S = 17e-9
-"""Computing time of an element, a step and a fibre [s], about; see docs/performance.md."""
+"""Computing time of an element, a step and a fibre [s], about."""
 _MOST_FLIGHTS = 64
 _WIDTH = 8
 _AHEAD = 3

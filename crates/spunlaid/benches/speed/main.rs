@@ -6,7 +6,7 @@
 //!
 //! Processor time, the least of many short repetitions taken in turn; absolute figures wander with the
 //! machine's clock, ratios within a run hold. What the figures were, and the least they could be, is in
-//! `docs/performance.md`.
+//! `docs/validation.md`, “Speed and memory”.
 
 // The tests' shared models come with the licences of tests.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
