@@ -3,7 +3,6 @@
 use crate::case::Case;
 use crate::watched::{guarded, threads};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::air::AirAtPlaces;
 use spunlaid::ground::Vec3;
@@ -37,11 +36,6 @@ impl AirSampler {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let times: Vec<f64> = times.as_array().iter().copied().collect();
         let places = places.as_array();
-        if places.shape() != [times.len(), 3] {
-            return Err(PyValueError::new_err(
-                "places must be an array of as many rows as times, with x, y and z",
-            ));
-        }
         let places: Vec<Vec3<f64>> = places.rows().into_iter().map(|p| Vec3::new(p[0], p[1], p[2])).collect();
         let found = guarded(py, || {
             let mut air = lock(&self.air);

@@ -3,14 +3,12 @@
 use crate::failure::raised_as;
 use crate::source::full_path;
 use crate::watched::{Watch, watched};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::experiment::study::fly_bundle as fly;
 use spunlaid::experiment::{Batch, Experiment, Point, Record, ReplicateOutcome};
 use spunlaid::ground::Error;
 use spunlaid::input::{parse_case, parse_spinline, parse_web, write_experiment};
-use spunlaid::simulation::{LaydownSource, MEASURES};
+use spunlaid::simulation::LaydownSource;
 use spunlaid_results::Failure;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -22,9 +20,9 @@ pub(crate) type Packed = (String, String, u32);
 /// and the replicates to make, from the first to before the last.
 pub(crate) type BundlePart = (u64, String, String, u32, u64, u64);
 
-/// Columns of the records before the numbers: point, replicate, whether the fibre was lost. Of a lost fibre
-/// the numbers are the node and the time.
-const HEAD: usize = 3;
+/// What a machine gives back of a replicate: its point and its number, its measures, and of a fibre that was lost, which
+/// has none, node and time.
+pub(crate) type Row = (u64, u64, Vec<f64>, Option<(u64, f64)>);
 
 /// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
@@ -103,7 +101,7 @@ pub(crate) fn fly_bundle(
     parts: Vec<BundlePart>,
     sides: Vec<f64>,
     threads: usize,
-) -> PyResult<Bound<'_, PyArray2<f64>>> {
+) -> PyResult<Vec<Row>> {
     let watch = Watch::default();
     let flown = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
@@ -125,47 +123,28 @@ pub(crate) fn fly_bundle(
     })?;
     let (records, batches) =
         flown.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;
-    // Webs are never lost, so their first record has all their numbers.
-    let numbers =
-        records.first().and_then(|record| record.outcome.measured()).map_or(MEASURES.len(), <[f64]>::len);
     // Two points may have the same case, so a record is found by its point here and its replicate there.
-    let mut rows = Vec::with_capacity(records.len() * (HEAD + numbers));
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();
     for (batch, (number, ..)) in batches.iter().zip(&parts) {
         for replicate in batch.replicates.clone() {
             at.entry((batch.point, replicate)).or_default().push(*number);
         }
     }
-    for record in &records {
-        let owner = at.get_mut(&(record.point as usize, record.replicate)).and_then(Vec::pop);
-        let (lost, values) = match &record.outcome {
-            ReplicateOutcome::Measured(values) => (0.0, values.to_vec()),
-            ReplicateOutcome::Lost { node, time } => {
-                let mut values = vec![0.0; numbers];
-                (values[0], values[1]) = (*node as f64, *time);
-                (1.0, values)
-            }
-        };
-        rows.extend([owner.unwrap_or(record.point) as f64, record.replicate as f64, lost]);
-        rows.extend(values);
-    }
-    PyArray1::from_vec(py, rows).reshape([records.len(), HEAD + numbers])
+    let row = |Record { point, replicate, outcome }: Record| {
+        let owner = at.get_mut(&(point as usize, replicate)).and_then(Vec::pop).unwrap_or(point);
+        match outcome {
+            ReplicateOutcome::Measured(values) => (owner, replicate, values.to_vec(), None),
+            ReplicateOutcome::Lost { node, time } => (owner, replicate, Vec::new(), Some((node, time))),
+        }
+    };
+    Ok(records.into_iter().map(row).collect())
 }
 
-/// The records of [`fly_bundle`], with so many numbers each.
-pub(crate) fn records(rows: &PyReadonlyArray2<'_, f64>, numbers: usize) -> PyResult<Vec<Record>> {
-    let rows = rows.as_array();
-    let columns = HEAD + numbers;
-    if rows.ncols() != columns {
-        return Err(PyValueError::new_err(format!("records have {columns} columns, not {}", rows.ncols())));
-    }
-    let record = |row: numpy::ndarray::ArrayView1<'_, f64>| {
-        let outcome = if row[2] == 0.0 {
-            ReplicateOutcome::Measured((0..numbers).map(|i| row[HEAD + i]).collect())
-        } else {
-            ReplicateOutcome::Lost { node: row[3] as u64, time: row[4] }
-        };
-        Record { point: row[0] as u64, replicate: row[1] as u64, outcome }
+/// A record of [`fly_bundle`].
+pub(crate) fn record((point, replicate, values, lost): Row) -> Record {
+    let outcome = match lost {
+        Some((node, time)) => ReplicateOutcome::Lost { node, time },
+        None => ReplicateOutcome::Measured(values.into_iter().collect()),
     };
-    Ok(rows.rows().into_iter().map(record).collect())
+    Record { point, replicate, outcome }
 }

@@ -6,7 +6,7 @@ use crate::watched::{guarded, settled};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
+use pyo3::types::{IntoPyDict, PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
 use spunlaid::air::PlaceAxes;
 use spunlaid::fibre::case::keys::{self, Key, Value};
 use spunlaid::fibre::{Note, case};
@@ -239,11 +239,8 @@ impl Case {
         };
         let found = guarded(py, || self.case.air.at_points(&places, axes))?;
         let rows: Vec<_> = places.iter().zip(&found).map(|(at, air)| point_row(*at, *air)).collect();
-        let columns = PyDict::new(py);
-        for (i, name) in POINT_COLUMNS.into_iter().enumerate() {
-            columns.set_item(name, PyArray1::from_iter(py, rows.iter().map(|row| row[i])))?;
-        }
-        Ok(columns)
+        let column = |i: usize| PyArray1::from_iter(py, rows.iter().map(|row| row[i]));
+        POINT_COLUMNS.into_iter().zip((0..).map(column)).into_py_dict(py)
     }
 
     /// Notes and warnings about the case.
@@ -268,11 +265,7 @@ impl Case {
     /// The limits on the time step [s] and what sets them.
     #[getter]
     fn step_limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let limits = PyDict::new(py);
-        for limit in self.case.step_limits() {
-            limits.set_item(limit.cause, limit.limit)?;
-        }
-        Ok(limits)
+        self.case.step_limits().into_iter().map(|limit| (limit.cause, limit.limit)).into_py_dict(py)
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

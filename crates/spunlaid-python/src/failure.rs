@@ -1,7 +1,7 @@
 //! Errors of the library as exceptions of Python; their classes are in `python/spunlaid/_errors.py`.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyTuple;
 use spunlaid::ground::error::Place;
 use spunlaid::ground::{Error, Position, Problem};
 use spunlaid::input::StudyFile;
@@ -68,25 +68,16 @@ where
     Ok(PyErr::from_value(class.call1(arguments)?))
 }
 
-/// Problems as dictionaries, from which `CaseError` makes its own.
-fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Bound<'py, PyList>> {
-    let list = PyList::empty(py);
-    for problem in problems {
-        let remedy = Some(&problem.what.remedy).filter(|remedy| !remedy.is_empty());
-        let file = match &problem.place {
+/// Problems as the fields of `spunlaid.Problem`.
+fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Bound<'py, PyTuple>>> {
+    let fields = |problem: &Problem| {
+        let (Problem { key, value, what, place }, text) = (problem, problem.to_string());
+        let file = match place {
             Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
             Place::Code | Place::Override(_) => None,
         };
-        let dict = PyDict::new(py);
-        dict.set_item("key", Some(&problem.key).filter(|key| !key.is_empty()))?;
-        dict.set_item("value", &problem.value)?;
-        dict.set_item("message", &problem.what.message)?;
-        dict.set_item("remedy", remedy)?;
-        dict.set_item("file", file)?;
-        dict.set_item("line", problem.place.line())?;
-        dict.set_item("column", problem.place.column())?;
-        dict.set_item("text", problem.to_string())?;
-        list.append(dict)?;
-    }
-    Ok(list)
+        let [key, remedy] = [&**key, &*what.remedy].map(|text| Some(text).filter(|text| !text.is_empty()));
+        (key, value, &*what.message, remedy, file, place.line(), place.column(), text).into_pyobject(py)
+    };
+    problems.iter().map(fields).collect()
 }

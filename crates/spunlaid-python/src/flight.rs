@@ -2,12 +2,13 @@
 
 use crate::case::Case;
 use crate::failure::raised_as;
+use crate::table::column;
 use crate::value::{seconds, value_of};
 use crate::watched::{Watch, guarded, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict};
 use spunlaid::fibre::{Job, LaidPoint, Snapshot, flight};
 use spunlaid::ground::threads::lock;
 use spunlaid::ground::{Isa, Vec3, WIDTH};
@@ -126,7 +127,6 @@ impl Flight {
     #[getter]
     fn energies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let snapshots = self.snapshots(py)?;
-        let all = PyDict::new(py);
         type Number = fn(&spunlaid::fibre::Energy) -> spunlaid::ground::Lanes;
         let numbers: [(&str, Number); 6] = [
             ("kinetic_j", |energy| energy.kinetic),
@@ -136,17 +136,15 @@ impl Flight {
             ("air_work_j", |energy| energy.drag_work),
             ("imbalance_j", |energy| energy.imbalance()),
         ];
-        for (name, quantity) in numbers {
-            let mut values: Vec<f64> =
-                snapshots.iter().flat_map(|snapshot| quantity(&snapshot.energy).0).collect();
-            values.truncate(self.fibres as usize);
-            all.set_item(name, PyArray1::from_vec(py, values))?;
-        }
-        Ok(all)
+        let values = |quantity: Number| {
+            let values = snapshots.iter().flat_map(|snapshot| quantity(&snapshot.energy).0);
+            PyArray1::from_vec(py, values.take(self.fibres as usize).collect())
+        };
+        numbers.map(|(name, quantity)| (name, values(quantity))).into_py_dict(py)
     }
 
     /// What each fed fibre has laid on the belt since the last call: a dict of arrays for each fibre.
-    fn take_laid<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+    fn take_laid<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let laid = guarded(py, || {
             let mut packs = self.lock();
             let curves = |pack: &mut flight::Flight| -> Vec<Vec<LaidPoint>> {
@@ -154,11 +152,7 @@ impl Flight {
             };
             Ok(packs.iter_mut().flat_map(curves).collect::<Vec<_>>())
         })?;
-        let all = PyList::empty(py);
-        for points in laid {
-            all.append(laid_columns(py, &points)?)?;
-        }
-        Ok(all)
+        laid.iter().map(|points| laid_columns(py, points)).collect()
     }
 
     fn __reduce__(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
@@ -232,14 +226,13 @@ const fn numbers(vector: Vec3<f64>) -> [f64; 3] {
 }
 
 /// What a fibre laid: fed length, time, place along and across the belt.
-pub(crate) fn laid_columns<'py>(py: Python<'py>, points: &[LaidPoint]) -> PyResult<Bound<'py, PyDict>> {
+fn laid_columns<'py>(py: Python<'py>, points: &[LaidPoint]) -> PyResult<Bound<'py, PyDict>> {
     type Number = fn(&LaidPoint) -> f64;
     let columns: [(&str, Number); 4] =
         [("s_m", |p| p.fed), ("time_s", |p| p.time), ("md_m", |p| p.md), ("cd_m", |p| p.cd)];
-    let dict = PyDict::new(py);
-    for (name, column) in columns {
-        let values = PyArray1::from_vec(py, points.iter().map(column).collect());
-        dict.set_item(name, crate::samples::locked(values.as_any())?)?;
-    }
-    Ok(dict)
+    columns
+        .map(|(name, of)| Ok((name, column(py, points.iter().map(of))?)))
+        .into_iter()
+        .collect::<PyResult<Vec<_>>>()?
+        .into_py_dict(py)
 }

@@ -4,8 +4,9 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
-//! save      results in a folder         source    the file that a user names
-//! case, run, flight, air, spinline, study, web, scan, record, compare, keys     the classes and functions
+//! save      figures as asked for        source    the file that a user names
+//! computed  results of a run, a web, a scan, a spinline, a comparison, which are what goes into their folder
+//! case, run, flight, air, study, web, scan, record, fit, keys     the other classes and functions
 //! ```
 
 // Names such as CaseError are those of Python; units are written in brackets, [m/s].
@@ -25,12 +26,10 @@ mod record;
 mod fit;
 mod flight;
 mod run;
-mod samples;
 
 mod bundle;
-mod compare;
+mod computed;
 mod scan;
-mod spinline;
 mod study;
 mod table;
 mod web;
@@ -46,18 +45,17 @@ mod _spunlaid {
         air::AirSampler,
         bundle::fly_bundle,
         case::Case,
-        compare::{Compared, compare_folders},
+        computed::{Computed, compare_folders, solve_spinline},
         fit::find_fit,
         flight::Flight,
         keys::{keys, program, removed},
         record::analyse,
-        run::{RunResults, column_unit, fly, measures},
+        run::{column_unit, fly, measures},
         save::check_figures,
-        scan::{AnalysedScan, analyse_scan, is_scan},
-        spinline::{SolvedSpinline, solve_spinline},
+        scan::{analyse_scan, is_scan},
         study::Study,
         table::read_table,
-        web::{LaidWeb, lay_web},
+        web::{lay_web, patch_numbers},
     };
 
     #[pymodule_init]

@@ -1,42 +1,11 @@
-//! Saves results in a folder, with figures as a Python user asks for them.
+//! Figures as a Python user asks for them.
 
-use crate::watched::{Watch, watched};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use spunlaid_results::Failure;
-use spunlaid_results::folders::Contents;
-use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
-use std::path::Path;
 
 /// Formats and width of figures, as [`figure_files`] reads them.
 pub(crate) type Figures<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);
-
-/// Saves results in the folder `path`, which replaces an old one with `force`.
-///
-/// * `begin` – writes what is not among their contents
-pub(crate) fn save<C: Contents>(
-    py: Python<'_>,
-    (path, force, figures): (&Path, bool, Figures<'_>),
-    contents: &C,
-    begin: impl FnOnce(&Staging<'_>) -> Result<(), Failure> + Send,
-) -> PyResult<()> {
-    let figures = figure_files(figures)?;
-    let watch = Watch::default();
-    watched(py, &watch, None, || {
-        let mut staging = Staging::new(path, C::ENTRIES, force, &watch.stop)?;
-        staging.set_figures(&figures);
-        begin(&staging)?;
-        contents.write(&staging, watch.making())?;
-        staging.publish()
-    })
-}
-
-/// The report of results, one page of HTML that works offline.
-pub(crate) fn page(py: Python<'_>, contents: &impl Contents) -> PyResult<String> {
-    let watch = Watch::default();
-    watched(py, &watch, None, || contents.html(watch.making()))
-}
 
 /// Formats and width of figures.
 ///

@@ -1,36 +1,18 @@
-//! `analyse_scan`: how even is a web of which there is a scan, and `AnalysedScan`, its results.
+//! `analyse_scan`: how even is a web of which there is a scan?
 
-use crate::save::{Figures, save};
+use crate::computed::{Computed, Of};
 use crate::source::stem;
 use crate::value::positive;
 use crate::watched::{Watch, watched};
-use crate::web::{patch_columns, weights};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use spunlaid::ground::{Dimension, Error, Isa};
-use spunlaid::simulation::OF_SCANNED_PATCHES;
-use spunlaid::web::scan::{Findings, PatchFindings, is_picture_file, parse};
-use spunlaid::web::{Fabric, LightKind, ScanRequest, fabric};
-use spunlaid_results::folders::Contents;
-use spunlaid_results::folders::products::{ScanFolder, notes};
-use spunlaid_results::output::web::Performance;
+use spunlaid::ground::{Dimension, Error};
+use spunlaid::web::scan::{is_picture_file, parse};
+use spunlaid::web::{LightKind, ScanRequest};
+use spunlaid_results::folders::products::ScanFolder;
 use std::path::PathBuf;
 use std::time::Instant;
-
-/// What is found of a scan. spunlaid.Scan shows it.
-#[pyclass(frozen, module = "spunlaid._spunlaid")]
-#[derive(Debug)]
-pub(crate) struct AnalysedScan {
-    #[pyo3(get)]
-    name: String,
-    file: String,
-    findings: Findings,
-    fabric: Fabric,
-    #[pyo3(get)]
-    notes: Vec<String>,
-    performance: Performance,
-}
 
 /// What a scan is read from.
 enum Source {
@@ -47,25 +29,25 @@ pub(crate) fn analyse_scan(
     py: Python<'_>,
     picture: &Bound<'_, PyAny>,
     options: &Bound<'_, PyDict>,
-) -> PyResult<AnalysedScan> {
+) -> PyResult<Computed> {
     let request = request(options)?;
     let source = match picture.cast::<PyBytes>() {
         Ok(bytes) => Source::Array(bytes.as_bytes().to_vec()),
         Err(_) => Source::File(picture.extract()?),
     };
     let started = Instant::now();
-    let (name, picture, findings) = watched(py, &Watch::default(), None, || {
-        let analysed = match &source {
-            Source::File(path) => request.analyse_file(path).map(|found| (stem(path), found)),
-            Source::Array(bytes) => parse(bytes, ARRAY, request.pixel)
-                .and_then(|picture| request.analyse_picture(picture))
-                .map(|found| (ARRAY.to_owned(), found)),
+    let scan = watched(py, &Watch::default(), None, || {
+        let (name, analysed) = match &source {
+            Source::File(path) => (stem(path), request.analyse_file(path)),
+            Source::Array(bytes) => {
+                let parsed = parse(bytes, ARRAY, request.pixel);
+                (ARRAY.to_owned(), parsed.and_then(|picture| request.analyse_picture(picture)))
+            }
         };
-        analysed.map(|(name, (picture, findings))| (name, picture, findings)).map_err(Error::File)
+        let (picture, findings) = analysed.map_err(Error::File)?;
+        Ok(ScanFolder::new(name, picture.file, findings, started))
     })?;
-    let performance = Performance::measure(started, 1, Isa::detect());
-    let (fabric, notes) = (fabric::of_scan(&findings), notes(&findings));
-    Ok(AnalysedScan { name, file: picture.file, findings, fabric, notes, performance })
+    Ok(Computed { name: scan.name.clone(), of: Of::Scan(Box::new(scan)) })
 }
 
 /// What messages call an array.
@@ -111,51 +93,4 @@ fn request(options: &Bound<'_, PyDict>) -> PyResult<ScanRequest> {
 #[pyfunction]
 pub(crate) fn is_scan(path: PathBuf) -> bool {
     is_picture_file(&path)
-}
-
-impl AnalysedScan {
-    fn folder(&self) -> ScanFolder<'_> {
-        ScanFolder {
-            name: &self.name,
-            file: &self.file,
-            findings: &self.findings,
-            fabric: &self.fabric,
-            notes: &self.notes,
-            performance: self.performance,
-        }
-    }
-}
-
-#[pymethods]
-impl AnalysedScan {
-    /// Text of summary.json.
-    #[getter]
-    fn summary(&self) -> String {
-        self.folder().summary()
-    }
-
-    /// Side of a pixel [m].
-    #[getter]
-    const fn cell(&self) -> f64 {
-        self.findings.map.cell
-    }
-
-    /// Basis weight of every pixel [kg/m2]: rows in machine direction x columns in cross direction.
-    #[getter]
-    fn map<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        weights(py, &self.findings.map)
-    }
-
-    /// The unevenness over patches: side of the patch [m], the CV with its error by chance and the ends of
-    /// its 95 % interval, and every declared number of them. What is not known is NaN.
-    #[getter]
-    fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let about = |patch: &PatchFindings| (patch.unevenness.patch, patch.interval.ok());
-        patch_columns(py, &self.findings.patches, OF_SCANNED_PATCHES, about)
-    }
-
-    /// Writes the folder that `spunlaid analyse` writes.
-    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
-        save(py, (&path, force, figures), &self.folder(), |_| Ok(()))
-    }
 }

@@ -1,30 +1,30 @@
 //! `Study`: a study file, its journal and its results.
 
-use crate::bundle::{BundlePart, parts, records};
+use crate::bundle::{BundlePart, Row, parts, record};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
 use crate::save::{Figures, figure_files};
 use crate::source::{full_path, stem};
 use crate::value::{AxisScale, overrides, scale};
 use crate::watched::{LOOK, Watch, guarded, settled, watched};
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyTuple};
 use spunlaid::experiment::study::{rankings, results_of_point, run, unsynced};
-use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Rounds};
+use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Record, Rounds};
 use spunlaid::ground::threads::{lock, look_while, unlock};
 use spunlaid::ground::units::udunits;
 use spunlaid::input::{
     Overrides, Resources, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text,
     write_experiment,
 };
-use spunlaid::simulation::WebSpec;
+use spunlaid::simulation::{RunControl, WebSpec};
 use spunlaid_results::Failure;
 use spunlaid_results::figures::Scale;
 use spunlaid_results::folders::study as folder;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};
 
 /// Writing the files of a study is never stopped.
@@ -111,18 +111,14 @@ impl Study {
     /// Flies all missing fibres on this machine.
     #[pyo3(signature = (threads = None, progress = None))]
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
-        let watch = Watch::default();
-        let counters = Progress::default();
-        let computing = watch.run_control(threads);
+        let (watch, counters, steps) = (Watch::default(), Progress::default(), AtomicU64::new(0));
+        let computing = RunControl { fibre_steps: &steps, ..watch.run_control(threads) };
         // Progress is counted in fibres, as it is on a cluster.
-        let shown = Watch::default();
-        let stopped = &watch.stop;
         let look = || {
-            shown.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
-            shown.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
-            stopped.fetch_or(shown.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+            watch.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
+            watch.total.store(counters.fibres.load(Ordering::Relaxed), Ordering::Relaxed);
         };
-        watched(py, &shown, progress.as_ref(), || {
+        watched(py, &watch, progress.as_ref(), || {
             look_while(LOOK, look, || {
                 self.with_journal(|journal| {
                     let lent = Mutex::new(std::mem::replace(journal, Journal::in_memory()));
@@ -158,14 +154,17 @@ impl Study {
 
     /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already
     /// are left as they are. Returns the number of fibres added.
-    fn add(&self, py: Python<'_>, rows: PyReadonlyArray2<'_, f64>) -> PyResult<usize> {
-        let records = records(&rows, self.file.study.quantities.len())?;
-        let (points, most) = (self.file.study.points.len() as u64, self.file.study.replicates.at_most);
-        if records.iter().any(|record| record.point >= points || record.replicate >= most) {
+    fn add(&self, py: Python<'_>, rows: Vec<Row>) -> PyResult<usize> {
+        let mut new: Vec<_> = rows.into_iter().map(record).collect();
+        let spunlaid::experiment::Study { points, replicates, quantities, .. } = &self.file.study;
+        let is_own = |record: &Record| {
+            let measured = record.outcome.measured().is_none_or(|values| values.len() == quantities.len());
+            record.point < points.len() as u64 && record.replicate < replicates.at_most && measured
+        };
+        if !new.iter().all(is_own) {
             return Err(PyIndexError::new_err("these records belong to another study"));
         }
         guarded(py, || {
-            let mut new = records;
             let file = self.with_journal(|journal| {
                 new.retain(|record| !journal.holds(record.point as usize, record.replicate));
                 journal.add(&new)?;
@@ -296,29 +295,23 @@ impl Study {
         Ok(PyArray1::from_vec(py, rows).reshape([fibres, columns])?.into_any())
     }
 
-    /// How much each factor changes each measure: lists of measure, factor, from, to, change and half the
-    /// width of its 95 % interval; and why there is no ranking, if so.
-    fn effects<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyList>, Option<String>)> {
+    /// How much each factor changes each measure: measure, factor, from, to, change, its standard error, half the
+    /// width of its 95 % interval, and the share that all factors explain.
+    fn effects<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
         let study = &self.file.study;
         let found = guarded(py, || self.with_journal(|journal| rankings(study, journal)))?;
-        let all = PyList::empty(py);
+        let mut all = Vec::new();
         for ranking in &found.of_measures {
+            let measure = &study.quantities[ranking.measure].column;
             for effect in &ranking.effects {
-                let dict = PyDict::new(py);
-                let factor = &study.factors[effect.of.factor];
-                dict.set_item("measure", &study.quantities[ranking.measure].column)?;
-                dict.set_item("factor", &factor.key)?;
-                dict.set_item("from", effect.of.from)?;
-                dict.set_item("to", effect.of.to)?;
-                dict.set_item("change", effect.difference.value)?;
-                let known = effect.difference.known_half_width();
-                dict.set_item("standard_error", known.map(|_| effect.difference.standard_error))?;
-                dict.set_item("half_width", known)?;
-                dict.set_item("explained", ranking.explained)?;
-                all.append(dict)?;
+                let (of, by) = (&effect.of, &effect.difference);
+                let (factor, half_width) = (&study.factors[of.factor].key, by.known_half_width());
+                let error = half_width.map(|_| by.standard_error);
+                let row = (measure, factor, of.from, of.to, by.value, error, half_width, ranking.explained);
+                all.push(row.into_pyobject(py)?);
             }
         }
-        Ok((all, found.refusal.map(|refusal| refusal.to_string())))
+        Ok(all)
     }
 
     /// Makes tables, figures and report in the folder of the study, and lets go of it.
@@ -335,16 +328,6 @@ impl Study {
             place.figures = figures;
             let watch = Watch::default();
             folder::write(&mut place, &self.name, &self.file, &mut journal, watch.making()).map(drop)
-        })
-    }
-
-    /// Lets go of the folder, so that other programs may use it. Results are still read from it.
-    fn close(&self, py: Python<'_>) -> PyResult<()> {
-        guarded(py, || {
-            if self.out.is_some() {
-                *self.journal() = None;
-            }
-            Ok(())
         })
     }
 

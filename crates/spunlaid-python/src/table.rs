@@ -1,7 +1,6 @@
 //! Parquet tables of results folders, read back.
 
 use crate::failure::raised_as;
-use crate::samples::locked;
 use numpy::PyArray1;
 use parquet::column::reader::ColumnReader;
 use parquet::errors::{ParquetError, Result as Decoded};
@@ -11,10 +10,15 @@ use pyo3::types::PyDict;
 use std::fs::File;
 use std::path::PathBuf;
 
-/// A column of whole numbers or of numbers.
-enum Values {
-    Whole(Vec<i64>),
-    Number(Vec<f64>),
+/// The array, of which nothing can be changed any more: it is seen by all who hold the results.
+pub(crate) fn locked<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    array.call_method1("setflags", (false,))?;
+    Ok(array.clone())
+}
+
+/// Numbers as such an array.
+pub(crate) fn column(py: Python<'_>, values: impl Iterator<Item = f64>) -> PyResult<Bound<'_, PyAny>> {
+    locked(PyArray1::from_vec(py, values.collect()).as_any())
 }
 
 /// The columns of a table that spunlaid wrote, by name.
@@ -26,19 +30,17 @@ pub(crate) fn read_table(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, Py
     })?;
     let table = PyDict::new(py);
     for (name, values) in columns {
-        let array = match values {
-            Values::Whole(values) => PyArray1::from_vec(py, values).into_any(),
-            Values::Number(values) => PyArray1::from_vec(py, values).into_any(),
-        };
-        table.set_item(name, locked(&array)?)?;
+        table.set_item(name, locked(PyArray1::from_vec(py, values).as_any())?)?;
     }
     Ok(table)
 }
 
-fn decode(file: File) -> Decoded<Vec<(String, Values)>> {
+/// Whole numbers are numbers too.
+fn decode(file: File) -> Decoded<Vec<(String, Vec<f64>)>> {
     let reader = SerializedFileReader::new(file)?;
     let schema = reader.metadata().file_metadata().schema_descr_ptr();
-    let mut columns: Vec<(String, Values)> = Vec::new();
+    let mut columns: Vec<(String, Vec<f64>)> =
+        schema.columns().iter().map(|column| (column.name().to_owned(), Vec::new())).collect();
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group)?;
         let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
@@ -49,23 +51,18 @@ fn decode(file: File) -> Decoded<Vec<(String, Values)>> {
             if column.max_def_level() > 0 {
                 return Err(foreign());
             }
-            let reader = group.get_column_reader(at)?;
-            if columns.len() == at {
-                let values = match reader {
-                    ColumnReader::Int64ColumnReader(_) => Values::Whole(Vec::new()),
-                    _ => Values::Number(Vec::new()),
-                };
-                columns.push((name.to_owned(), values));
-            }
-            match (reader, &mut columns[at].1) {
-                (ColumnReader::Int64ColumnReader(mut reader), Values::Whole(values)) => {
-                    reader.read_records(rows, None, None, values)?
+            let values = &mut columns[at].1;
+            match group.get_column_reader(at)? {
+                ColumnReader::Int64ColumnReader(mut reader) => {
+                    let mut whole = Vec::new();
+                    reader.read_records(rows, None, None, &mut whole)?;
+                    values.extend(whole.into_iter().map(|number| number as f64));
                 }
-                (ColumnReader::DoubleColumnReader(mut reader), Values::Number(values)) => {
-                    reader.read_records(rows, None, None, values)?
+                ColumnReader::DoubleColumnReader(mut reader) => {
+                    reader.read_records(rows, None, None, values)?;
                 }
                 _ => return Err(foreign()),
-            };
+            }
         }
     }
     Ok(columns)

@@ -78,14 +78,9 @@ fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<
     if let Ok(text) = value.cast::<PyString>() {
         return unicode(text, || format!("the value of {key} is"));
     }
-    if let Some(number) = number(value)? {
-        return Ok(match &kind {
-            Some(Kind::Quantity(dimension, _)) => quantity(*dimension, &number),
-            _ => number.text(),
-        });
-    }
-    if let Some(path) = path(value)? {
-        return Ok(quoted(&path.to_string_lossy()));
+    let dimension = if let Some(Kind::Quantity(dimension, _)) = &kind { Some(*dimension) } else { None };
+    if let Some(text) = number_or_path(dimension, value)? {
+        return Ok(text);
     }
     if let Ok(parts) = value.try_iter()
         && !value.is_instance_of::<PyDict>()
@@ -113,16 +108,18 @@ fn part_text(key: &str, dimension: Dimension, part: &Bound<'_, PyAny>) -> PyResu
     if let Ok(text) = part.cast::<PyString>() {
         return Ok(quoted(&unicode(text, || format!("{key}:"))?));
     }
-    if let Some(number) = number(part)? {
-        return Ok(quantity(dimension, &number));
+    number_or_path(Some(dimension), part)?.ok_or_else(|| {
+        PyTypeError::new_err(format!("the list of {key} takes texts and numbers, not {}", type_name(part)))
+    })
+}
+
+/// A number, of a dimension if it has one, or the path of a file.
+fn number_or_path(dimension: Option<Dimension>, value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
+    if let Some(number) = number(value)? {
+        return Ok(Some(dimension.map_or_else(|| number.text(), |dimension| quantity(dimension, &number))));
     }
-    match path(part)? {
-        Some(path) => Ok(quoted(&path.to_string_lossy())),
-        None => Err(PyTypeError::new_err(format!(
-            "the list of {key} takes texts and numbers, not {}",
-            type_name(part)
-        ))),
-    }
+    let path = if value.hasattr("__fspath__")? { Some(value.extract::<PathBuf>()?) } else { None };
+    Ok(path.map(|path| quoted(&path.to_string_lossy())))
 }
 
 /// A number of Python.
@@ -163,10 +160,6 @@ pub(crate) fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<Number>> {
     let is_number = value.hasattr("dtype")?
         && value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0));
     Ok(if is_number { value.extract::<f64>().ok().map(Number::Float) } else { None })
-}
-
-fn path(value: &Bound<'_, PyAny>) -> PyResult<Option<PathBuf>> {
-    if value.hasattr("__fspath__")? { value.extract().map(Some) } else { Ok(None) }
 }
 
 fn quantity(dimension: Dimension, number: &Number) -> String {

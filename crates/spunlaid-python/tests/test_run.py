@@ -156,9 +156,9 @@ def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request:
     run.save(tmp_path / "r", force=True)
     loaded.save(tmp_path / "copy")
     same(run, spunlaid.load(tmp_path / "copy"))
-    with pytest.raises(ValueError, match="copied with its figures as they are"):
+    with pytest.raises(ValueError, match="copied with their figures as they are"):
         loaded.save(tmp_path / "print", figures=["pdf"])
-    with pytest.raises(spunlaid.FolderError, match="is there already"):
+    with pytest.raises(spunlaid.FolderError, match="holds results already"):
         loaded.save(tmp_path / "copy")
 
 

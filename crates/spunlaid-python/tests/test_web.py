@@ -88,7 +88,7 @@ def test_identical_after_pickling(web: spunlaid.Web, tmp_path: Path) -> None:
     (tmp_path / "two" / "thesis.tex").write_text("mine")
     again.save(tmp_path / "two", force=True)
     assert (tmp_path / "two" / "thesis.tex").read_text() == "mine"
-    with pytest.raises(ValueError, match="SVG and PNG"):
+    with pytest.raises(ValueError, match="with their figures as they are"):
         again.save(tmp_path / "three", figures=["pdf"])
 
 

@@ -7,11 +7,10 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::record::read_record;
 use spunlaid::air::{Layout, Settings, SpectrumSettings};
-use spunlaid::ground::{Fault, FileError, Isa, Problem};
+use spunlaid::ground::{Fault, FileError, Problem};
+use spunlaid::web::ScanRequest;
 use spunlaid::web::scan::{columns_of_map, is_picture_file};
-use spunlaid::web::{ScanRequest, fabric};
-use spunlaid_results::folders::products::{RecordFolder, ScanFolder, notes};
-use spunlaid_results::output::web::Performance;
+use spunlaid_results::folders::products::{RecordFolder, ScanFolder};
 use std::time::Instant;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
@@ -93,15 +92,11 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let (name, origin) = (stem(&arguments.record, "scan"), invocation.origin_of([&arguments.record]));
     let folder = Some(arguments.output.folder(&name));
     let (output, figures) = (&arguments.output, arguments.figures.files());
-    let delivery = Delivery::open::<ScanFolder<'_>>(folder, origin, output, &figures)?;
+    let delivery = Delivery::open::<ScanFolder>(folder, origin, output, &figures)?;
     let started = Instant::now();
     let (picture, findings) = request(arguments).analyse_file(&arguments.record)?;
-    let fabric = fabric::of_scan(&findings);
-    let performance = Performance::measure(started, 1, Isa::detect());
-    let (file, found) = (&picture.file, &notes(&findings));
-    let contents =
-        ScanFolder { name: &name, file, findings: &findings, fabric: &fabric, notes: found, performance };
-    delivery.deliver(&contents, Threads::default(), Asides { found, ..Asides::default() })
+    let contents = ScanFolder::new(name, picture.file, findings, started);
+    delivery.deliver(&contents, Threads::default(), Asides { found: &contents.notes, ..Asides::default() })
 }
 
 fn request(arguments: &Analyse) -> ScanRequest {

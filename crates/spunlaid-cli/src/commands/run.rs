@@ -10,22 +10,23 @@ use spunlaid::fibre::{Case, Note};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::{FinerChecks, FinerPlans, RunControl, RunPaths};
 use spunlaid_results::folders::{read_summary_of_run, run as files};
+use spunlaid_results::output::flown::Flights;
 
 use std::path::Path;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = read(run)?;
     let (name, output) = (name_of(&run.source.case, FileKind::Case, ["case", "fibre"]), &run.output);
     let (folder, origin) = (output.optional_folder(&name), invocation.origin_of([&run.source.case]));
-    let mut delivery = Delivery::open::<files::Run<'_>>(folder, origin, output, &run.figures.files())?;
+    let mut delivery = Delivery::open::<files::Run>(folder, origin, output, &run.figures.files())?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = run_control(run.threads, &fibre_steps);
     let (started, plans) = (Instant::now(), FinerPlans::for_case(&case));
-    let mut flown = fly(&case, &plans, computing, &delivery, output.quiet)?;
+    let flown = fly(&case, &plans, computing, &delivery, output.quiet)?;
     let asked = case.run.replicates;
     let paused = || Failure::Paused { done: flown.replicates, total: Some(asked), what: "fibres" };
     if flown.paths.is_none() && delivery.folder().is_some_and(|folder| holds_more(folder, flown.replicates)) {
@@ -34,24 +35,17 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     // The results of an interrupted run are those of the fibres that have landed.
     case.run.replicates = flown.replicates;
     notes.extend(flown.paths.is_none().then(|| interrupted(flown.replicates, asked)));
-    let results = &flown.results;
-    let performance = files::performance(&case, results, computing, started.elapsed().as_secs_f64());
-    let [lost, outside, coarse] = files::found(&case, results);
+    let results = flown.results;
+    let performance = files::performance(&case, &results, computing, started.elapsed().as_secs_f64());
+    let [lost, outside, coarse] = files::found(&case, &results);
     outside.iter().for_each(|outside| say::warning(outside));
     notes.extend([&lost, &outside, &coarse].into_iter().flatten().cloned());
-    let before = if flown.paths.is_some() { plans.before_flight() } else { plans.stopped() };
-    let first = files::Run {
-        name: &name,
-        case: &case,
-        results,
-        checks: &before,
-        notes: &notes,
-        performance,
-        drawn: OnceLock::new(),
-    };
-    if let Err(failure) = delivery.publish(&first, run.threads) {
+    let checks = if flown.paths.is_some() { plans.before_flight() } else { plans.stopped() };
+    let (case, drawn) = (Arc::new(case), OnceLock::new());
+    let mut written = files::Run { name, case, results, checks, notes, performance, drawn };
+    if let Err(failure) = delivery.publish(&written, run.threads) {
         // What is kept goes first, since the folder above it is removed only if it is empty.
-        drop(flown);
+        drop(flown.kept);
         return Err(failure);
     }
     // The results are safe now, whatever becomes of the checks.
@@ -60,17 +54,18 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         delivery.say_headline();
     }
     coarse.iter().filter(|_| delivery.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
-    let checked = flown.paths.as_ref().map(|paths| check(&plans, paths, computing, output.quiet));
-    let written = files::Run { checks: checked.as_ref().unwrap_or(&before), ..first };
+    if let Some(paths) = &flown.paths {
+        written.checks = check(&plans, paths, computing, output.quiet);
+    }
     if is_checked {
         delivery.rewrite(&written)?;
     }
     delivery.say(Asides::default());
     delivery.finish(&written);
-    if checked.is_none() {
+    if flown.paths.is_none() {
         return Err(paused());
     }
-    flown.forget_kept();
+    flown.kept.iter().for_each(Flights::finish);
     lost.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }
 
@@ -98,7 +93,7 @@ fn fly(
     };
     let (steps, label) =
         (case.run.steps * case.run.replicates, format!("flying {}", plural(case.run.replicates, "fibre")));
-    let work = || files::fly(case, plans, computing, delivery.staging(), told);
+    let work = || files::fly(case, plans, computing, delivery.staging(), delivery.folder().is_some(), told);
     Ok(progress::follow(computing.fibre_steps, steps, &label, quiet, work)?)
 }
 

@@ -6,11 +6,9 @@ use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::fibre::Note;
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Resources, read_spinline};
 use spunlaid_results::folders::products::SpinFolder;
-use spunlaid_results::output::spinline::{SpinResults, remarks};
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
     let set = overrides(&spin.set);
@@ -20,10 +18,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let (name, origin) =
         (name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]), invocation.origin_of([&spin.file]));
     let folder = spin.output.optional_folder(&name);
-    let delivery = Delivery::open::<SpinFolder<'_>>(folder, origin, &spin.output, &spin.figures.files())?;
-    let results = SpinResults::new(&file)?;
-    let found = &remarks(&results.rows);
-    let notes = &[Note::notes_of_results(&file.notes), found.clone()].concat();
-    let contents = SpinFolder { name: &name, file: &file, results: &results, notes };
-    delivery.deliver(&contents, Threads::default(), Asides { found, ..Asides::default() })
+    let delivery = Delivery::open::<SpinFolder>(folder, origin, &spin.output, &spin.figures.files())?;
+    let contents = SpinFolder::solve(name, file)?;
+    delivery.deliver(&contents, Threads::default(), Asides { found: &contents.found, ..Asides::default() })
 }

@@ -8,16 +8,14 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, are_tried, judged_by, steps};
 use spunlaid::experiment::{Advice, Change, MOST_STEPS, Shelf};
-use spunlaid::fibre::Note;
 use spunlaid::ground::Error;
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes, read_web};
-use spunlaid::simulation::{Flights, FlownWeb, Flyer};
+use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::LayControl;
 use spunlaid::web::map::Findings;
+use spunlaid_results::folders::KeptTrials;
 use spunlaid_results::folders::web::WebFolder;
-use spunlaid_results::folders::{self, KeptTrials};
 use spunlaid_results::numbers::significant;
-use spunlaid_results::output::web::{Performance, specification_sheet};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -32,7 +30,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let (name, origin) = (stem(&arguments.file, "web"), invocation.origin_of([&arguments.file]));
     let (folder, figures) = (output.optional_folder(&name), arguments.figures.files());
     let beside = output.folder(&name).display().to_string();
-    let mut delivery = Delivery::open::<WebFolder<'_>>(folder, origin, output, &figures)?;
+    let mut delivery = Delivery::open::<WebFolder>(folder, origin, output, &figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;
     // Before anything is flown, because the file may change meanwhile.
     let trials = Trials { judged_by, ..Trials::read(arguments, &file.spec)? };
@@ -44,34 +42,16 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
     let findings = progress::follow(&laid, flown.pieces()?, &label, output.quiet, || flown.find(by))?;
     let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
-    let FlownWeb { web, layers, .. } = &flown;
-    let fabric = file.spec.fabric(web, &findings, by.threads);
     let trials = trials.worth_it(arguments, (&file.spec, &findings));
-    let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
-    let found = &folders::web::notes(&flown, &findings);
-    let notes = &[Note::notes_of_results(&file.notes), found.clone()].concat();
-    let first = WebFolder {
-        name: &name,
-        file: &file,
-        web,
-        layers,
-        findings: &findings,
-        fabric: &fabric,
-        advice: None,
-        guesses: None,
-        beside: &beside,
-        awaited: !trials.is_empty(),
-        notes,
-        performance,
-    };
+    let mut web = WebFolder::new((name, beside), file, (flown, findings), (started, by));
+    web.awaited = !trials.is_empty();
     if let Some(sheet) = &arguments.sheet {
-        let page = specification_sheet(&name, (&findings, &fabric), notes)?;
-        fs::write(sheet, page).map_err(|error| Error::unwritable(sheet)(error))?;
+        fs::write(sheet, web.specification()?).map_err(|error| Error::unwritable(sheet)(error))?;
     }
-    delivery.publish(&first, threads)?;
+    delivery.publish(&web, threads)?;
     // The web is safe now, whatever becomes of what is tried with it.
-    delivery.say(Asides { lines: &[laying], found });
-    trials.run(output, first, by, &mut delivery)
+    delivery.say(Asides { lines: &[laying], found: web.found() });
+    trials.run(output, web, by, &mut delivery)
 }
 
 /// Changes that are tried once a web has been laid.
@@ -120,7 +100,7 @@ impl Trials {
     fn run(
         self,
         output: &Output,
-        first: WebFolder<'_>,
+        mut web: WebFolder,
         by: LayControl<'_>,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
@@ -133,27 +113,23 @@ impl Trials {
         let (judged_by, quiet) = (self.judged_by, output.quiet);
         let by = (kept.as_ref().map(|kept| kept as &dyn Shelf), by);
         let of_guesses = ["other value", "guesses", "--set web.guessed=none"];
-        let guesses = match self.guesses {
-            Some(all) => try_changes(all, of_guesses, (first, judged_by), by, (quiet, delivery))?,
-            None => None,
-        };
-        let guessed = WebFolder { guesses: guesses.as_ref(), awaited: self.changes.is_some(), ..first };
-        if guesses.is_some() {
-            delivery.rewrite(&guessed)?;
+        if let Some(all) = self.guesses {
+            web.guesses = try_changes(all, of_guesses, (&mut web, judged_by), by, (quiet, delivery))?;
+        }
+        web.awaited = self.changes.is_some();
+        if web.guesses.is_some() {
+            delivery.rewrite(&web)?;
             delivery.say(Asides::default());
         }
         let of_line = ["change", "the line", "--no-advice"];
-        let advice = match self.changes {
-            Some(all) => try_changes(all, of_line, (guessed, judged_by), by, (quiet, delivery))?,
-            None => None,
-        };
-        let advised = WebFolder { advice: advice.as_ref(), awaited: false, ..guessed };
-        if guessed.awaited {
-            delivery.rewrite(&advised)?;
+        if let Some(all) = self.changes {
+            web.advice = try_changes(all, of_line, (&mut web, judged_by), by, (quiet, delivery))?;
+            web.awaited = false;
+            delivery.rewrite(&web)?;
             delivery.say(Asides::default());
         }
         kept.iter().for_each(KeptTrials::clear);
-        delivery.finish(&advised);
+        delivery.finish(&web);
         Ok(())
     }
 }
@@ -163,22 +139,23 @@ impl Trials {
 fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
-    (folder, judged_by): (WebFolder<'_>, Option<f64>),
+    (web, judged_by): (&mut WebFolder, Option<f64>),
     (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
-    let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &folder.file.spec);
+    let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
-    let work = || advise(spec, (folder.web, folder.findings), changes, judged_by, (shelf, by));
+    let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (shelf, by));
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);
-            delivery.rewrite(&WebFolder { awaited: false, ..folder })?;
+            web.awaited = false;
+            delivery.rewrite(web)?;
             Err(Failure::Kept { folder: delivery.folder().map(Path::to_owned) })
         }
         Err(error) => {
-            say::warning(&format!("{label} of {} failed: {error}", folder.name));
+            say::warning(&format!("{label} of {} failed: {error}", web.name));
             Ok(None)
         }
         Ok(advice) => {

@@ -6,12 +6,15 @@ import json
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from . import _spunlaid
 from ._spunlaid import Case
 
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
+
+    _Curves = list[NDArray[np.float64]]
 
 
 class Interval(NamedTuple):
@@ -25,12 +28,12 @@ class Interval(NamedTuple):
 class Analysis:
     """The statistics of the air in a record, in SI units."""
 
-    def __init__(self, told: dict[str, Any]) -> None:
-        self.results: dict[str, Any] = json.loads(told["json"])
+    def __init__(self, text: str, air_toml: str, curves: list[_Curves]) -> None:
+        self.results: dict[str, Any] = json.loads(text)
         """What `analysis.json` of `spunlaid analyse` holds."""
-        self.air_toml: str = told["air_toml"]
+        self.air_toml: str = air_toml
         """The `[air]` of a case file."""
-        self._curves: list[dict[str, Any]] = told["curves"]
+        self._curves = curves
 
     def _interval(self, name: str) -> Interval:
         of = self.results[name]
@@ -68,13 +71,13 @@ class Analysis:
 
     def spectrum(self, component: int = 0) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Frequencies [Hz] and one-sided spectral density [(m/s)²/Hz] of a component."""
-        curve = self._curves[component]
-        return curve["frequency_hz"], curve["density"]
+        frequencies, density, *_ = self._curves[component]
+        return frequencies, density
 
     def autocorrelation(self, component: int = 0) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Lags [s] and autocorrelation coefficients [-] of a component."""
-        curve = self._curves[component]
-        return curve["lag_s"], curve["autocorrelation"]
+        *_, lags, coefficients = self._curves[component]
+        return lags, coefficients
 
     def air(self) -> dict[str, float]:
         """The four keys of a case that the record tells; `case.with_(analysis.air())` is the case in this air."""
@@ -117,4 +120,20 @@ def analyse(
         record = os.fspath(record)
     if isinstance(record, str) and _spunlaid.is_scan(record):
         raise ValueError(f"{record} is the scan of a web; spunlaid.scan({record!r}) says how even it is")
-    return Analysis(_spunlaid.analyse(record, rate, mean_velocity, flat_until, integral, list(columns)))
+    read = record if isinstance(record, str) else _velocities(record)
+    return Analysis(*_spunlaid.analyse(read, rate, mean_velocity, flat_until, integral, list(columns)))
+
+
+def _velocities(record: ArrayLike) -> NDArray[np.float64]:
+    """An array of samples × components."""
+    try:
+        array = np.asarray(record, dtype=float)
+    except (TypeError, ValueError):
+        raise TypeError("a record is the path of a file, or an array of velocities [m/s]: samples, or samples × components") from None
+    columns = array[:, None] if array.ndim == 1 else array
+    if columns.ndim != 2 or not 1 <= columns.shape[1] <= 3:
+        raise ValueError(f"an array of velocities has the shape (samples,) or (samples, 1 to 3 components), not {array.shape}")
+    gaps = np.flatnonzero(~np.isfinite(columns).all(axis=1))
+    if gaps.size:
+        raise ValueError(f"sample {gaps[0]} is not finite; interpolate it, or take a part of the record without gaps")
+    return columns

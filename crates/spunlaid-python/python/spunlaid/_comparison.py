@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 class Comparison(Results):
     """What differs between runs, or between webs. `spunlaid.compare` returns it; a notebook shows its report."""
 
-    _computed: _spunlaid.Compared
-
     @property
     def summary(self) -> dict[str, Any]:
         """What `comparison.json` of `spunlaid compare` holds."""

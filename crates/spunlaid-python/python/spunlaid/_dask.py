@@ -12,15 +12,11 @@ import time
 import zlib
 from collections.abc import Callable
 from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import _spunlaid
 from ._errors import ClusterError
 from ._optional import needed
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 _BUNDLE_S = 10.0
 """Computing time of a bundle [s], about: long beside the cost of a task, short beside the loss of a worker."""
@@ -53,7 +49,7 @@ def _check_version(version: str) -> None:
         )
 
 
-def fly_bundle(packed: bytes, version: str, all_threads: bool) -> NDArray[np.float64]:
+def fly_bundle(packed: bytes, version: str, all_threads: bool) -> list[Any]:
     """Flies a bundle; a worker calls it. The records of its fibres."""
     from distributed import get_worker
 
@@ -123,7 +119,7 @@ def _round(study: _spunlaid.Study, client: Any, show: Callable[[int, int], objec
         client.cancel(list(under_way))
 
 
-def _result(future: Any) -> NDArray[np.float64]:
+def _result(future: Any) -> list[Any]:
     from distributed import KilledWorker
 
     try:

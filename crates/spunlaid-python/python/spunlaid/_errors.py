@@ -34,9 +34,9 @@ class CaseError(Error, ValueError):
     """A case, a study or a web that cannot be run. `problems` lists all reasons; the other attributes are those of the
     first one."""
 
-    def __init__(self, text: str, problems: list[dict[str, Any]] | None = None) -> None:
+    def __init__(self, text: str, problems: list[tuple[Any, ...]] | None = None) -> None:
         super().__init__(text)
-        self.problems: list[Problem] = [Problem(**problem) for problem in problems or []]
+        self.problems: list[Problem] = [Problem(*problem) for problem in problems or []]
 
     @property
     def first(self) -> Problem | None:
@@ -69,7 +69,7 @@ class CaseError(Error, ValueError):
         return self.first.remedy if self.first else None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.args[0], [problem._asdict() for problem in self.problems])
+        return type(self), (self.args[0], [tuple(problem) for problem in self.problems])
 
 
 class FileError(Error):

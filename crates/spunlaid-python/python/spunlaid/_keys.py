@@ -38,4 +38,4 @@ class Key(NamedTuple):
 
 def keys(*, web: bool = False) -> dict[str, Key]:
     """Every key of a case, or of a web, by its full name, in the order of a file: `keys()["air.velocity"].meaning`."""
-    return {key["name"]: Key(**key) for key in _spunlaid.keys(web)}
+    return {key[0]: Key(*key) for key in _spunlaid.keys(web)}

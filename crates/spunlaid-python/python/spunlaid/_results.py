@@ -4,35 +4,81 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import copytree, rmtree
+from tempfile import mkdtemp
 from typing import Any
+from weakref import finalize
+
+from ._errors import FolderError
+from ._spunlaid import Computed
 
 
-def packed(save: Callable[[str], None]) -> dict[str, bytes]:
-    """The files of the folder that `save` writes, by their names in it: what results are pickled as."""
-    with TemporaryDirectory() as place:
-        folder = Path(place) / "results"
-        save(str(folder))
-        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+class Place:
+    """A folder of its own, as long as it is used."""
+
+    def __init__(self) -> None:
+        self.path = Path(mkdtemp(prefix="spunlaid-"))
+        finalize(self, rmtree, self.path, ignore_errors=True)
 
 
-def unpack(files: dict[str, bytes], folder: Path) -> None:
-    """Writes them into a folder."""
-    for name, content in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_bytes(content)
+class Kept:
+    """Results in place of what was computed: the files of their folder.
+
+    path: the folder; without it they are written to one of their own
+    files: of results that were pickled, by their names
+    name: what they are called
+    """
+
+    def __init__(self, path: str | os.PathLike[str] | None, files: dict[str, bytes] | None = None, name: str = "") -> None:
+        self.files, self.name = files, name
+        if path is None:
+            self._place = Place()
+            path = self._place.path
+            for file, content in (files or {}).items():
+                (path / file).parent.mkdir(parents=True, exist_ok=True)
+                (path / file).write_bytes(content)
+        self.path = Path(path)
+        try:
+            self.summary = (self.path / "summary.json").read_text("utf-8")
+        except (OSError, ValueError) as error:
+            raise FolderError(f"{self.path}: is not the results of a run: summary.json: {error}") from error
+
+    def report(self) -> str:
+        """Text of report.html."""
+        return (self.path / "report.html").read_text("utf-8")
+
+    def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
+        """Copies the folder. Files of others stay."""
+        if figures != (None, None):
+            raise ValueError(
+                "figures: results that were read from a folder or a pickle are copied with their figures as they are; leave"
+                " figures and figure_width out, or compute them again"
+            )
+        place = Path(path)
+        if place.exists() and (not place.is_dir() or any(place.iterdir())) and not force:
+            raise FolderError(f"{place}: holds results already; name another folder, or replace them with force=True")
+        try:
+            for entry in self.path.iterdir():
+                if (place / entry.name).is_dir():
+                    rmtree(place / entry.name)
+            copytree(self.path, place, dirs_exist_ok=True)
+        except OSError as error:
+            raise FolderError(f"{path}: cannot be written: {error}") from error
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Kept, (None if self.files else self.path.absolute(), self.files, self.name)
 
 
 class Results:
     """Results with a summary, a report and a folder. A notebook shows the report.
 
-    computed: what the compiled part has computed, or what was read from a folder
+    computed: what the compiled part has computed, or the files of a folder
     """
 
-    def __init__(self, computed: Any) -> None:
+    def __init__(self, computed: Computed | Kept) -> None:
         self._computed = computed
         self._kept: dict[str, Any] = {}
 
@@ -50,7 +96,7 @@ class Results:
     @property
     def notes(self) -> list[str]:
         """Notes and warnings."""
-        return list(self._computed.notes)
+        return list(self.summary["notes"])
 
     def report(self) -> str:
         """The report, one page of HTML that works offline."""
@@ -71,7 +117,21 @@ class Results:
         figures: the formats of the figures, `["pdf", "png"]`; SVG and PNG if it is left out
         figure_width: their width in print, `"one-column"`, `"two-columns"`, `"90 mm"` or in metres; PNG then has 300 dpi
         """
-        self._computed.save(os.fspath(path), force, (figures, figure_width))
+        self._save(os.fspath(path), force, (figures, figure_width))
+
+    def _save(self, path: str, force: bool, figures: tuple[Any, Any], whole: bool = True) -> None:
+        # whole: whether all that the program writes must be there
+        self._computed.save(path, force, figures)
+
+    def _packed(self) -> Kept:
+        """What the results are pickled as: their folder."""
+        if isinstance(self._computed, Kept):
+            return self._computed
+        place = Place()
+        folder = place.path / "results"
+        self._save(str(folder), False, (None, None), whole=False)
+        files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+        return Kept(None, files, self._computed.name)
 
     def _repr_html_(self) -> str:
         page = escape(self.report(), quote=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,12 +11,14 @@ import numpy as np
 from . import _spunlaid
 from ._arguments import check_threads
 from ._case import CaseLike, case_of
-from ._folder import Folder
+from ._errors import FolderError
 from ._measures import Curve, Measure, MeasureMapping, Measures, Shapes, unknown_measure
 from ._optional import needed
 from ._plot import plot_curve, plot_free_ends, plot_laid_fibre, plot_number
 from ._progress import Progress, shown
-from ._results import Results, packed
+from ._results import Kept, Place, Results
+from ._spunlaid import Case, Computed
+from ._tables import Tables
 
 if TYPE_CHECKING:
     import pandas
@@ -24,15 +26,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from ._spunlaid import Case
-
 
 class Run(Results):
     """The results of a case. `spunlaid.run` and `spunlaid.load` return one; a notebook shows its report."""
 
-    def __init__(self, case: Case, flown: Any) -> None:
-        super().__init__(flown)
-        self._case = case
+    def __init__(self, case: Case, computed: Computed | Kept, tables: Tables) -> None:
+        super().__init__(computed)
+        self._case, self._tables = case, tables
 
     @property
     def case(self) -> Case:
@@ -42,49 +42,56 @@ class Run(Results):
     @property
     def measures(self) -> Measures:
         """The measures that are numbers, by column: `run.measures["amplitude_y_m"].mean`."""
-        return self._keep("measures", lambda: Measures(Measure, self._computed.numbers))  # type: ignore[no-any-return]
+        return self._keep("measures", lambda: Measures(Measure, self._tables.numbers))  # type: ignore[no-any-return]
 
     @property
     def curves(self) -> Mapping[str, Curve]:
         """The measures that are curves, by column. A run that was loaded or pickled has none."""
-        return self._keep("curves", lambda: MeasureMapping(Curve, self._computed.curves))  # type: ignore[no-any-return]
+        return self._keep("curves", lambda: MeasureMapping(Curve, self._curves()))  # type: ignore[no-any-return]
 
     @property
     def end_node(self) -> dict[str, NDArray[np.float64]]:
         """The free end over time: `time_s` (times), and `x_m`, `y_m`, `z_m` (replicates × times). Empty for a fed fibre."""
-        return dict(self._keep("end_node", lambda: self._computed.end_node))
+        return dict(self._keep("end_node", lambda: self._tables.end_node))
 
     @property
     def energy(self) -> dict[str, NDArray[np.float64]]:
         """Energies and works over time: `time_s` (times), and others (replicates × times)."""
-        return dict(self._keep("energy", lambda: self._computed.energy))
+        return dict(self._keep("energy", lambda: self._tables.energy))
 
     @property
     def shapes(self) -> Shapes:
         """Whole fibres over time."""
-        return self._keep("shapes", lambda: Shapes(*self._computed.shapes))  # type: ignore[no-any-return]
+        return self._keep("shapes", lambda: Shapes(*self._shapes()))  # type: ignore[no-any-return]
 
     @property
     def laid(self) -> list[dict[str, NDArray[np.float64]]]:
         """What each replicate of a fed fibre laid: fed length `s_m`, `time_s`, and the place on the belt, `md_m` and
         `cd_m`. Empty for a fibre of fixed length."""
-        return list(self._keep("laid", lambda: self._computed.laid))
+        return list(self._keep("laid", lambda: self._tables.laid))
 
     @property
     def step_check(self) -> dict[str, float | None] | None:
         """What a finer time step changes, see `summary`; None if it was not checked."""
-        return self._computed.step_check  # type: ignore[no-any-return]
+        return self._tables.differences("step_check")
 
     @property
     def mesh_check(self) -> dict[str, float | None] | None:
         """What elements of half the length change, see `summary`; None if it was not checked."""
-        return self._computed.mesh_check  # type: ignore[no-any-return]
+        return self._tables.differences("mesh_check")
 
     @property
     def lost(self) -> list[tuple[int, float, str]]:
         """The fibres that were lost: replicate, counted from 1, time [s] and reason of each. They are in no mean, and NaN in
         every array."""
-        return list(self._computed.lost)
+        # Results of an earlier version have no such list: a lost fibre ended the run.
+        return [(fibre["replicate"], fibre["time_s"], fibre["reason"]) for fibre in self.summary.get("lost_fibres", [])]
+
+    def _curves(self) -> list[dict[str, Any]]:
+        return [] if isinstance(self._computed, Kept) else self._computed.curves
+
+    def _shapes(self) -> tuple[Any, Any]:
+        return self._tables.shapes if isinstance(self._computed, Kept) else self._computed.shapes
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each replicate and recorded instant: the free end and the energies."""
@@ -129,14 +136,18 @@ class Run(Results):
     def scales(self, column: str) -> list[tuple[str, float, float, bool]]:
         """How a measure stands on axes: label with unit, zero in SI units, factor from SI units, whether logarithmic. Of a curve
         first along, then up."""
-        described = self._keep("described", lambda: [*self._computed.numbers, *self._computed.curves])
+        described = self._keep("described", lambda: [*self._tables.numbers, *self._curves()])
         return next(list(measure["scales"]) for measure in described if measure["column"] == column)
 
+    def _save(self, path: str, force: bool, figures: tuple[Any, Any], whole: bool = True) -> None:
+        if isinstance(self._computed, Kept):
+            return self._computed.save(path, force, figures)
+        if whole and not self.energy:
+            raise FolderError("the run was flown with samples=False, so its tables cannot be written")
+        self._computed.save(path, force, figures, os.fspath(self._tables.path))
+
     def __reduce__(self) -> tuple[Any, ...]:
-        if isinstance(self._computed, Folder):
-            return Run, (self._case, self._computed)
-        files = packed(lambda path: self._computed.save(path, False, (None, None), False))
-        return Run, (self._case, Folder("", files))
+        return _of_kept, (self._packed(), self._case)
 
     def __repr__(self) -> str:
         lines = [f"<Run of {self.case!r}"]
@@ -182,14 +193,23 @@ def run(
     if changes:
         case = case.with_(changes)
     with shown(progress, f"{case['run.replicates']} fibres") as show:
-        return Run(case, _spunlaid.fly(case, check_threads(threads), show, check_step, samples, shapes))
+        place = Place()
+        folder = place.path / "run"
+        flown = _spunlaid.fly(case, folder, check_threads(threads), show, check_step, shapes)
+    if not samples:
+        for name in ("end_node.parquet", "energy.parquet"):
+            (folder / name).unlink(missing_ok=True)
+    return Run(case, flown, Tables(folder, flown.summary, place))
 
 
 def load(path: str | os.PathLike[str]) -> Run:
     """The results of a run from the folder that `Run.save` or `spunlaid run` wrote.
 
-    It has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves. It needs
-    pyarrow for the tables, when they are first used.
+    It has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves.
     """
-    folder = Folder(path)
-    return Run(folder.case, folder)
+    return _of_kept(Kept(path))
+
+
+def _of_kept(kept: Kept, case: Case | None = None) -> Run:
+    tables = Tables(kept.path, kept.summary)
+    return Run(case or Case.read(kept.path / "case.toml"), kept, tables)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _spunlaid
-from ._sheet import Kept, Sheet
+from ._sheet import Sheet
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 class Scan(Sheet):
     """A web of which there is a scan or a map. `spunlaid.scan` returns it; a notebook shows its report."""
 
-    _computed: _spunlaid.AnalysedScan | Kept
+    _scanned = True
 
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
         """How uneven the web is over square patches, a number for each size `patch_m` [m]: `cv` with its `cv_standard_error` by chance
         and the ends `cv_low` and `cv_high` of its interval of 95 %, `cv_noise` by the noise of the camera, and `blur_of_a_pixel`, the
         share by which one more pixel of blur lowers it. What is not known is NaN; `summary` says why."""
-        return self._computed.patches
+        return self._patches()
 
     @property
     def mean_known(self) -> bool:

@@ -2,71 +2,50 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from pathlib import Path
-from shutil import rmtree
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._errors import FolderError
 from ._plot import plot_map, plot_unevenness
-from ._results import Results, packed, unpack
+from ._results import Kept, Results
+from ._spunlaid import Computed, patch_numbers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True)
-class Kept:
-    """What a web that has been pickled has in place of the compiled one: its values, and the files of its folder."""
-
-    name: str
-    summary: str
-    cell: float
-    map: NDArray[np.float64]
-    patches: dict[str, NDArray[np.float64]]
-    notes: list[str]
-    files: dict[str, bytes]
-
-    def __post_init__(self) -> None:
-        self.map.setflags(write=False)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        # A pickled array comes back as one that can be written to.
-        self.__post_init__()
-
-    def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
-        if figures != (None, None):
-            raise ValueError("a web that has been pickled has its figures as SVG and PNG; draw others where it was laid")
-        place = Path(path)
-        if place.exists() and any(place.iterdir()):
-            if not force:
-                raise FolderError(f"{place}: holds results already; name another folder, or pass force=True")
-            # Files of others stay.
-            for name in {name.split("/")[0] for name in self.files}:
-                if (place / name).is_dir():
-                    rmtree(place / name)
-                else:
-                    (place / name).unlink(missing_ok=True)
-        unpack(self.files, place)
-
-
 class Sheet(Results):
-    """A map of the basis weight of a web, and how uneven it is."""
+    """A map of the basis weight of a web, and how uneven it is.
+
+    weights: the map of one that was pickled
+    """
+
+    _scanned = False
+
+    def __init__(self, computed: Computed | Kept, weights: NDArray[np.float64] | None = None) -> None:
+        super().__init__(computed)
+        if weights is not None:
+            weights.setflags(write=False)
+            self._kept["map"] = weights
 
     @property
     def map(self) -> NDArray[np.float64]:
         """Basis weight of every cell [kg/m²]: rows in machine direction × columns in cross direction."""
-        return self._keep("map", lambda: self._computed.map)  # type: ignore[no-any-return]
+        return self._keep("map", lambda: self._computed.map)  # type: ignore[no-any-return, union-attr]
 
     @property
     def cell(self) -> float:
         """Side of a cell of the map [m]."""
-        return self._computed.cell  # type: ignore[no-any-return]
+        return self.summary["web"]["cell_m"]  # type: ignore[no-any-return]
+
+    def _patches(self) -> dict[str, NDArray[np.float64]]:
+        patches = self.summary["web"]["patches"]
+        columns = {name: [patch.get(name) for patch in patches] for name in ("patch_m", *patch_numbers()[self._scanned])}
+        ends = [patch.get("cv_interval") or (None, None) for patch in patches]
+        columns |= {name: [pair[end] for pair in ends] for end, name in enumerate(("cv_low", "cv_high"))}
+        # The older name of these.
+        return {name.replace("one_fibre", "single_fibres"): np.array(of, dtype=float) for name, of in columns.items()}
 
     def plot(self, what: str = "map", *, ax: Axes | None = None) -> Axes:
         """Draws with matplotlib, and returns the axes.
@@ -78,19 +57,11 @@ class Sheet(Results):
         if what == "map":
             return plot_map(self.map, self.cell, ax)
         if what == "cv":
-            return plot_unevenness(self._computed.patches, ax)
+            return plot_unevenness(self._patches(), ax)
         raise ValueError(f'a web plots "map" or "cv", not {what!r}')
 
-    def report(self) -> str:
-        """The report, one page of HTML that works offline."""
-        with TemporaryDirectory() as folder:
-            self.save(Path(folder) / "web")
-            return (Path(folder) / "web" / "report.html").read_text("utf-8")
-
     def __reduce__(self) -> tuple[Any, ...]:
-        computed, files = self._computed, packed(self.save)
-        kept = Kept(computed.name, computed.summary, computed.cell, computed.map, computed.patches, self.notes, files)
-        return type(self), (kept,)
+        return type(self), (self._packed(), self.map)
 
     def __repr__(self) -> str:
         rows, columns = self.map.shape

@@ -21,9 +21,9 @@ class Spinline(Results):
     Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.freezing["distance_m"]`.
     """
 
-    _computed: _spunlaid.SolvedSpinline
+    _computed: _spunlaid.Computed
 
-    def __init__(self, solved: _spunlaid.SolvedSpinline) -> None:
+    def __init__(self, solved: _spunlaid.Computed) -> None:
         super().__init__(solved)
         self._measures: dict[str, Any] = self.summary["spinline"]
 
@@ -53,7 +53,7 @@ class Spinline(Results):
     @property
     def text(self) -> str:
         """The spinline with every default written out, as a file."""
-        return self._computed.text
+        return self._computed.text or ""
 
     def __getattr__(self, name: str) -> Any:
         measures = self.__dict__.get("_measures", {})

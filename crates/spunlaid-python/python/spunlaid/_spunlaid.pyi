@@ -11,11 +11,7 @@ __all__ = [
     "Case",
     "Flight",
     "AirSampler",
-    "RunResults",
-    "AnalysedScan",
-    "Compared",
-    "LaidWeb",
-    "SolvedSpinline",
+    "Computed",
     "Study",
     "__version__",
     "analyse",
@@ -30,6 +26,7 @@ __all__ = [
     "keys",
     "lay_web",
     "measures",
+    "patch_numbers",
     "program",
     "read_table",
     "removed",
@@ -42,6 +39,7 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
+_Row = tuple[int, int, list[float], tuple[int, float] | None]
 _Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
 
 @final
@@ -163,28 +161,20 @@ class Flight:
     def energies(self) -> dict[str, _Floats]:
         """Energies and works now [J], a number for each fibre."""
 
-class _Results:
-    """What all results have in common."""
-
-    summary: Final[str]
-    notes: Final[list[str]]
-    def save(self, path: str, force: bool, figures: _Figures) -> None: ...
-
 @final
-class RunResults(_Results):
-    """Results of a run."""
+class Computed:
+    """Results of a run, a web, a scan, a spinline or a comparison."""
 
-    lost: Final[list[tuple[int, float, str]]]
-    end_node: Final[dict[str, _Floats]]
-    energy: Final[dict[str, _Floats]]
-    numbers: Final[list[dict[str, Any]]]
+    name: Final[str]
+    summary: Final[str]
+    map: Final[_Floats | None]
     curves: Final[list[dict[str, Any]]]
     shapes: Final[tuple[_Floats, _Floats]]
-    laid: Final[list[dict[str, _Floats]]]
-    step_check: Final[dict[str, float | None] | None]
-    mesh_check: Final[dict[str, float | None] | None]
+    stations: Final[list[dict[str, _Floats]]]
+    text: Final[str | None]
     def report(self) -> str: ...
-    def save(self, path: str, force: bool, figures: _Figures, whole: bool = True) -> None: ...
+    def save(self, path: str, force: bool, figures: _Figures, written: str | None = None) -> None: ...
+    def specification(self) -> bytes | None: ...
 
 @final
 class Study:
@@ -206,13 +196,12 @@ class Study:
     def fly(self, threads: int | None = None, progress: _Progress = None) -> None: ...
     def begin_round(self, flights: int) -> int: ...
     def bundle(self, index: int) -> tuple[list[_Part], list[float]]: ...
-    def add(self, rows: _Floats) -> int: ...
+    def add(self, rows: list[_Row]) -> int: ...
     def next_round(self) -> bool: ...
     def results(self) -> dict[str, Any]: ...
     def replicates(self) -> _Floats: ...
-    def effects(self) -> tuple[list[dict[str, Any]], str | None]: ...
+    def effects(self) -> list[tuple[Any, ...]]: ...
     def write(self, figures: _Figures) -> None: ...
-    def close(self) -> None: ...
     def point_text(self, point: int) -> str: ...
     fibres: Final[tuple[int, int]]
     noun: Final[str]
@@ -224,60 +213,25 @@ class Study:
     notes: Final[list[str]]
     measures: Final[list[tuple[str, str, str, str, _Scale]]]
 
-@final
-class LaidWeb(_Results):
-    """What is found of a web."""
-
-    name: Final[str]
-    cell: Final[float]
-    map: Final[_Floats]
-    patches: Final[dict[str, _Floats]]
-    def specification(self) -> bytes: ...
-
-@final
-class AnalysedScan(_Results):
-    """What is found of a scan."""
-
-    name: Final[str]
-    cell: Final[float]
-    map: Final[_Floats]
-    patches: Final[dict[str, _Floats]]
-
-@final
-class Compared(_Results):
-    """What a comparison has found."""
-
-    name: Final[str]
-    def report(self) -> str: ...
-
-@final
-class SolvedSpinline(_Results):
-    """A solved spinline."""
-
-    name: Final[str]
-    text: Final[str]
-    stations: Final[list[dict[str, _Floats]]]
-    def report(self) -> str: ...
-
 def check_figures(figures: _Figures) -> None: ...
-def solve_spinline(path: str | None, changes: Mapping[str, Any]) -> SolvedSpinline: ...
+def solve_spinline(path: str | None, changes: Mapping[str, Any]) -> Computed: ...
 def fly(
     case: Case,
+    place: str | os.PathLike[str],
     threads: int | None = None,
     progress: _Progress = None,
     check_step: bool = True,
-    samples: bool = True,
     shapes: bool = True,
-) -> RunResults: ...
-def fly_bundle(parts: list[_Part], sides: list[float], threads: int = 1) -> _Floats: ...
+) -> Computed: ...
+def fly_bundle(parts: list[_Part], sides: list[float], threads: int = 1) -> list[_Row]: ...
 def analyse(
-    record: ArrayLike | str,
+    record: _Floats | str,
     rate: float | None = None,
     mean_velocity: float | None = None,
     flat_until: float | None = None,
     integral: str | None = None,
     columns: list[str] = ...,
-) -> dict[str, Any]: ...
+) -> tuple[str, str, list[list[_Floats]]]: ...
 def find_fit(
     path: str,
     to: str,
@@ -297,13 +251,14 @@ def lay_web(
     guesses: bool = True,
     threads: int | None = None,
     progress: _Progress = None,
-) -> LaidWeb: ...
-def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> AnalysedScan: ...
+) -> Computed: ...
+def analyse_scan(picture: str | bytes, options: dict[str, Any]) -> Computed: ...
 def column_unit(name: str) -> str: ...
-def compare_folders(folders: Sequence[str]) -> Compared: ...
+def compare_folders(folders: Sequence[str]) -> Computed: ...
 def is_scan(path: str | os.PathLike[str]) -> bool: ...
-def keys(web: bool = False) -> list[dict[str, Any]]: ...
+def keys(web: bool = False) -> list[tuple[Any, ...]]: ...
 def measures() -> list[dict[str, Any]]: ...
+def patch_numbers() -> list[list[str]]: ...
 def program(words: Sequence[str | bytes | os.PathLike[str]]) -> int: ...
 def read_table(path: str | os.PathLike[str]) -> dict[str, Any]: ...
 def removed(name: str) -> str | None: ...

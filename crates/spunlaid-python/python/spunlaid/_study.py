@@ -98,7 +98,8 @@ class Study:
     def effects(self) -> list[dict[str, Any]]:
         """How much each factor changes each measure from one end of its range to the other: `measure`, `factor`, `from`,
         `to`, `change`, its `standard_error` and `half_width` of its interval of 95 %; empty if the design does not tell."""
-        return self._study.effects()[0]
+        names = ("measure", "factor", "from", "to", "change", "standard_error", "half_width", "explained")
+        return [dict(zip(names, effect, strict=True)) for effect in self._study.effects()]
 
     def replicates(self) -> pandas.DataFrame:
         """A row for each fibre or web: `point` and `replicate`, both counted from 1, whether it was `lost`, and its measures."""

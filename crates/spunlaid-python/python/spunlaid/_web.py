@@ -11,7 +11,8 @@ import numpy as np
 from . import _spunlaid
 from ._arguments import check_threads, split_source
 from ._progress import Progress, shown
-from ._sheet import Kept, Sheet
+from ._results import Kept
+from ._sheet import Sheet
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
 class Web(Sheet):
     """A web that was laid. `spunlaid.web` returns it; a notebook shows its report."""
-
-    _computed: _spunlaid.LaidWeb | Kept
 
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
@@ -30,7 +29,7 @@ class Web(Sheet):
         error; `cv_independent` expected from the same filaments of a web in one air if each had an air of its own, by their
         surrogate; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
         What is not known is NaN: without flown fibres, the error by few of them and the whole error."""
-        return self._computed.patches
+        return self._patches()
 
     @property
     def neighbours(self) -> dict[str, NDArray[np.float64]]:
@@ -55,7 +54,7 @@ class Web(Sheet):
         writes it."""
         if isinstance(self._computed, Kept):
             raise ValueError("a web that has been pickled has no specification sheet; ask for it where it was laid")
-        return self._computed.specification()
+        return self._computed.specification()  # type: ignore[return-value]
 
 
 def _with_columns(curtain: dict[str, Any]) -> dict[str, Any]:

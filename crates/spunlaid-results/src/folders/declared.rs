@@ -6,7 +6,6 @@ use super::web::WebFolder;
 use crate::figures::{record_figures, record_sample};
 use crate::output::analysis::analysis_json;
 use crate::output::folder::Staging;
-use crate::output::spinline::SpinResults;
 use crate::output::web::{Performance, summary_of_scan};
 use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
@@ -23,6 +22,7 @@ use spunlaid::web::{FewDoubt, FewFilamentsCv, Format, LayControl, Light, Picture
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::time::Instant;
 
 const WEB: &str = r#"
 version = 1
@@ -91,26 +91,15 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let laid = AtomicU64::new(0);
     let laying = LayControl { threads: 2, isa: Isa::detect(), stop: &STOP, laid: &laid };
     let found = flown.find(laying).unwrap();
-    let fabric = file.spec.fabric(&flown.web, &found, 2);
+    let (name, kinds) = ("web".to_owned(), kinds(&found));
+    let mut written = WebFolder::new((name.clone(), name), file, (flown, found), (Instant::now(), laying));
     let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
-    for findings in &kinds(&found) {
+    for findings in kinds {
         let desk = tempfile::tempdir().unwrap();
         let folder = desk.path().join("w");
         let mut staging = Staging::new(&folder, WebFolder::ENTRIES, false, &STOP).unwrap();
-        let written = WebFolder {
-            name: "web",
-            file: &file,
-            web: &flown.web,
-            layers: &flown.layers,
-            findings,
-            fabric: &fabric,
-            advice: None,
-            guesses: None,
-            beside: "web",
-            awaited: false,
-            notes: &[],
-            performance: Performance::default(),
-        };
+        written.findings = findings;
+        let WebFolder { findings, fabric, .. } = &written;
         let text = written.write(&staging, MAKING).unwrap();
         staging.publish().unwrap();
         let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
@@ -130,7 +119,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             assert_eq!(mean, declared.value(findings).map(|value| value.number()), "{column}");
         }
         for declared in OF_FABRICS {
-            let value = declared.value(&fabric).map(|value| serde_json::to_value(value).unwrap());
+            let value = declared.value(fabric).map(|value| serde_json::to_value(value).unwrap());
             assert_eq!(summary["fabric"].get(declared.entry()), value.as_ref(), "{}", declared.entry());
             assert!(value.is_none() || report.contains(declared.label), "{}", declared.entry());
         }
@@ -203,10 +192,10 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/melt_spinning.toml");
     let source = std::fs::read_to_string(&path).unwrap();
     let file = parse_spinline(&source, &path.display().to_string(), &[]).unwrap();
-    let results = SpinResults::new(&file).unwrap();
-    let folder = SpinFolder { name: "line", file: &file, results: &results, notes: &[] };
+    let folder = SpinFolder::solve("line".to_owned(), file).unwrap();
+    let results = &folder.results;
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
-    let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(&results));
+    let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(results));
     for row in measured(OF_SPINLINES, &results.rows[0]) {
         let name = row.measure.entry();
         let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));

@@ -12,7 +12,7 @@ use crate::output::folder::{CASE_FILES, ENTRIES, Staging};
 use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
 use crate::output::sources::{self, OPENFOAM, VTK, write_openfoam};
-use crate::output::spinline::{self, STATIONS, SpinResults, write_stations};
+use crate::output::spinline::{self, STATIONS, SpinResults, remarks, write_stations};
 use crate::output::table::TABLES;
 use crate::output::versioned_json;
 use crate::output::web::{Performance, summary_of_scan, write_scan};
@@ -22,12 +22,15 @@ use crate::report::{
 use serde_json::json;
 use spunlaid::air::{Analysis, Record};
 use spunlaid::experiment::Claim;
-use spunlaid::fibre::Case;
+use spunlaid::fibre::{Case, Note};
+use spunlaid::ground::{Error, Isa};
 use spunlaid::input::SpinFile;
 use spunlaid::simulation::Sources;
 use spunlaid::web::Fabric;
+use spunlaid::web::fabric::of_scan;
 use spunlaid::web::scan::Findings;
 use spunlaid_charts::Figure;
+use std::time::Instant;
 
 /// Everything of a look at the air that goes into the files.
 #[derive(Clone, Copy, Debug)]
@@ -150,39 +153,44 @@ impl Contents for RecordFolder<'_> {
 }
 
 /// Everything of a scan that goes into the files.
-#[derive(Clone, Copy, Debug)]
-pub struct ScanFolder<'a> {
+#[derive(Debug)]
+pub struct ScanFolder {
     /// What the scan is called: the name of its file.
-    pub name: &'a str,
+    pub name: String,
     /// The path of its file.
-    pub file: &'a str,
+    file: String,
     /// What was found of it.
-    pub findings: &'a Findings,
+    pub findings: Findings,
     /// What is told of the fabric.
-    pub fabric: &'a Fabric,
-    /// Notes for the reader, [`notes`].
-    pub notes: &'a [String],
+    fabric: Fabric,
+    /// What a reader must know of what was found.
+    pub notes: Vec<String>,
     /// What it cost.
-    pub performance: Performance,
+    performance: Performance,
 }
 
-/// What a reader must know of what was found.
-pub fn notes(findings: &Findings) -> Vec<String> {
-    findings.notes.iter().map(ToString::to_string).collect()
+impl ScanFolder {
+    /// * `started` – when the scan began to be read
+    pub fn new(name: String, file: String, findings: Findings, started: Instant) -> Self {
+        let (fabric, performance) = (of_scan(&findings), Performance::measure(started, 1, Isa::detect()));
+        let notes = findings.notes.iter().map(ToString::to_string).collect();
+        Self { name, file, findings, fabric, notes, performance }
+    }
 }
 
-impl Contents for ScanFolder<'_> {
+impl Contents for ScanFolder {
     const ENTRIES: &'static [&'static str] = WebFolder::ENTRIES;
 
     fn summary(&self) -> String {
-        summary_of_scan(self.file, (self.findings, self.fabric), self.performance, self.notes)
+        summary_of_scan(&self.file, (&self.findings, &self.fabric), self.performance, &self.notes)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let figures = scan_figures(self.findings);
-        let report = || scan_report(self.file, (self.findings, self.fabric), &figures, self.performance);
+        let found = (&self.findings, &self.fabric);
+        let figures = scan_figures(&self.findings);
+        let report = || scan_report(&self.file, found, &figures, self.performance);
         maker.finish(
-            (self.name, self.notes),
+            (&self.name, &self.notes),
             &figures,
             |staging| write_scan(staging, &self.findings.map),
             report,
@@ -228,36 +236,49 @@ impl Contents for SourcesFolder<'_> {
 }
 
 /// Everything of a spinline that goes into the files.
-#[derive(Clone, Copy, Debug)]
-pub struct SpinFolder<'a> {
+#[derive(Debug)]
+pub struct SpinFolder {
     /// What the spinline is called: the name of its file.
-    pub name: &'a str,
+    pub name: String,
     /// The spinline.
-    pub file: &'a SpinFile,
+    pub file: SpinFile,
     /// Its solution.
-    pub results: &'a SpinResults,
-    /// Notes for the reader.
-    pub notes: &'a [String],
+    pub results: SpinResults,
+    /// Remarks about what was found.
+    pub found: Vec<String>,
 }
 
-impl Contents for SpinFolder<'_> {
+impl SpinFolder {
+    /// Solves a spinline.
+    ///
+    /// # Errors
+    /// If it has no steady state that a line could run in.
+    pub fn solve(name: String, file: SpinFile) -> Result<Self, Error> {
+        let results = SpinResults::new(&file)?;
+        let found = remarks(&results.rows);
+        Ok(Self { name, file, results, found })
+    }
+
+    /// Notes for the reader.
+    fn notes(&self) -> Vec<String> {
+        [Note::notes_of_results(&self.file.notes), self.found.clone()].concat()
+    }
+}
+
+impl Contents for SpinFolder {
     const ENTRIES: &'static [&'static str] =
         &[ORIGIN, "spinline.toml", CASE_FILES, STATIONS, TABLES, "figures", "report.html", "summary.json"];
 
     fn summary(&self) -> String {
-        spinline::summary(self.results, self.notes)
+        spinline::summary(&self.results, &self.notes())
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let SpinResults { rows, influences } = self.results;
+        let SpinResults { rows, influences } = &self.results;
         let input = maker.keep(Input::Spinline(&self.file.spec))?;
         let figures = spinline_figures(SPINLINE, rows, influences);
-        let report = || Ok(spinline_report(&self.file.spec, self.results, &figures, &input));
-        maker.finish(
-            (self.name, self.notes),
-            &figures,
-            |staging| write_stations(staging, &[(1, rows)]),
-            report,
-        )
+        let report = || Ok(spinline_report(&self.file.spec, &self.results, &figures, &input));
+        let files = |staging: &Staging<'_>| write_stations(staging, &[(1, rows)]);
+        maker.finish((&self.name, &self.notes()), &figures, files, report)
     }
 }

@@ -19,8 +19,8 @@ use spunlaid::simulation::{
 };
 use spunlaid_charts::Figure;
 
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;
@@ -40,15 +40,8 @@ pub struct Flown {
     pub paths: Option<RunPaths>,
     /// Number of replicates, from the first on, that have landed or are lost.
     pub replicates: u64,
-    /// Flights that are kept until the results are complete.
-    kept: Option<Flights>,
-}
-
-impl Flown {
-    /// Forgets the flights that were kept, when complete results are in their folder.
-    pub fn forget_kept(&mut self) {
-        self.kept.take().iter().for_each(Flights::finish);
-    }
+    /// Flights that are kept until the results are complete; then [`Flights::finish`] forgets them.
+    pub kept: Option<Flights>,
 }
 
 /// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights
@@ -57,6 +50,7 @@ impl Flown {
 ///
 /// With a results folder, an interruption ends the flights and is no error if a fibre has landed.
 ///
+/// * `with_shapes` – whether shapes are kept
 /// * `found` – told the number of replicates that an interrupted process has left, if there are any
 ///
 /// # Errors
@@ -66,9 +60,10 @@ pub fn fly(
     plans: &FinerPlans,
     computing: RunControl<'_>,
     staging: Option<&Staging<'_>>,
+    with_shapes: bool,
     found: impl FnOnce(u64),
 ) -> Result<Flown, Failure> {
-    let shapes = if staging.is_some() { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
+    let shapes = if with_shapes { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let keep = Keep { shapes, ..Keep::CURVES };
     let flights = staging.map(|staging| Flights::open(staging, case, Some(keep))).transpose()?;
     if let Some(left) = flights.as_ref().map(Flights::earlier).filter(|left| *left > 0) {
@@ -119,44 +114,44 @@ pub fn fly(
 
 /// Everything of a run that goes into the files.
 #[derive(Debug)]
-pub struct Run<'a> {
+pub struct Run {
     /// What the run is called: the name of the case file.
-    pub name: &'a str,
+    pub name: String,
     /// The case.
-    pub case: &'a Case,
+    pub case: Arc<Case>,
     /// The results of [`fly`].
-    pub results: &'a Results,
+    pub results: Results,
     /// What a finer time step and finer elements change.
-    pub checks: &'a FinerChecks,
+    pub checks: FinerChecks,
     /// Warnings and remarks for the reader, without those of the checks.
-    pub notes: &'a [String],
+    pub notes: Vec<String>,
     /// What the run cost.
     pub performance: Performance,
     /// Its figures, once they are drawn: the checks change none.
     pub drawn: OnceLock<Vec<Figure>>,
 }
 
-impl Run<'_> {
+impl Run {
     /// Warnings and remarks, with those of the checks.
     fn all_notes(&self) -> Vec<String> {
         let doubts =
-            doubt::notes(self.checks, self.case).into_iter().filter(|doubt| !self.notes.contains(doubt));
+            doubt::notes(&self.checks, &self.case).into_iter().filter(|doubt| !self.notes.contains(doubt));
         self.notes.iter().cloned().chain(doubts).collect()
     }
 }
 
 /// The tables are those of [`fly`].
-impl Contents for Run<'_> {
+impl Contents for Run {
     const ENTRIES: &'static [&'static str] = ENTRIES;
     const OF_ONE_FORMAT: &'static [&'static str] = &["end_node.parquet", "energy.parquet", "laid.parquet"];
 
     fn summary(&self) -> String {
-        summary(self.case, self.results, self.checks, self.performance, &self.all_notes())
+        summary(&self.case, &self.results, &self.checks, self.performance, &self.all_notes())
     }
 
     /// A page of less than 6 MB.
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let Self { case, results, .. } = *self;
+        let Self { case, results, .. } = self;
         let input = maker.keep(Input::Case(case))?;
         if self.drawn.get().is_none() {
             let (Making { threads, stop, .. }, fibre_steps) = (maker.making, &AtomicU64::new(0));
@@ -178,10 +173,10 @@ impl Contents for Run<'_> {
         let report = || {
             let drawn = drawn.as_ref().map(|(solved, figures)| (*solved, &figures[..]));
             let report =
-                run_report((case, &input), (results, self.checks), figures, drawn, self.performance)?;
-            Ok(report.named(self.name).noting(&self.all_notes()))
+                run_report((case, &input), (results, &self.checks), figures, drawn, self.performance)?;
+            Ok(report.named(&self.name).noting(&self.all_notes()))
         };
-        maker.finish((self.name, &self.all_notes()), &all, files, report)
+        maker.finish((&self.name, &self.all_notes()), &all, files, report)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::output::table::TABLES;
 use crate::output::web::{self, Layer, Performance};
 use crate::report::{Advised, LayerSpinline, web_report};
 use spunlaid::experiment::Advice;
-use spunlaid::fibre::{Case, Load, Solution};
+use spunlaid::fibre::{Case, Load, Note, Solution};
 use spunlaid::ground::Isa;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::{FlownWeb, LayerFibres};
@@ -22,37 +22,67 @@ use spunlaid::web::{Fabric, LayControl, Web};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
+use std::time::Instant;
 
 /// Everything of a web that goes into the files.
-#[derive(Clone, Copy, Debug)]
-pub struct WebFolder<'a> {
+#[derive(Debug)]
+pub struct WebFolder {
     /// What the web is called: the name of its file.
-    pub name: &'a str,
+    pub name: String,
     /// The file.
-    pub file: &'a WebFile,
-    /// The web that was laid.
-    pub web: &'a Web,
-    /// The fibres of its layers.
-    pub layers: &'a [LayerFibres],
+    pub file: WebFile,
+    /// The web that was laid, with the fibres of its layers.
+    pub flown: FlownWeb,
     /// What was found of it.
-    pub findings: &'a Findings,
+    pub findings: Findings,
     /// What is told of the fabric.
-    pub fabric: &'a Fabric,
+    pub fabric: Fabric,
     /// What would make it more even; None if it was not tried.
-    pub advice: Option<&'a Advice>,
+    pub advice: Option<Advice>,
     /// What guesses matter for it; None if it was not tried.
-    pub guesses: Option<&'a Advice>,
+    pub guesses: Option<Advice>,
     /// The folder of the web, beside which those of changed webs lie.
-    pub beside: &'a str,
+    pub beside: String,
     /// Whether what was not tried is tried next.
     pub awaited: bool,
-    /// Notes for the reader.
-    pub notes: &'a [String],
+    /// Notes about the file, and about what was found.
+    notes: [Vec<String>; 2],
     /// What it cost.
-    pub performance: Performance,
+    performance: Performance,
 }
 
-impl Contents for WebFolder<'_> {
+impl WebFolder {
+    /// A web of which nothing has been tried.
+    ///
+    /// * `started` – when it began to be laid
+    pub fn new(
+        (name, beside): (String, String),
+        file: WebFile,
+        (flown, findings): (FlownWeb, Findings),
+        (started, by): (Instant, LayControl<'_>),
+    ) -> Self {
+        let fabric = file.spec.fabric(&flown.web, &findings, by.threads);
+        let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
+        let notes = [Note::notes_of_results(&file.notes), notes(&flown, &findings)];
+        let (advice, guesses, awaited) = (None, None, false);
+        Self { name, file, flown, findings, fabric, advice, guesses, beside, awaited, notes, performance }
+    }
+
+    /// Notes about what was found.
+    pub fn found(&self) -> &[String] {
+        &self.notes[1]
+    }
+
+    /// The specification sheet, one page of PDF.
+    ///
+    /// # Errors
+    /// If it cannot be drawn.
+    pub fn specification(&self) -> Result<Vec<u8>, Failure> {
+        web::specification_sheet(&self.name, (&self.findings, &self.fabric), &self.notes.concat())
+    }
+}
+
+impl Contents for WebFolder {
     /// With the cases of earlier versions.
     const ENTRIES: &'static [&'static str] = &[
         ORIGIN,
@@ -71,21 +101,29 @@ impl Contents for WebFolder<'_> {
     const OF_ONE_FORMAT: &'static [&'static str] = &["map.npy"];
 
     fn summary(&self) -> String {
-        let rows = rows(&self.file.spec, self.web, self.layers);
-        let (found, tried) = ((self.findings, self.fabric), (self.advice, self.guesses, self.beside));
-        web::summary_of_web(self.web, found, tried, &rows, self.performance, self.notes)
+        let FlownWeb { web, layers, .. } = &self.flown;
+        let rows = rows(&self.file.spec, web, layers);
+        let tried = (self.advice.as_ref(), self.guesses.as_ref(), &*self.beside);
+        web::summary_of_web(
+            web,
+            (&self.findings, &self.fabric),
+            tried,
+            &rows,
+            self.performance,
+            &self.notes.concat(),
+        )
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let Self { web, findings, .. } = *self;
-        let spec = &self.file.spec;
+        let Self { flown: FlownWeb { web, layers, .. }, findings, .. } = self;
+        let (spec, advice, guesses) = (&self.file.spec, self.advice.as_ref(), self.guesses.as_ref());
         let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
         let by = LayControl { threads, isa: Isa::detect(), stop, laid: &AtomicU64::new(0) };
         let strands = match &findings.laid.shared_air {
             Some(together) => Cow::Borrowed(&together.strands[..]),
             None => Cow::Owned(strands(web, spec.window(), by)?),
         };
-        let tried = [self.advice, self.guesses].into_iter().flatten();
+        let tried = [advice, guesses].into_iter().flatten();
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
         let field = spec.layers.iter().find_map(|layer| field_figure(layer.source.case()?, None));
         let figures: Vec<Figure> =
@@ -106,20 +144,15 @@ impl Contents for WebFolder<'_> {
         let report = || {
             web_report(
                 (spec, &input, web),
-                (findings, self.fabric),
-                Advised {
-                    advice: self.advice,
-                    guesses: self.guesses,
-                    awaited: self.awaited,
-                    beside: self.beside,
-                },
-                (&rows(spec, web, self.layers), &spinlines),
+                (findings, &self.fabric),
+                Advised { advice, guesses, awaited: self.awaited, beside: &self.beside },
+                (&rows(spec, web, layers), &spinlines),
                 &strands,
                 &figures,
                 self.performance,
             )
         };
-        maker.finish((self.name, self.notes), &all, files, report)
+        maker.finish((&self.name, &self.notes.concat()), &all, files, report)
     }
 }
 
@@ -177,7 +210,7 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
 }
 
 /// What a reader must know of what was found.
-pub fn notes(flown: &FlownWeb, findings: &Findings) -> Vec<String> {
+fn notes(flown: &FlownWeb, findings: &Findings) -> Vec<String> {
     let mut notes: Vec<String> = flown.doubts(findings).iter().map(ToString::to_string).collect();
     if findings.laid.map.cells.len() > web::MOST_CELLS {
         notes.push(

@@ -1,48 +1,35 @@
-"""Results folders of runs, read back."""
+"""What the files of a run hold."""
 
 from __future__ import annotations
 
 import json
-import os
-import shutil
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 
 from ._errors import FolderError
-from ._results import unpack
-from ._spunlaid import Case, measures, read_table
+from ._results import Place
+from ._spunlaid import measures, read_table
 
 
-class Folder:
-    """The files of a run, in place of what was flown.
+class Tables:
+    """What the files of a run hold.
 
-    files: of a run that was pickled; they stand in a folder of their own, as long as it is used
+    path: their folder
+    summary: text of the summary
+    place: what the folder lies in, as long as it is used
     """
 
-    def __init__(self, path: str | os.PathLike[str], files: dict[str, bytes] | None = None) -> None:
-        self._files = files
-        if files is not None:
-            self._place = TemporaryDirectory()
-            path = self._place.name
-            unpack(files, Path(path))
-        self.path = Path(path)
+    def __init__(self, path: Path, summary: str, place: Place | None = None) -> None:
+        self.path, self._place = path, place
         try:
-            self.summary = (self.path / "summary.json").read_text("utf-8")
-            self._read: dict[str, Any] = json.loads(self.summary)
-        except (OSError, ValueError) as error:
-            raise FolderError(f"{self.path}: is not the results of a run: summary.json: {error}") from error
+            self._read: dict[str, Any] = json.loads(summary)
+        except ValueError as error:
+            raise FolderError(f"{path}: is not the results of a run: summary.json: {error}") from error
         if not isinstance(self._read, dict) or not {"end_node", "laydown"} & set(self._read):
-            raise FolderError(f"{self.path}: is not the results of a run: summary.json is that of something else")
-        self.case = Case.read(self.path / "case.toml")
-        self.notes: list[str] = self._read["notes"]
-        # Results of an earlier version have no such list: a lost fibre ended the run.
-        lost = self._read.get("lost_fibres", [])
-        self.lost: list[tuple[int, float, str]] = [(fibre["replicate"], fibre["time_s"], fibre["reason"]) for fibre in lost]
-        self.curves: list[dict[str, Any]] = []
+            raise FolderError(f"{path}: is not the results of a run: summary.json is that of something else")
 
     @property
     def numbers(self) -> list[dict[str, Any]]:
@@ -63,17 +50,8 @@ class Folder:
                 found.append({**of, "mean": mean, **errors, "shown": shown, "values": values})
         return found
 
-    @property
-    def step_check(self) -> dict[str, float | None] | None:
-        """As `RunResults.step_check`."""
-        return self._differences("step_check")
-
-    @property
-    def mesh_check(self) -> dict[str, float | None] | None:
-        """As `RunResults.mesh_check`."""
-        return self._differences("mesh_check")
-
-    def _differences(self, name: str) -> dict[str, float | None] | None:
+    def differences(self, name: str) -> dict[str, float | None] | None:
+        """What a check has found, `step_check` or `mesh_check`; None if it was not made."""
         check = self._read[name]
         if check is None:
             return None
@@ -101,7 +79,7 @@ class Folder:
         table = self._table("laid.parquet")
         if not table:
             return []
-        replicate = table.pop("replicate")
+        replicate = table.pop("replicate").astype(int)
         count = self._read["replicates"]
         ends = np.searchsorted(replicate, np.arange(1, count + 2))
         return [{name: of[ends[i] : ends[i + 1]] for name, of in table.items()} for i in range(count)]
@@ -125,29 +103,11 @@ class Folder:
                 positions[replicate, instant, : len(line)] = line
         return np.array(times), positions
 
-    def report(self) -> str:
-        """Text of report.html."""
-        return (self.path / "report.html").read_text("utf-8")
-
-    def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
-        """Copies the folder."""
-        if any(option is not None for option in figures):
-            raise ValueError(
-                "figures: a run that was read from a folder is copied with its figures as they are; leave figures and"
-                " figure_width out, or fly it again"
-            )
-        if os.path.exists(path) and not force:
-            raise FolderError(f"{path}: is there already; name another folder, or replace it with force=True")
-        try:
-            shutil.copytree(self.path, path, dirs_exist_ok=True)
-        except (OSError, shutil.Error) as error:
-            raise FolderError(f"{path}: cannot be written: {error}") from error
-
     def _over_time(self, name: str) -> dict[str, Any]:
         table = self._table(name)
-        if not table:
+        if not len(table.get("replicate", ())):
             return {}
-        replicate, times = table.pop("replicate"), table.pop("time_s")
+        replicate, times = table.pop("replicate").astype(int), table.pop("time_s")
         instants = int(np.searchsorted(replicate, replicate[0], side="right"))
         shaped = {name: self._with_lost(of.reshape(-1, instants), replicate[::instants]) for name, of in table.items()}
         return {"time_s": times[:instants], **shaped}
@@ -165,9 +125,6 @@ class Folder:
         if not (self.path / name).exists():
             return {}
         return read_table(self.path / name)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Folder, (self.path.absolute() if self._files is None else "", self._files)
 
 
 def _lines(path: Path) -> list[Any]:
