@@ -41,7 +41,7 @@ impl<'a> Flying<'a> {
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let numbers = pack::side_by_side(beam.places);
         let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
-        let stretch = BeltStretch::before(&line, line.feed_speed * beam.case.run.spin_up(), window, sheet);
+        let stretch = BeltStretch::before(&beam, &line, (sheet, window));
         let field = BeamField::new(&beam);
         Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
     }

@@ -139,6 +139,11 @@ impl Beam<'_> {
         self.case.fibre.element_mass()
     }
 
+    /// Length on the belt of what becomes of an element, if it is not stretched [m].
+    pub(crate) fn longest_piece(&self) -> f64 {
+        self.case.fibre.rest_length() * (1.0 + self.case.line.map_or(0.0, |line| line.belt_ratio()))
+    }
+
     /// Mass of all filaments over the area on which they are laid [kg/m²].
     pub(crate) fn basis_weight(&self, sheet: &Sheet) -> f64 {
         let fibre = &self.case.fibre;

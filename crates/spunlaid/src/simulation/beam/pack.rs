@@ -200,6 +200,8 @@ pub(super) struct BeltStretch {
     /// Length of fibre that is fed in the start [m].
     start: f64,
     length: f64,
+    /// Longest piece, but for rare exceptions [m].
+    longest: f64,
     window: WindowOnSheet,
     /// Where the sheet begins, at its back [m]; None while filaments lay the fibre of their start.
     back: Option<f64>,
@@ -207,11 +209,15 @@ pub(super) struct BeltStretch {
 
 impl BeltStretch {
     /// While nothing has been laid.
-    ///
-    /// * `start` – length of fibre that is fed in the start [m]
-    pub(super) fn before(line: &Line, start: f64, window: Window, sheet: &Sheet) -> Self {
-        let window = WindowOnSheet::new(window, sheet);
-        Self { belt_ratio: line.belt_ratio(), start, length: sheet.length, window, back: None }
+    pub(super) fn before(beam: &Beam<'_>, line: &Line, (sheet, window): (&Sheet, Window)) -> Self {
+        Self {
+            belt_ratio: line.belt_ratio(),
+            start: line.feed_speed * beam.case.run.spin_up(),
+            length: sheet.length,
+            longest: beam.longest_piece(),
+            window: WindowOnSheet::new(window, sheet),
+            back: None,
+        }
     }
 
     /// Finds the place of the sheet as soon as all filaments have laid the fibre of their start.
@@ -224,11 +230,6 @@ impl BeltStretch {
     /// Where the sheet begins, at its back [m]; None while filaments lay the fibre of their start.
     pub(super) const fn back(&self) -> Option<f64> {
         self.back
-    }
-
-    /// The place of a point on the sheet, in cross and in machine direction [m], if it is known where the sheet is.
-    fn on_sheet(&self, place: Place, point: &LaidPoint) -> Option<[f64; 2]> {
-        Some([place.z + point.cd, place.y + point.md - self.back?])
     }
 }
 
@@ -279,19 +280,19 @@ impl Filament {
             kept.extend(&points);
         }
         self.waiting.extend(points);
-        if stretch.back.is_some() {
-            let titre = on.and_then(|brush| brush.titres.of(self.number));
-            for pair in 1..self.waiting.len() {
-                let ends = [pair - 1, pair].map(|i| stretch.on_sheet(self.place, &self.waiting[i]));
-                if let [Some(from), Some(to)] = ends {
-                    let mut of_others = 1.0;
-                    if let Some(brush) = on {
-                        let (quanta, titre) = brush.quanta_at(titre, to[1]);
-                        brush.canvas.draw(from, to, quanta);
-                        of_others = titre;
-                    }
-                    self.strands.keep(self.number, ([from, to], of_others), &stretch.window);
-                }
+        if let Some(back) = stretch.back {
+            let place = self.place;
+            let on_sheet = |point: &LaidPoint| [place.z + point.cd, place.y + point.md - back];
+            let curve: Vec<[f64; 2]> = self.waiting.iter().map(on_sheet).collect();
+            let quanta_at = |to: [f64; 2]| {
+                on.map_or((0, 1.0), |brush| brush.quanta_at(brush.titres.of(self.number), to[1]))
+            };
+            if let Some(brush) = on {
+                brush.canvas.draw(&curve, stretch.longest, |to| quanta_at(to).0);
+            }
+            for ends in curve.windows(2) {
+                let ends = [ends[0], ends[1]];
+                self.strands.keep(self.number, (ends, quanta_at(ends[1]).1), &stretch.window);
             }
         } else {
             // The points of the start lie before the sheet.

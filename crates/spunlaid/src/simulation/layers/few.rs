@@ -281,7 +281,8 @@ impl FewPlan {
         };
         let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
         let Self { arrangement, all, pairs, .. } = *self;
-        FewFilaments { sheet, blocks, rows, piece: beam.element_mass(), arrangement, all, pairs }
+        let (piece, longest) = (beam.element_mass(), beam.longest_piece());
+        FewFilaments { sheet, blocks, rows, piece, longest, arrangement, all, pairs }
     }
 }
 

@@ -2,14 +2,15 @@
 
 use super::Curtain;
 use crate::ground::threads::try_each;
-use crate::ground::{Error, Fault};
+use crate::ground::{Error, Fault, Lanes, WIDTH};
 use crate::web::map::{
-    Brush, Canvas, CanvasPart, LaidWeb, Sheet, Strand, Strands, Titres, Window, WindowOnSheet,
+    Brush, Canvas, CanvasPart, LaidWeb, NO_CORNERS, Sheet, Strand, Strands, Titres, Window, WindowOnSheet,
+    widen,
 };
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Points that are computed at once.
+/// Pieces that are drawn at once.
 const BLOCK: usize = 512;
 /// Most filaments that are drawn together, and groups of them for each thread.
 const MOST_TOGETHER: usize = 96;
@@ -51,8 +52,7 @@ impl<'a> Belt<'a> {
     }
 }
 
-/// Draws all filaments of a curtain on the rows of a canvas. The parts of them in the window, if it begins on
-/// these rows, are returned.
+/// Draws all filaments of a curtain on a canvas. The parts of them in the window are returned.
 ///
 /// * `brush` – draws a piece from point to point
 ///
@@ -66,89 +66,145 @@ pub(crate) fn draw(
 ) -> Result<Vec<Strand>, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
-    let together = (count / (GROUPS * threads.max(1))).clamp(1, MOST_TOGETHER);
-    let (points, window) = points_on(curtain, belt, brush.canvas.ends());
+    let together = (count / (GROUPS * threads.max(1))).next_multiple_of(WIDTH).clamp(WIDTH, MOST_TOGETHER);
+    let points = points_on(curtain, belt);
     let groups = try_each(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
-        draw_neighbours(curtain, (filaments, &points), (belt, &window), brush, stop)
+        draw_neighbours(&Neighbours { curtain, belt, filaments }, points.clone(), brush, stop)
     })?;
     Ok(groups.concat())
 }
 
-/// The points whose pieces may touch a stretch of the sheet, and the window if it begins there, which is then
-/// a part of the stretch.
-///
-/// * `ends` – of the stretch [m]
-fn points_on(
-    curtain: &dyn Curtain,
-    belt: Belt<'_>,
-    [mut from, mut to]: [f64; 2],
-) -> (Range<usize>, WindowOnSheet) {
-    let window = WindowOnSheet::beginning_on(belt.window, belt.sheet, [from, to]);
-    if let Some([first, last]) = window.reach() {
-        (from, to) = (from.min(first), to.max(last));
-    }
+/// The points whose pieces may touch the sheet or be kept.
+fn points_on(curtain: &dyn Curtain, belt: Belt<'_>) -> Range<usize> {
     let (advance, farthest) = (curtain.belt_ratio() * curtain.spacing(), curtain.farthest());
+    // A piece that begins a cell beside the window is kept.
+    let beyond = farthest + 2.0 * belt.sheet.cell;
     let y = || curtain.places().iter().map(|place| place.y - belt.back);
     let [first, last] = [y().fold(f64::INFINITY, f64::min), y().fold(f64::NEG_INFINITY, f64::max)];
     // A piece more on each side, for numbers that are rounded.
-    let begin = (first - farthest - to) / advance - 2.0;
-    let end = (last + farthest - from) / advance + 3.0;
-    (begin as usize..(end as usize).min(curtain.points()), window)
+    let begin = (first - beyond - belt.sheet.length) / advance - 2.0;
+    let end = (last + beyond) / advance + 3.0;
+    begin as usize..(end as usize).min(curtain.points())
 }
 
-/// A filament while it is drawn.
-#[derive(Default)]
-struct Pen {
-    strands: Strands,
-    last: Option<[f64; 2]>,
+/// Filaments that are drawn together, in groups of eight side by side.
+struct Neighbours<'a> {
+    curtain: &'a dyn Curtain,
+    belt: Belt<'a>,
+    filaments: Range<usize>,
+}
+
+impl Neighbours<'_> {
+    /// The filament of a lane. Lanes left over repeat the last one.
+    fn of_lane(&self, eight: usize, lane: usize) -> usize {
+        (self.filaments.start + eight * WIDTH + lane).min(self.filaments.end - 1)
+    }
+
+    /// How far the belt moves from point to point [m].
+    fn advance(&self) -> f64 {
+        self.curtain.belt_ratio() * self.curtain.spacing()
+    }
+
+    /// Length of the longest piece on the belt, but for rare exceptions [m].
+    fn longest(&self) -> f64 {
+        self.curtain.spacing() + self.advance()
+    }
+
+    /// Where the straight trace of a filament is when a point is laid, in cross and in machine direction [m].
+    fn trace(&self, filament: usize, point: usize) -> [f64; 2] {
+        let place = self.curtain.places()[filament];
+        [place.z, place.y - self.advance() * point as f64 - self.belt.back]
+    }
+
+    /// Fills `points` with some deviations of all filaments, eight filaments after the other. Returns the corners of
+    /// what they cover [m].
+    fn read(&self, which: Range<usize>, points: &mut Vec<[Lanes; 2]>) -> [[f64; 2]; 2] {
+        let (count, advance) = (which.len(), self.advance());
+        let mut corners = NO_CORNERS;
+        let [mut md, mut cd] = [[0.0; BLOCK + 1]; 2];
+        points.resize(count * self.filaments.len().div_ceil(WIDTH), [Lanes::ZERO; 2]);
+        for (eight, points) in points.chunks_exact_mut(count).enumerate() {
+            for lane in 0..WIDTH {
+                let filament = self.of_lane(eight, lane);
+                self.curtain.curve(filament, which.start, [&mut md[..count], &mut cd[..count]]);
+                let [cross, mut along] = self.trace(filament, which.start);
+                for (point, (md, cd)) in points.iter_mut().zip(md.iter().zip(&cd)) {
+                    let [md, cd] = [f64::from(*md), f64::from(*cd)];
+                    (point[0].0[lane], point[1].0[lane]) = (md, cd);
+                    widen(&mut corners, [cross + cd, along + md]);
+                    along -= advance;
+                }
+            }
+        }
+        corners
+    }
+
+    /// Draws the pieces of eight filaments, from the number `first` on.
+    fn draw(
+        &self,
+        (eight, first): (usize, usize),
+        points: &[[Lanes; 2]],
+        brush: &Brush<'_>,
+        part: &mut CanvasPart<'_>,
+    ) {
+        let count = WIDTH.min(self.filaments.len() - eight * WIDTH);
+        let at = [0, 1].map(|axis| Lanes::from_fn(|lane| self.trace(self.of_lane(eight, lane), first)[axis]));
+        let mut pens = brush.canvas.pens(at, self.advance(), self.longest());
+        let titre = |lane| brush.titres.of(self.of_lane(eight, lane));
+        if (0..count).all(|lane| titre(lane).is_none()) {
+            pens.quanta = Lanes::from_fn(|lane| if lane < count { f64::from(brush.quanta) } else { 0.0 });
+            return part.draw(&mut pens, points);
+        }
+        for (pair, point) in points.windows(2).zip(first + 1..) {
+            pens.quanta = Lanes::from_fn(|lane| {
+                let md = self.trace(self.of_lane(eight, lane), point)[1] + pair[1][0].0[lane];
+                if lane < count { f64::from(brush.quanta_at(titre(lane), md).0) } else { 0.0 }
+            });
+            part.draw(&mut pens, pair);
+        }
+    }
 }
 
 fn draw_neighbours(
-    curtain: &dyn Curtain,
-    (filaments, points_on): (Range<usize>, &Range<usize>),
-    (belt, window): (Belt<'_>, &WindowOnSheet),
+    of: &Neighbours<'_>,
+    points_on: Range<usize>,
     brush: &Brush<'_>,
     stop: &AtomicBool,
 ) -> Result<Vec<Strand>, Error> {
-    let advance = curtain.belt_ratio() * curtain.spacing();
-    let mut pens: Vec<Pen> = filaments.clone().map(|_| Pen::default()).collect();
-    let mut part = CanvasPart::new(brush.canvas);
-    let (mut values, mut points) = ([[0.0; BLOCK]; 2], Vec::new());
-    for first in points_on.clone().step_by(BLOCK) {
+    let window = WindowOnSheet::new(of.belt.window, of.belt.sheet);
+    let mut strands: Vec<Strands> = of.filaments.clone().map(|_| Strands::default()).collect();
+    let (mut part, mut points) = (CanvasPart::new(brush.canvas), Vec::new());
+    let last = points_on.end.saturating_sub(1);
+    for first in (points_on.start..last).step_by(BLOCK) {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let count = BLOCK.min(points_on.end - first);
-        points.clear();
-        let mut corners = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
-        for filament in filaments.clone() {
-            let place = curtain.places()[filament];
-            curtain.curve(filament, first, values.each_mut().map(|values| &mut values[..count]));
-            for (i, (md, cd)) in values[0][..count].iter().zip(&values[1]).enumerate() {
-                let md = place.y + f64::from(*md) - advance * (first + i) as f64 - belt.back;
-                let point = [place.z + f64::from(*cd), md];
-                for axis in 0..2 {
-                    corners[0][axis] = corners[0][axis].min(point[axis]);
-                    corners[1][axis] = corners[1][axis].max(point[axis]);
-                }
-                points.push(point);
-            }
+        let which = first..(first + BLOCK).min(last) + 1;
+        let corners = of.read(which.clone(), &mut points);
+        part.move_to(corners, of.longest(), points.len() * WIDTH);
+        for (eight, points) in points.chunks_exact(which.len()).enumerate() {
+            of.draw((eight, first), points, brush, &mut part);
         }
-        part.move_to(corners, points.len());
-        for ((filament, pen), points) in filaments.clone().zip(&mut pens).zip(points.chunks_exact(count)) {
-            let titre = brush.titres.of(filament);
-            for to in points {
-                if let Some(from) = pen.last.replace(*to) {
-                    let (quanta, titre) = brush.quanta_at(titre, to[1]);
-                    part.draw(from, *to, quanta);
-                    pen.strands.keep(filament, ([from, *to], titre), window);
+        if window.is_beside(corners[0][1], corners[1][1]) {
+            for (number, strands) in strands.iter_mut().enumerate() {
+                let filament = of.filaments.start + number;
+                let points = &points[number / WIDTH * which.len()..][..which.len()];
+                let at = |i: usize| {
+                    let [md, cd] = [0, 1].map(|axis: usize| points[i][axis].0[number % WIDTH]);
+                    let [cross, along] = of.trace(filament, first + i);
+                    [cross + cd, along + md]
+                };
+                for i in 1..which.len() {
+                    let (from, to) = (at(i - 1), at(i));
+                    let (_, titre) = brush.quanta_at(brush.titres.of(filament), to[1]);
+                    strands.keep(filament, ([from, to], titre), &window);
                 }
             }
         }
     }
     part.pass_on();
-    Ok(pens.into_iter().flat_map(|pen| pen.strands.into_parts()).collect())
+    Ok(strands.into_iter().flat_map(Strands::into_parts).collect())
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.

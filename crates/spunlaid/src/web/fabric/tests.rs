@@ -74,9 +74,8 @@ fn random_fibres(seed: u64, bundle: u32) -> (Map, f64) {
     for [from, to] in Random::new(seed).lines(side, length / f64::from(bundle)) {
         let whole = libm::hypot(to[0] - from[0], to[1] - from[1]);
         let at = |along: f64| [0, 1].map(|axis| from[axis] + along / whole * (to[axis] - from[axis]));
-        for i in 0..(whole / step) as usize {
-            (0..bundle).for_each(|_| canvas.draw(at(i as f64 * step), at((i + 1) as f64 * step), quanta));
-        }
+        let line: Vec<[f64; 2]> = (0..=(whole / step) as usize).map(|i| at(i as f64 * step)).collect();
+        (0..bundle).for_each(|_| canvas.draw(&line, step, |_| quanta));
     }
     (canvas.finish().unwrap().map, length)
 }

@@ -58,10 +58,6 @@ impl Titres {
     pub(crate) fn of(&self, filament: usize) -> Option<&Titre> {
         self.0.get(&filament)
     }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
 }
 
 /// The holes of a defect: their numbers across the web and their places [m].

@@ -31,14 +31,11 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
 pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
-    let mut plans = plans(web)?;
-    let parts: Vec<f64> = plans.iter().map(Plan::mass_of_part).collect();
+    let plans = plans(web)?;
+    let pieces: Vec<f64> = plans.iter().map(Plan::mass_of_piece).collect();
     // No cell of a trace alone has more than four times its mean; a canvas reckons with ropes of 64 times.
     let traces = plans.iter().map(|plan| plan.weight_of_trace(&web.sheet)).sum::<f64>() / 16.0;
-    let canvas = Canvas::new(&web.sheet, &parts, web.basis_weight() + traces)?.ring();
-    for (plan, part) in plans.iter_mut().zip(parts) {
-        plan.quanta = canvas.quanta(part);
-    }
+    let canvas = Canvas::new(&web.sheet, &pieces, web.basis_weight() + traces)?.ring(by.isa);
     let mut units: Vec<(&Plan<'_>, Range<usize>)> = Vec::new();
     for plan in &plans {
         let count = plan.places.len();
@@ -50,8 +47,8 @@ pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
     let parts = Mutex::new(Vec::new());
     try_each(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
-        let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::in_turn(&canvas));
-        plan.draw(web, which.clone(), &mut part, by)?;
+        let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::new(&canvas));
+        plan.draw(web, (which.clone(), canvas.quanta(plan.mass_of_piece())), &mut part, by)?;
         lock(&parts).push(part);
         Ok(())
     })?;
@@ -69,13 +66,15 @@ pub fn strands(web: &Web, window: Window, by: LayControl<'_>) -> Result<Vec<Stra
         (0..plan.places.len()).step_by(WIDTH).map(move |first| (layer, first)).collect::<Vec<_>>()
     };
     let mut sets: Vec<(usize, usize)> = plans.iter().enumerate().flat_map(sets).collect();
+    let on = WindowOnSheet::on_ring(window, &web.sheet);
+    // Whether a filament that comes down at a place may lay fibre in the window.
+    let nears = |plan: &Plan<'_>, place| on.nears([place, window.corner[1]], plan.layer.fibres.reach());
     sets.retain(|&(layer, first)| {
-        let places = plans[layer].places[first..].iter().take(WIDTH);
-        places.copied().any(|place| nears(web, &plans[layer], place, window))
+        plans[layer].places[first..].iter().take(WIDTH).any(|place| nears(&plans[layer], *place))
     });
     let of_sets = try_each(by.threads, sets.len(), |i| {
         let (layer, first) = sets[i];
-        strands_of(web, window, (layer, &plans[layer]), first, by)
+        strands_of(web, &on, (layer, &plans[layer]), first, by)
     })?;
     Ok(of_sets.concat())
 }
@@ -83,16 +82,16 @@ pub fn strands(web: &Web, window: Window, by: LayControl<'_>) -> Result<Vec<Stra
 /// The strands of up to eight filaments of a layer.
 fn strands_of(
     web: &Web,
-    window: Window,
+    on: &WindowOnSheet,
     (layer, plan): (usize, &Plan<'_>),
     first: usize,
     by: LayControl<'_>,
 ) -> Result<Vec<Strand>, Error> {
     let count = WIDTH.min(plan.places.len() - first);
     let [places, mut along] = plan.start(web, first, count);
-    let (on, advance) = (WindowOnSheet::on_ring(window, &web.sheet), plan.layer.belt_ratio() * plan.piece);
+    let advance = plan.layer.belt_ratio() * plan.piece;
     let mut kept: Vec<Strands> = (0..count).map(|_| Strands::default()).collect();
-    plan.walk(web, first, count, by, |points| {
+    plan.walk(web, &[(first, count)], by, |_, points| {
         let longest = (points.len() - 1) as f64 * (plan.piece + advance);
         for (lane, kept) in kept.iter_mut().enumerate() {
             let at = |(i, point): (usize, &[Lanes; 2])| {
@@ -103,7 +102,7 @@ fn strands_of(
                 let titre = plan.titre_at(first + lane, along.0[lane], web);
                 for (i, ends) in points.windows(2).enumerate() {
                     let ends = [at((i, &ends[0])), at((i + 1, &ends[1]))];
-                    kept.keep(first + lane, (ends, titre), &on);
+                    kept.keep(first + lane, (ends, titre), on);
                 }
             }
         }
@@ -111,10 +110,4 @@ fn strands_of(
     })?;
     let strands = kept.into_iter().flat_map(Strands::into_parts);
     Ok(strands.map(|strand| Strand { layer, ..strand }).collect())
-}
-
-/// Whether a filament that comes down at a place may lay fibre in the window.
-fn nears(web: &Web, plan: &Plan<'_>, place: f64, window: Window) -> bool {
-    let on = WindowOnSheet::on_ring(window, &web.sheet);
-    on.nears([place, window.corner[1]], plan.layer.fibres.reach())
 }

@@ -20,7 +20,6 @@ mod lay;
 mod one_fibre;
 mod orientation;
 mod plan;
-mod raster;
 mod shared_error;
 pub mod uniformity;
 mod waves;
@@ -28,7 +27,7 @@ mod window;
 
 use crate::web::surrogate::Surrogate;
 pub use basis_weight::Map;
-pub(crate) use canvas::{Canvas, CanvasPart};
+pub(crate) use canvas::{Canvas, CanvasPart, NO_CORNERS, widen};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
 pub(crate) use defects::{Brush, Titres, holes, inlets};

@@ -102,7 +102,7 @@ impl Sample {
             let (first, count) = (group * WIDTH, WIDTH.min(plan.places.len() - group * WIDTH));
             let before = sample.filaments.len();
             sample.filaments.resize(before + count, vec![DirectionSums::default()]);
-            plan.walk(web, first, count, by, |points| {
+            plan.walk(web, &[(first, count)], by, |_, points| {
                 for pair in points.windows(2) {
                     for lane in 0..count {
                         let [md, cd] = [0, 1].map(|axis| pair[1][axis].0[lane] - pair[0][axis].0[lane]);

@@ -1,9 +1,8 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
-use super::canvas::CanvasPart;
+use super::canvas::{CanvasPart, OUTSIDE, Pens};
 use super::defects::{PLACES, Titres, inlets};
 use super::laid_web::LayControl;
-use super::raster::{Draw, OUTSIDE, Pens};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::ground::random::{stream, uniform};
 use crate::ground::{Error, Fault, Isa, Lanes, WIDTH};
@@ -14,38 +13,6 @@ use std::sync::atomic::Ordering;
 /// Longest piece of a path: of the smaller standard deviation, and of the length 1/A² in which the direction
 /// is forgotten.
 const LONGEST_PIECE: [f64; 2] = [0.06, 0.2];
-/// Points that are drawn at once.
-const BLOCK: usize = PATH_POINTS + 1;
-
-/// Paths of up to eight filaments, point by point.
-struct Points {
-    paths: Paths,
-    last: Option<[Lanes; 2]>,
-}
-
-impl Points {
-    /// Fills `points` with the ends of at most so many pieces: the first is where the next piece begins, the
-    /// others where pieces end. Returns the number of points.
-    fn next(&mut self, pieces: usize, points: &mut [[Lanes; 2]]) -> usize {
-        let count = points.len().min(pieces + 1);
-        let points = match self.last {
-            Some(last) => {
-                points[0] = last;
-                self.paths.fill(&mut points[1..count]);
-                &points[..count]
-            }
-            // After these, the paths need new points whenever some are asked for.
-            None => {
-                let points = &mut points[..count.min(PATH_POINTS)];
-                self.paths.fill(points);
-                points
-            }
-        };
-        self.last = points.last().copied();
-        points.len()
-    }
-}
-
 /// How the filaments of a layer are drawn.
 pub(super) struct Plan<'a> {
     number: u64,
@@ -57,9 +24,6 @@ pub(super) struct Plan<'a> {
     pub(super) pieces: usize,
     /// Length of a piece [m].
     pub(super) piece: f64,
-    /// Parts of a piece, and quanta of a part.
-    pub(super) parts: usize,
-    pub(super) quanta: u32,
     /// What is wrong with some filaments.
     titres: Titres,
 }
@@ -94,8 +58,6 @@ impl<'a> Plan<'a> {
             return Err(no_layer(number + 1));
         }
         let piece = fed / pieces;
-        let advance = layer.belt_ratio() * piece;
-        let parts = Pens::parts_of((piece + advance) / sheet.cell);
         let places = places(web, number, layer);
         if places.is_empty() {
             return Err(no_layer(number + 1));
@@ -104,12 +66,12 @@ impl<'a> Plan<'a> {
             Titres::new((sheet, web.seed), (number, &layer.filaments), (&layer.defects, layer.belt_speed));
         let number = number as u64;
         let pieces = pieces as usize;
-        Ok(Self { number, layer, surrogate, places, pieces, piece, parts, quanta: 0, titres })
+        Ok(Self { number, layer, surrogate, places, pieces, piece, titres })
     }
 
-    /// Mass of a part of a piece [kg].
-    pub(super) fn mass_of_part(&self) -> f64 {
-        self.layer.linear_density * self.piece / self.parts as f64
+    /// Mass of a piece [kg].
+    pub(super) fn mass_of_piece(&self) -> f64 {
+        self.layer.linear_density * self.piece
     }
 
     /// Mean mass per area of the cells in the middle of a single trace [kg/m²].
@@ -123,9 +85,9 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn points(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Points, Fault> {
+    fn paths(&self, web: &Web, isa: Isa, (first, count): (usize, usize)) -> Result<Paths, Fault> {
         let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
-        let paths = Paths::new(isa, self.surrogate, self.piece, &keys).ok_or_else(|| {
+        Paths::new(isa, self.surrogate, self.piece, &keys).ok_or_else(|| {
             let Surrogate { sigma_md, sigma_cd, noise } = self.surrogate;
             Fault::new(
                 format!(
@@ -134,8 +96,7 @@ impl<'a> Plan<'a> {
                 ),
                 "all must be above zero",
             )
-        })?;
-        Ok(Points { paths, last: None })
+        })
     }
 
     /// Mass per length of a filament over that of the others where its straight trace is at a place [m], the
@@ -144,55 +105,41 @@ impl<'a> Plan<'a> {
         self.titres.of(filament).map_or(1.0, |titre| titre.at(along.rem_euclid(web.sheet.length)))
     }
 
-    /// Quanta of a part of the pieces of some filaments.
-    ///
-    /// * `along` – rows at which their straight traces are
-    fn quanta_at(&self, first: usize, count: usize, along: &Lanes, web: &Web) -> Lanes {
-        let of_lane = |lane: usize| {
-            let titre = self.titre_at(first + lane, along.0[lane] * web.sheet.cell, web);
-            (f64::from(self.quanta) * titre).round()
-        };
-        Lanes::from_fn(|lane| if lane < count { of_lane(lane) } else { 0.0 })
-    }
-
     /// Draws some filaments.
+    ///
+    /// * `quanta` – of a piece of a filament without a defect
     pub(super) fn draw(
         &self,
         web: &Web,
-        which: Range<usize>,
+        (which, quanta): (Range<usize>, u32),
         part: &mut CanvasPart<'_>,
         by: LayControl<'_>,
     ) -> Result<(), Error> {
-        let per_cell = 1.0 / web.sheet.cell;
         let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
             return Ok(());
         };
-        let reach = self.layer.fibres.reach() + 2.0 * web.sheet.cell;
-        let first = ((low - reach) * per_cell).floor();
-        let columns = ((high + reach) * per_cell - first).ceil() as i64 + 1;
+        let (cell, advance) = (web.sheet.cell, self.layer.belt_ratio() * self.piece);
+        let longest = self.piece + advance;
+        let reach = self.layer.fibres.reach() + longest + 4.0 * cell;
+        let first = ((low - reach) / cell).floor();
+        let columns = ((high + reach) / cell - first).ceil() as i64 + 1;
         let rows = web.sheet.cells()[1] as i64;
-        part.cover(
-            [first as i64 - OUTSIDE[0], -OUTSIDE[1]],
-            [columns + 2 * OUTSIDE[0], rows + 2 * OUTSIDE[1]],
-        );
-        let pens = |start: usize| {
-            let count = WIDTH.min(which.end - start);
-            let at = self.start(web, start, count).map(|at| Lanes(at.0.map(|at| at * per_cell)));
-            let advance = self.layer.belt_ratio() * self.piece * per_cell;
-            let quanta = self.quanta_at(start, count, &at[1], web);
-            Pens { per_cell, advance, parts: self.parts, quanta, at, curves: count }
-        };
+        part.cover([first as i64, -OUTSIDE], [columns, rows + 2 * OUTSIDE]);
         for start in which.clone().step_by(2 * WIDTH) {
-            let starts: Vec<usize> = (start..which.end).step_by(WIDTH).take(2).collect();
-            let mut pens: Vec<Pens> = starts.iter().map(|start| pens(*start)).collect();
-            let counts: Vec<usize> = pens.iter().map(|pens| pens.curves).collect();
-            let sets = starts.iter().zip(&pens).map(|(start, pens)| (*start, pens.curves)).collect();
-            self.walk_together(web, sets, by, |set, points| {
-                if !self.titres.is_empty() {
-                    let pens = &mut pens[set];
-                    pens.quanta = self.quanta_at(starts[set], counts[set], &pens.at[1], web);
-                }
-                by.isa.run(Draw { pens: &mut pens[set], part, points });
+            let starts = (start..which.end).step_by(WIDTH).take(2);
+            let sets: Vec<_> = starts.map(|start| (start, WIDTH.min(which.end - start))).collect();
+            let of_set = |(first, count): &(usize, usize)| {
+                part.canvas.pens(self.start(web, *first, *count), advance, longest)
+            };
+            let mut pens: Vec<Pens> = sets.iter().map(of_set).collect();
+            self.walk(web, &sets, by, |set, points| {
+                let ((first, count), pens) = (sets[set], &mut pens[set]);
+                let of_lane = |lane: usize| {
+                    let titre = self.titre_at(first + lane, pens.at[1].0[lane] * cell, web);
+                    (f64::from(quanta) * titre).round()
+                };
+                pens.quanta = Lanes::from_fn(|lane| if lane < count { of_lane(lane) } else { 0.0 });
+                part.draw(pens, points);
             })?;
         }
         part.pass_on();
@@ -209,49 +156,29 @@ impl<'a> Plan<'a> {
         ]
     }
 
-    /// Passes on the points (ξ₁, ξ₂) of up to eight filaments, block by block. The first point of a block is
-    /// where its first piece begins.
-    pub(super) fn walk(
-        &self,
-        web: &Web,
-        first: usize,
-        count: usize,
-        by: LayControl<'_>,
-        mut take: impl FnMut(&[[Lanes; 2]]),
-    ) -> Result<(), Error> {
-        self.walk_together(web, vec![(first, count)], by, |_, points| take(points))
-    }
-
-    /// [`Plan::walk`] for one or two sets of filaments at once.
+    /// Passes on the points (ξ₁, ξ₂) of sets of up to eight filaments, block by block. The first point of a block
+    /// is where its first piece begins.
     ///
     /// * `sets` – first filament and number of filaments of each
     /// * `take` – is given the number of the set and its points
-    fn walk_together(
+    pub(super) fn walk(
         &self,
         web: &Web,
-        sets: Vec<(usize, usize)>,
+        sets: &[(usize, usize)],
         by: LayControl<'_>,
         mut take: impl FnMut(usize, &[[Lanes; 2]]),
     ) -> Result<(), Error> {
-        let mut points = [[Lanes::ZERO; 2]; BLOCK];
-        let curves = sets.iter().map(|(first, count)| self.points(web, by.isa, *first, *count));
-        let mut curves: Vec<Points> = curves.collect::<Result<_, _>>()?;
-        let mut left = vec![self.pieces; sets.len()];
-        while left.iter().any(|left| *left > 0) {
+        let paths = sets.iter().map(|set| self.paths(web, by.isa, *set));
+        let mut paths: Vec<Paths> = paths.collect::<Result<_, _>>()?;
+        let filaments: usize = sets.iter().map(|(_, count)| count).sum();
+        for first in (0..self.pieces).step_by(PATH_POINTS) {
             if by.stop.load(Ordering::Relaxed) {
                 return Err(Error::Interrupted);
             }
-            if let [one, other] = &mut curves[..] {
-                one.paths.go_on_together(&mut other.paths);
-            }
-            for ((set, curves), left) in curves.iter_mut().enumerate().zip(&mut left) {
-                if *left > 0 {
-                    let given = curves.next(*left, &mut points);
-                    take(set, &points[..given]);
-                    *left -= given - 1;
-                    by.laid.fetch_add(((given - 1) * sets[set].1) as u64, Ordering::Relaxed);
-                }
-            }
+            Paths::go_on(&mut paths);
+            let pieces = PATH_POINTS.min(self.pieces - first);
+            paths.iter().enumerate().for_each(|(set, paths)| take(set, &paths.block()[..=pieces]));
+            by.laid.fetch_add((pieces * filaments) as u64, Ordering::Relaxed);
         }
         Ok(())
     }

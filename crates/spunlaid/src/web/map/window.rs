@@ -49,8 +49,7 @@ fn is_same(a: [f64; 2], b: [f64; 2]) -> bool {
 /// A window as it is met on a sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WindowOnSheet {
-    /// The window that is shown; None if it is on another stretch.
-    window: Option<Window>,
+    window: Window,
     /// After which the sheet goes on at its edges in cross and in machine direction [m].
     turns: [Option<f64>; 2],
     /// How far before and behind the window a piece is looked at [m].
@@ -59,7 +58,8 @@ pub(crate) struct WindowOnSheet {
 
 impl WindowOnSheet {
     pub(crate) fn new(window: Window, sheet: &Sheet) -> Self {
-        Self::beginning_on(window, sheet, [f64::NEG_INFINITY, f64::INFINITY])
+        let turns = [(sheet.edges == Edges::Periodic).then_some(sheet.width), None];
+        Self { window, turns, margin: sheet.cell }
     }
 
     /// On a sheet that is closed to a ring in machine direction.
@@ -68,30 +68,15 @@ impl WindowOnSheet {
         Self { turns: [of_sheet.turns[0], Some(sheet.length)], ..of_sheet }
     }
 
-    /// The window, if it begins on a stretch of the sheet.
-    ///
-    /// * `from`, `to` – in machine direction [m]
-    pub(crate) fn beginning_on(window: Window, sheet: &Sheet, [from, to]: [f64; 2]) -> Self {
-        let turns = [(sheet.edges == Edges::Periodic).then_some(sheet.width), None];
-        let window = (from..to).contains(&window.corner[1]).then_some(window);
-        Self { window, turns, margin: sheet.cell }
-    }
-
-    /// From where to where a piece may be kept in machine direction [m]; None if the window is not there.
-    pub(crate) fn reach(&self) -> Option<[f64; 2]> {
-        // A piece that begins a cell beside the window is looked at.
-        let beside = 2.0 * self.margin;
-        self.window.map(|Window { corner, sides }| [corner[1] - beside, corner[1] + sides[1] + beside])
-    }
-
     /// Whether a place is in the window, or so far from it either way.
     pub(super) fn nears(&self, place: [f64; 2], distance: f64) -> bool {
-        self.window.is_some_and(|window| window.nears(self.seen(window, place), distance))
+        self.window.nears(self.seen(place), distance)
     }
 
-    /// A place on the sheet as seen from the corner of a window.
+    /// A place on the sheet as seen from the corner of the window.
     #[inline(always)]
-    fn seen(&self, Window { corner, sides }: Window, place: [f64; 2]) -> [f64; 2] {
+    fn seen(&self, place: [f64; 2]) -> [f64; 2] {
+        let Window { corner, sides } = self.window;
         [0, 1].map(|axis| {
             let (from_corner, middle) = (place[axis] - corner[axis], 0.5 * sides[axis]);
             let turned = |turn: f64| turn * floor((from_corner - middle) / turn + 0.5) as f64;
@@ -99,11 +84,12 @@ impl WindowOnSheet {
         })
     }
 
-    /// Whether a place lies beside a window in cross direction, or a little before or behind that.
+    /// Whether something that reaches from one place to another in machine direction lies beside the window in cross
+    /// direction, or a little before or behind that.
     #[inline(always)]
-    fn is_beside(&self, window: Window, [_, md]: [f64; 2]) -> bool {
-        let from_corner = md - window.corner[1];
-        self.turns[1].is_some() || (-self.margin..=window.sides[1] + self.margin).contains(&from_corner)
+    pub(crate) fn is_beside(&self, from: f64, to: f64) -> bool {
+        let [start, end] = [0.0, self.window.sides[1]].map(|side| self.window.corner[1] + side);
+        self.turns[1].is_some() || (from <= end + self.margin && to >= start - self.margin)
     }
 }
 
@@ -126,17 +112,12 @@ impl Strands {
         ([from, to], titre): ([[f64; 2]; 2], f64),
         on: &WindowOnSheet,
     ) {
-        if titre == 0.0 {
+        // Most pieces are far before or behind it.
+        if titre == 0.0 || !(on.is_beside(from[1], from[1]) || on.is_beside(to[1], to[1])) {
             self.enters = false;
             return;
         }
-        // Most pieces are far before or behind it.
-        let near = on.window.filter(|window| on.is_beside(*window, from) || on.is_beside(*window, to));
-        let Some(window) = near else {
-            self.enters = false;
-            return;
-        };
-        let start = on.seen(window, from);
+        let (window, start) = (on.window, on.seen(from));
         let by = [to[0] - from[0], to[1] - from[1]];
         let end = [start[0] + by[0], start[1] + by[1]];
         let shown = window.holds(start) || window.holds(end);
@@ -148,7 +129,7 @@ impl Strands {
             None => {}
         }
         self.enters = shown;
-        let arrived = on.seen(window, to);
+        let arrived = on.seen(to);
         if !is_same(arrived, end) && window.holds(arrived) {
             // It comes in at the other edge.
             let start = [arrived[0] - by[0], arrived[1] - by[1]];

@@ -49,7 +49,7 @@ pub struct Paths {
     streams: Vec<Xoshiro256PlusPlus>,
     position: [Lanes; 2],
     direction: [Lanes; 2],
-    /// Points made and not yet asked for are the last ones.
+    /// A block and the first point after it. Those not yet asked for are the last ones.
     points: Vec<[Lanes; 2]>,
     taken: usize,
     /// Cosine and sine of the noise of the next steps.
@@ -87,7 +87,7 @@ impl Paths {
             streams: keys.iter().map(|key| key.stream()).collect(),
             position: [Lanes::ZERO; 2],
             direction: [Lanes::ZERO; 2],
-            points: vec![[Lanes::ZERO; 2]; BLOCK],
+            points: vec![[Lanes::ZERO; 2]; BLOCK + 1],
             taken: BLOCK,
             turns: vec![[Lanes::ZERO; 2]; BLOCK],
             bits: vec![Lanes::ZERO; BLOCK / 2],
@@ -112,12 +112,17 @@ impl Paths {
         }
     }
 
-    /// Makes the next points of two sets of paths if both need some, which takes less time than one after the other. It
-    /// changes no path.
-    pub(crate) fn go_on_together(&mut self, other: &mut Self) {
-        if self.taken == BLOCK && other.taken == BLOCK {
-            self.isa.run(Next([self, other]));
+    /// Makes the next block of some sets of paths, of two in less time than one after the other.
+    pub(crate) fn go_on(sets: &mut [Self]) {
+        match sets {
+            [one, other] => one.isa.run(Next([one, other])),
+            _ => sets.iter_mut().for_each(|paths| paths.isa.run(Next([paths]))),
         }
+    }
+
+    /// The points of the block that has been made, and the one after it, with which the next block begins.
+    pub(crate) fn block(&self) -> &[[Lanes; 2]] {
+        &self.points
     }
 
     /// Random bits, a number for each lane.
@@ -223,6 +228,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
         }
         for k in 0..SETS {
             sets[k].position = at[k].map(Wide::store);
+            sets[k].points[BLOCK] = sets[k].position;
             sets[k].direction = along[k].map(Wide::store);
             sets[k].taken = 0;
         }

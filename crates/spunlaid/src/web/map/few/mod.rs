@@ -47,6 +47,8 @@ pub(crate) struct FewFilaments<'a> {
     pub(crate) rows: Vec<Vec<Option<Vec<[f64; 2]>>>>,
     /// Mass of a piece of a curve [kg].
     pub(crate) piece: f64,
+    /// Length of the longest of them on the belt, but for rare exceptions [m].
+    pub(crate) longest: f64,
     /// How all filaments hang.
     pub(crate) arrangement: Arrangement,
     /// Number of all filaments over the width of the sheet.
@@ -241,11 +243,9 @@ impl FewFilaments<'_> {
     pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
         let (first, step) = half.map_or((0, 1), |first| (first, 2));
         let curves = self.rows.iter().flat_map(|row| row.iter().skip(first).step_by(step));
-        let mut canvas = self.canvas(self.sheet)?;
+        let canvas = self.canvas(self.sheet)?;
         let quanta = canvas.quanta(self.piece);
-        for curve in curves.flatten() {
-            curve.windows(2).for_each(|ends| canvas.draw_alone(ends[0], ends[1], quanta));
-        }
+        curves.flatten().for_each(|curve| canvas.draw(curve, self.longest, |_| quanta));
         Ok(canvas.finish()?.map)
     }
 
@@ -324,10 +324,10 @@ impl FewFilaments<'_> {
             Sheet { width: columns * cell, edges: Edges::Cut, patches: Vec::new(), ..self.sheet.clone() };
         let sums = |curve: Option<(&Vec<[f64; 2]>, f64)>| {
             let Some((curve, further)) = curve else { return Ok(None) };
-            let mut canvas = self.canvas(&strip)?;
+            let canvas = self.canvas(&strip)?;
             let quanta = canvas.quanta(self.piece);
-            let place = |[cd, md]: [f64; 2]| [cd + further - first * cell, md];
-            curve.windows(2).for_each(|ends| canvas.draw_alone(place(ends[0]), place(ends[1]), quanta));
+            let place = |[cd, md]: &[f64; 2]| [cd + further - first * cell, *md];
+            canvas.draw(&curve.iter().map(place).collect::<Vec<_>>(), self.longest, |_| quanta);
             Ok::<_, Error>(Some(CornerSums::over(&canvas.finish()?.map)))
         };
         let mut all = Vec::new();

@@ -78,6 +78,7 @@ fn few<'a>(
         blocks: blocks_on(sheet),
         rows: vec![curves.collect()],
         piece: 1e-9,
+        longest: 1e-3,
         arrangement,
         all: all as f64,
         pairs: 64,

@@ -1,48 +1,34 @@
 //! Draws curves into cells, eight at a time.
 
-use super::canvas::CanvasPart;
+use super::CanvasPart;
 use crate::ground::{Lanes, Register, Task, WIDTH, Wide};
 
-/// Columns and rows of a part beyond what is drawn on, on each side. A wrapped coordinate may be off by a rounding
-/// error, and its piece a cell further.
-pub(super) const OUTSIDE: [i64; 2] = [1, 2];
+/// Rows of a part beyond those of a ring, on each side. A wrapped coordinate may be off by a rounding error, and
+/// its piece a cell further.
+pub(crate) const OUTSIDE: i64 = 2;
 
 /// 2⁵²; the low bits of `2⁵² + integer` are the integer.
 const TWO_52: f64 = 4_503_599_627_370_496.0;
 
-/// Up to eight curves that are drawn side by side. A curve is a chain of straight pieces of equal mass.
+/// Up to eight curves that are drawn side by side. A curve is a chain of straight pieces.
 ///
 /// What a cell gets of a piece is the part of the piece within it, in whole quanta: the parts of a piece are
 /// differences of one rounded running sum, so none is lost and none is made.
 #[derive(Debug)]
-pub(super) struct Pens {
-    /// Number of curves.
-    pub(super) curves: usize,
-    /// One over the side of a cell [1/m].
-    pub(super) per_cell: f64,
+pub(crate) struct Pens {
     /// Cells by which the belt moves while a piece is laid.
     pub(super) advance: f64,
     /// Parts of a piece that are drawn one by one, none longer than a cell.
     pub(super) parts: usize,
-    /// Quanta of a part of each curve; none of an unused one.
-    pub(super) quanta: Lanes,
+    /// Quanta of a piece of each curve; none of an unused one.
+    pub(crate) quanta: Lanes,
     /// Column and row of the straight trace.
-    pub(super) at: [Lanes; 2],
-}
-
-impl Pens {
-    /// Parts of a piece that are short enough.
-    ///
-    /// * `longest` – longest piece on the belt [cells]
-    pub(super) fn parts_of(longest: f64) -> usize {
-        (longest.ceil().max(1.0)) as usize
-    }
+    pub(crate) at: [Lanes; 2],
 }
 
 /// Draws the pieces between points, [ξ₁, ξ₂] of each curve [m], and goes on along the straight traces.
 pub(super) struct Draw<'a, 'b> {
     pub(super) pens: &'a mut Pens,
-    /// A part with all rows of a ring, and [`OUTSIDE`] around it.
     pub(super) part: &'a mut CanvasPart<'b>,
     pub(super) points: &'a [[Lanes; 2]],
 }
@@ -53,31 +39,25 @@ impl Task for Draw<'_, '_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         let Self { pens, part, points } = self;
-        let splat = Wide::<S>::splat;
-        let per_cell = splat(pens.per_cell);
-        let advance = splat(pens.advance);
-        let share = splat(1.0 / pens.parts as f64);
-        let rows = (part.size[1] - 2 * OUTSIDE[1]) as f64;
-        let (rows, per_row) = (splat(rows), splat(1.0 / rows));
-        let mut ink = Ink::<S>::new(pens, part);
+        let [per_cell, advance] = [1.0 / part.canvas.cell, pens.advance].map(Wide::<S>::splat);
+        let mut ink = Ink::<S>::new(part);
         let column = Wide::load(&pens.at[0]);
         let mut row = Wide::load(&pens.at[1]);
         for pair in points.windows(2) {
             let [from, to] = [&pair[0], &pair[1]];
             let (md, cd) = (Wide::load(&from[0]) * per_cell, Wide::load(&from[1]) * per_cell);
             let (next_md, next_cd) = (Wide::load(&to[0]) * per_cell, Wide::load(&to[1]) * per_cell);
-            let by = [(next_cd - cd) * share, (next_md - md - advance) * share];
-            let mut at = [column + cd, row + md];
-            for _ in 0..pens.parts {
-                let turns = (at[1] * per_row).floor();
-                let wrapped = turns.neg_mul_add(rows, at[1]);
-                ink.draw([at[0], wrapped], by, part);
-                at = [at[0] + by[0], at[1] + by[1]];
+            let (at, by) = ([column + cd, row + md], [next_cd - cd, next_md - md - advance]);
+            let longest = by[0].abs().max(by[1].abs());
+            if longest.any_above(pens.parts as f64) {
+                ink.draw_each((at, by), longest.store(), pens, part);
+            } else {
+                ink.draw((at, by), Wide::load(&pens.quanta), pens.parts, part);
             }
             row -= advance;
         }
         ink.finish(part);
-        pens.at[1] = (row * per_row).floor().neg_mul_add(rows, row).store();
+        pens.at[1] = ink.wrapped(row).store();
     }
 }
 
@@ -109,13 +89,15 @@ const LIST: usize = 256;
 /// What eight curves leave in the cells. Each gathers what it leaves in its cell until it goes on to the
 /// next; these sums go to a list first, because adding to memory at once would wait for the sum before.
 struct Ink<S: Register> {
+    /// Number of rows of a ring, and one over it; none over it if no row is another one.
+    rows: Wide<S>,
+    per_row: Wide<S>,
     stride: Wide<S>,
     /// Index of the cell in column and row zero, with 2⁵² added.
     origin: Wide<S>,
-    middle: Wide<S>,
-    half: f64,
-    /// Quanta of a part; none of an unused curve.
-    all: Wide<S>,
+    /// Column and row of the middle, and how far from it a part is near.
+    middle: [Wide<S>; 2],
+    half: [f64; 2],
     /// Index of the cell of each curve with 2⁵² added, and the quanta it has left there.
     cell: Wide<S>,
     gathered: Wide<S>,
@@ -126,15 +108,19 @@ struct Ink<S: Register> {
 
 impl<S: Register> Ink<S> {
     #[inline(always)]
-    fn new(pens: &Pens, part: &CanvasPart<'_>) -> Self {
+    fn new(part: &CanvasPart<'_>) -> Self {
         let ([column, row], [columns, _]) = (part.first, part.size);
+        let rows = part.canvas.size[1] as f64;
+        let is_ring = part.canvas.closed[1];
+        // A part on a ring has all rows.
+        let half = [0, 1].map(|i| 0.5 * part.size[i] as f64 - 1.5);
         Self {
+            rows: Wide::splat(rows),
+            per_row: Wide::splat(if is_ring { 1.0 / rows } else { 0.0 }),
             stride: Wide::splat(columns as f64),
             origin: Wide::splat(TWO_52 - (row * columns + column) as f64),
-            // Nothing that starts so far inside ends outside.
-            middle: Wide::splat(column as f64 + 0.5 * columns as f64),
-            half: 0.5 * columns as f64 - (OUTSIDE[0] as f64 + 0.5),
-            all: Wide::load(&pens.quanta),
+            middle: [0, 1].map(|i| Wide::splat(part.first[i] as f64 + 0.5 * part.size[i] as f64)),
+            half: [half[0], if is_ring && half[1] > 0.0 { f64::INFINITY } else { half[1] }],
             cell: Wide::splat(TWO_52),
             gathered: Wide::zero(),
             list: [0; LIST],
@@ -142,9 +128,68 @@ impl<S: Register> Ink<S> {
         }
     }
 
+    /// The row on a ring.
+    #[inline(always)]
+    fn wrapped(&self, row: Wide<S>) -> Wide<S> {
+        (row * self.per_row).floor().neg_mul_add(self.rows, row)
+    }
+
+    /// Draws pieces one by one, each in as many parts as it needs.
+    #[inline(always)]
+    fn draw_each(
+        &mut self,
+        ends: ([Wide<S>; 2], [Wide<S>; 2]),
+        longest: Lanes,
+        pens: &Pens,
+        part: &mut CanvasPart<'_>,
+    ) {
+        for i in (0..WIDTH).filter(|i| pens.quanta.0[*i] > 0.0) {
+            let quanta = Lanes::from_fn(|lane| if lane == i { pens.quanta.0[i] } else { 0.0 });
+            self.finish(part);
+            self.draw(ends, Wide::load(&quanta), pens.parts.max(longest.0[i].ceil() as usize), part);
+        }
+        self.finish(part);
+    }
+
+    /// Draws pieces.
+    ///
+    /// * `all` – their quanta
+    #[inline(always)]
+    fn draw(
+        &mut self,
+        (mut at, by): ([Wide<S>; 2], [Wide<S>; 2]),
+        all: Wide<S>,
+        parts: usize,
+        part: &mut CanvasPart<'_>,
+    ) {
+        let share = Wide::splat(1.0 / parts as f64);
+        let by = by.map(|by| by * share);
+        // The last part has what is left over.
+        let each = ((all + Wide::splat(0.5)) * share).floor();
+        let last = each.neg_mul_add(Wide::splat((parts - 1) as f64), all);
+        // Nothing that starts so far inside ends outside.
+        let is_far =
+            [0, 1].into_iter().any(|i| (at[i] - self.middle[i]).abs().any_above(self.half[i] - parts as f64));
+        if is_far {
+            self.finish(part);
+        }
+        for i in 1..=parts {
+            let quanta = if i < parts { each } else { last };
+            let from = [at[0], self.wrapped(at[1])];
+            self.draw_part((from, by), quanta, is_far, part);
+            at = [at[0] + by[0], at[1] + by[1]];
+        }
+    }
+
     /// Draws a part. It crosses at most one edge of a cell each way.
     #[inline(always)]
-    fn draw(&mut self, at: [Wide<S>; 2], by: [Wide<S>; 2], part: &mut CanvasPart<'_>) {
+    fn draw_part(
+        &mut self,
+        (at, by): ([Wide<S>; 2], [Wide<S>; 2]),
+        all: Wide<S>,
+        is_far: bool,
+        part: &mut CanvasPart<'_>,
+    ) {
         let (zero, one, shift) = (Wide::<S>::zero(), Wide::<S>::splat(1.0), Wide::<S>::splat(TWO_52));
         let cell = [at[0].floor(), at[1].floor()];
         let x = Crossing::place(at[0], cell[0], by[0]);
@@ -152,12 +197,11 @@ impl<S: Register> Ink<S> {
         let first = Wide::select_less(x.share, y.share, x.share, y.share);
         let last = Wide::select_less(x.share, y.share, y.share, x.share);
         // Rounded to whole quanta.
-        let until_first = first.mul_add(self.all, shift) - shift;
-        let until_last = last.mul_add(self.all, shift) - shift;
-        if (at[0] - self.middle).abs().any_above(self.half) {
-            self.finish(part);
+        let until_first = first.mul_add(all, shift) - shift;
+        let until_last = last.mul_add(all, shift) - shift;
+        if is_far {
             let lanes = [cell[0], cell[1], x.to, y.to, x.share, y.share];
-            anywhere(lanes.map(Wide::store), [until_first, until_last, self.all].map(Wide::store), part);
+            anywhere(lanes.map(Wide::store), [until_first, until_last, all].map(Wide::store), part);
             return;
         }
         let down = y.to * self.stride;
@@ -168,7 +212,7 @@ impl<S: Register> Ink<S> {
         let entries = entry(start, sum + shift);
         let sum = Wide::select_less(first, one, zero, sum) + (until_last - until_first);
         let next_entries = entry(between, sum + shift);
-        self.gathered = Wide::select_less(last, one, zero, sum) + (self.all - until_last);
+        self.gathered = Wide::select_less(last, one, zero, sum) + (all - until_last);
         for (entries, share) in [(entries, first), (next_entries, last)] {
             if let Some(free) = self.list.get_mut(self.listed..).and_then(<[u64]>::first_chunk_mut) {
                 self.listed += entries.store_less(share, one, free);
@@ -178,20 +222,11 @@ impl<S: Register> Ink<S> {
             self.add(part);
         }
     }
-
     /// Adds the list to the cells.
     #[inline(always)]
     fn add(&mut self, part: &mut CanvasPart<'_>) {
-        let mut is_full = false;
         for entry in &self.list[..self.listed.min(LIST)] {
-            if let Some(cell) = part.cells.get_mut((entry >> 32) as usize) {
-                let (sum, beyond) = cell.overflowing_add(*entry as u32);
-                *cell = sum;
-                is_full |= beyond;
-            }
-        }
-        if is_full {
-            part.fill();
+            part.add_near((entry >> 32) as usize, *entry as u32);
         }
         self.listed = 0;
     }
