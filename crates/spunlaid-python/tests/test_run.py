@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import shutil
 import signal
 import subprocess
 import threading
@@ -53,6 +54,14 @@ def test_shapes_of_the_arrays(short: Case) -> None:
     with pytest.raises(ValueError, match="read-only"):
         run.end_node["y_m"][0, 0] = 1.0
     assert run.laid == []
+
+
+def test_a_run_says_when_what_it_recorded_has_been_removed(short: Case, tmp_path: Path) -> None:
+    run = spunlaid.run(short, 2)
+    shutil.rmtree(run._tables.path)
+    with pytest.raises(spunlaid.FolderError, match="has been removed"):
+        run.save(tmp_path / "a")
+    assert run.measures["amplitude_y_m"].mean > 0 and not (tmp_path / "a").exists()
 
 
 def test_a_path_or_a_dict_is_a_case(short: Case, tmp_path: Path) -> None:

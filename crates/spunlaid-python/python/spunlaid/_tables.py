@@ -122,6 +122,8 @@ class Tables:
         return every
 
     def _table(self, name: str) -> dict[str, Any]:
+        if not self.path.exists():
+            raise FolderError(f"{self.path}: this folder, with what was recorded, has been removed; make the results again")
         if not (self.path / name).exists():
             return {}
         return read_table(self.path / name)

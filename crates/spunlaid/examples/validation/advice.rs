@@ -1,6 +1,7 @@
 //! What changes and guesses do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
 //!
-//! All cores fly; a line takes some minutes of sixteen. `validation advice slot` looks at one of them.
+//! All cores fly; a line takes some minutes of sixteen. `validation advice slot 4` looks at one of them, against four
+//! long webs of each change.
 
 use crate::title;
 use spunlaid::experiment::advice::advise;
@@ -14,8 +15,8 @@ use spunlaid::web::{LayControl, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Long webs of each change.
-const SEEDS: u64 = 8;
+/// Long webs of each change, unless a number is given.
+const SEEDS: usize = 8;
 /// One of them: with twice as many filaments as fly in most airs. It is wide enough for the filaments that spread most.
 const LONG: [(&str, &str); 3] = [("web.width", "0.3 m"), ("web.length", "1 m"), ("web.flown", "500")];
 
@@ -96,15 +97,16 @@ pub fn changes() {
         ("thick", THICK, "line.depth, air.turbulence_intensity"),
     ];
     let all = !lines.iter().any(|(name, ..)| asked(name));
+    let seeds = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(SEEDS);
     let (mut within, mut count) = (0, 0);
     for (name, text, guesses) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
-        title(&format!("Changes of a line: {name}, against {SEEDS} webs of 0.3 m × 1 m each"));
+        title(&format!("Changes of a line: {name}, against {seeds} webs of 0.3 m × 1 m each"));
         let text = format!("{text}{}", REST.replace("none", guesses));
         let (base, told) = told(&text, threads);
         if asked("told") {
             continue;
         }
-        let held = compare(&base, &told, threads);
+        let held = compare(&base, &told, (seeds, threads));
         within += held;
         count += told.len();
         println!(
@@ -188,22 +190,22 @@ fn long(spec: &WebSpec, seed: u64) -> WebSpec {
 }
 
 /// Prints what long webs say of each change beside what is told, and counts those within two told errors.
-fn compare(base: &WebSpec, told: &[Told], threads: usize) -> usize {
+fn compare(base: &WebSpec, told: &[Told], (seeds, threads): (usize, usize)) -> usize {
     let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
-    let cvs = each(threads, specs.len() * SEEDS as usize, |i| {
-        let (_, findings) = lay(&long(specs[i / SEEDS as usize], i as u64 % SEEDS), 1);
+    let cvs = each(threads, specs.len() * seeds, |i| {
+        let (_, findings) = lay(&long(specs[i / seeds], (i % seeds) as u64), 1);
         let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
         seen.and_then(|seen| findings.patches[seen].told()).map_or(f64::NAN, |told| told.cv)
     });
-    let of = |web: usize| &cvs[web * SEEDS as usize..][..SEEDS as usize];
+    let of = |web: usize| &cvs[web * seeds..][..seeds];
     println!(
         "  change                                          told             long webs       in told errors"
     );
     let mut held = 0;
     for (web, Told { name, change, is_named, .. }) in (1..).zip(told) {
         let ratios: Vec<f64> = of(web).iter().zip(of(0)).map(|(cv, base)| cv / base - 1.0).collect();
-        let mean = ratios.iter().sum::<f64>() / SEEDS as f64;
-        let scatter = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum::<f64>() / (SEEDS as f64 - 1.0);
+        let mean = ratios.iter().sum::<f64>() / seeds as f64;
+        let scatter = ratios.iter().map(|ratio| (ratio - mean).powi(2)).sum::<f64>() / (seeds as f64 - 1.0);
         let off = (change.value - mean) / change.standard_error;
         held += usize::from(off.abs() <= 2.0);
         println!(
@@ -211,7 +213,7 @@ fn compare(base: &WebSpec, told: &[Told], threads: usize) -> usize {
             100.0 * change.value,
             100.0 * change.standard_error,
             100.0 * mean,
-            100.0 * (scatter / SEEDS as f64).sqrt(),
+            100.0 * (scatter / seeds as f64).sqrt(),
             if *is_named { " *" } else { "" }
         );
     }
