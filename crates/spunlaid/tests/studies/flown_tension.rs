@@ -201,7 +201,7 @@ fn rejects_flights_in_a_study_of_a_spinline_alone() {
     let read = parse_changed_study(text, "study.toml", &changes, |_, _| Ok((case(), NAME.to_owned())));
     let said = read.unwrap_err().to_string();
     assert!(
-        said.contains("spinline.end_tension = \"flown\" takes flights, and a study of a spinline"),
+        said.contains("spinline.end_tension = \"flown\" needs flights, and a study of a spinline"),
         "{said}"
     );
 }
