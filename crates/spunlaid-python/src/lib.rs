@@ -21,6 +21,7 @@ mod watched;
 
 mod case;
 mod keys;
+mod measures;
 mod record;
 
 mod fit;
@@ -49,8 +50,9 @@ mod _spunlaid {
         fit::find_fit,
         flight::Flight,
         keys::{keys, program, removed},
+        measures::{column_unit, measures},
         record::analyse,
-        run::{column_unit, fly, measures},
+        run::fly,
         save::check_figures,
         scan::{analyse_scan, is_scan},
         study::Study,

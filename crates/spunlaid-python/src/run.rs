@@ -2,20 +2,15 @@
 
 use crate::case::Case;
 use crate::computed::{Computed, Of};
-use crate::value::scale;
 use crate::watched::{Watch, watched};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use spunlaid::fibre::Note;
 use spunlaid::ground::threads::{lock, unlock};
-use spunlaid::ground::units::udunits;
-use spunlaid::simulation::{FinerPlans, MEASURES, Measure, Unchecked};
-use spunlaid_results::figures::Scale;
+use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::folders::run::{Run, fly as flown, found, performance};
 use spunlaid_results::output::flown::Flights;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
-use spunlaid_results::output::tables::unit_of_column;
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock};
 use std::time::Instant;
@@ -59,32 +54,4 @@ pub(crate) fn fly(
     notes.extend(found(&case, &results).into_iter().flatten());
     let run = Run { name: name.clone(), case, results, checks, notes, performance, drawn };
     Ok(Computed { name, of: Of::Run(Box::new(run)) })
-}
-
-/// Name and meaning of a measure, and the scales of its axes: of a curve along and up.
-pub(crate) fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    dict.set_item("column", measure.column)?;
-    dict.set_item("label", measure.label)?;
-    dict.set_item("meaning", measure.meaning)?;
-    dict.set_item("group", measure.group.name)?;
-    dict.set_item("unit", measure.unit.of_values())?;
-    let scales = match Scale::from_curve(measure) {
-        Some(scales) => scales.map(scale).to_vec(),
-        None => vec![scale(Scale::from_quantity(measure.label, measure.unit))],
-    };
-    dict.set_item("scales", scales)?;
-    Ok(dict)
-}
-
-/// The measures that are numbers: a dict for each.
-#[pyfunction]
-pub(crate) fn measures(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
-    MEASURES.iter().map(|measure| described(py, measure)).collect()
-}
-
-/// The unit of a column of the free end or of the energies.
-#[pyfunction]
-pub(crate) fn column_unit(name: &str) -> String {
-    udunits(unit_of_column(name))
 }
