@@ -76,9 +76,9 @@ pub fn web_report<'a>(
             [
                 cards::line(spec, findings, layers),
                 cards::fabric(fabric),
+                doubts,
                 guess_card(spec, findings, tried),
                 advice_card(spec, findings, tried),
-                doubts,
             ]
             .map(Section::from),
         )
