@@ -129,7 +129,9 @@ impl<'a> Plan<'a> {
             let starts = (start..which.end).step_by(WIDTH).take(2);
             let sets: Vec<_> = starts.map(|start| (start, WIDTH.min(which.end - start))).collect();
             let of_set = |(first, count): &(usize, usize)| {
-                part.canvas.pens(self.start(web, *first, *count), advance, longest)
+                let mut pens = part.canvas.pens(self.start(web, *first, *count), advance, longest);
+                pens.is_bounded = true;
+                pens
             };
             let mut pens: Vec<Pens> = sets.iter().map(of_set).collect();
             self.walk(web, &sets, by, |set, points| {

@@ -96,7 +96,8 @@ impl Canvas {
     /// * `longest` – piece, but for rare exceptions [m]
     pub(crate) fn pens(&self, at: [Lanes; 2], advance: f64, longest: f64) -> Pens {
         let at = at.map(|at| Lanes(at.0.map(|at| at / self.cell)));
-        Pens { advance: advance / self.cell, parts: self.parts(longest), quanta: Lanes::ZERO, at }
+        let (advance, parts) = (advance / self.cell, self.parts(longest));
+        Pens { advance, parts, is_bounded: false, quanta: Lanes::ZERO, at }
     }
 
     /// Parts of a piece of this length [m], none longer than a cell.
@@ -109,24 +110,22 @@ impl Canvas {
     /// * `curve` – its points in cross and in machine direction, from the first corner of the sheet [m]
     /// * `longest` – piece, but for rare exceptions [m]
     /// * `quanta` – of a piece, by its last point
-    pub(crate) fn draw(&self, mut curve: &[[f64; 2]], longest: f64, quanta: impl Fn([f64; 2]) -> u32) {
-        let (mut part, mut pens) = (CanvasPart::new(self), self.pens([Lanes::ZERO; 2], 0.0, longest));
-        while let [_, second, ..] = curve {
-            let of = quanta(*second);
-            let same = curve[1..].iter().take(MOST_ALIKE).take_while(|point| quanta(**point) == of).count();
-            // Side by side, as many as there are: stretches of equal length.
-            let (pieces, stretches) = if same < WIDTH { (1, same) } else { (same / WIDTH, WIDTH) };
-            let start = |lane: usize| lane.min(stretches - 1) * pieces;
-            let point =
-                |i: usize| [1, 0].map(|axis: usize| Lanes::from_fn(|lane| curve[start(lane) + i][axis]));
-            pens.quanta = Lanes::from_fn(|lane| if lane < stretches { f64::from(of) } else { 0.0 });
-            let mut corners = NO_CORNERS;
-            curve[..=pieces * stretches].iter().for_each(|point| widen(&mut corners, *point));
-            part.move_to(corners, longest, pieces * stretches);
-            part.draw(&mut pens, &(0..=pieces).map(point).collect::<Vec<_>>());
-            curve = &curve[pieces * stretches..];
-        }
+    pub(crate) fn draw(&self, curve: &[[f64; 2]], longest: f64, quanta: impl Fn([f64; 2]) -> u32) {
+        let mut part = CanvasPart::new(self);
+        part.draw_curve((curve, longest), quanta, true);
         part.pass_on();
+    }
+
+    /// Draws a curve when nobody else draws.
+    pub(crate) fn draw_alone(&mut self, curve: &[[f64; 2]], longest: f64, quanta: u32) {
+        let cells = std::mem::take(&mut lock(&self.sums).cells);
+        let mut part = CanvasPart { size: self.size, cells, ..CanvasPart::new(self) };
+        part.draw_curve((curve, longest), |_| quanta, false);
+        let CanvasPart { cells, mut far, is_full, .. } = part;
+        let mut sums = lock(&self.sums);
+        sums.cells = cells;
+        sums.is_full |= is_full;
+        far.drain(..).for_each(|(cell, quanta)| self.add(&mut sums, cell, &mut [quanta]));
     }
 
     /// Adds cells of a row from a column on, and empties them.
@@ -197,7 +196,7 @@ pub(crate) struct CanvasPart<'a> {
     pub(super) cells: Vec<u32>,
     /// What was drawn elsewhere.
     far: Vec<([i64; 2], u32)>,
-    is_full: bool,
+    pub(super) is_full: bool,
 }
 
 impl<'a> CanvasPart<'a> {
@@ -222,6 +221,38 @@ impl<'a> CanvasPart<'a> {
         self.cover(first, if is_worth { size } else { [0; 2] });
     }
 
+    /// Draws a curve, see [`Canvas::draw`].
+    ///
+    /// * `moves` – whether the part moves with it
+    fn draw_curve(
+        &mut self,
+        (mut curve, longest): (&[[f64; 2]], f64),
+        quanta: impl Fn([f64; 2]) -> u32,
+        moves: bool,
+    ) {
+        let mut pens = self.canvas.pens([Lanes::ZERO; 2], 0.0, longest);
+        while let [_, second, ..] = curve {
+            let of = quanta(*second);
+            let same = curve[1..].iter().take(MOST_ALIKE).take_while(|point| quanta(**point) == of).count();
+            // Side by side, as many as there are: stretches of equal length.
+            let (pieces, stretches) = if same < WIDTH { (1, same) } else { (same / WIDTH, WIDTH) };
+            let start = |lane: usize| lane.min(stretches - 1) * pieces;
+            let point =
+                |i: usize| [1, 0].map(|axis: usize| Lanes::from_fn(|lane| curve[start(lane) + i][axis]));
+            pens.quanta = Lanes::from_fn(|lane| if lane < stretches { f64::from(of) } else { 0.0 });
+            let points: Vec<_> = (0..=pieces).map(point).collect();
+            if moves {
+                let mut corners = NO_CORNERS;
+                curve[..=pieces * stretches].iter().for_each(|point| widen(&mut corners, *point));
+                self.move_to(corners, longest, pieces * stretches);
+                self.draw(&mut pens, &points);
+            } else {
+                self.canvas.isa.run(Draw { pens: &mut pens, part: self, points: &points });
+            }
+            curve = &curve[pieces * stretches..];
+        }
+    }
+
     /// Moves to a rectangle of cells.
     pub(super) fn cover(&mut self, first: [i64; 2], size: [i64; 2]) {
         self.pass_on();
@@ -244,19 +275,12 @@ impl<'a> CanvasPart<'a> {
         let [column, row] = [cell[0] - self.first[0], cell[1] - self.first[1]];
         let is_near = (0..self.size[0]).contains(&column) && (0..self.size[1]).contains(&row);
         if is_near {
-            self.add_near((row * self.size[0] + column) as usize, quanta);
-        } else if quanta > 0 {
-            self.far.push((cell, quanta));
-        }
-    }
-
-    /// Adds to a cell of the part, if there is one of this number.
-    #[inline(always)]
-    pub(super) fn add_near(&mut self, at: usize, quanta: u32) {
-        if let Some(cell) = self.cells.get_mut(at) {
+            let cell = &mut self.cells[(row * self.size[0] + column) as usize];
             let (sum, beyond) = cell.overflowing_add(quanta);
             *cell = sum;
             self.is_full |= beyond;
+        } else if quanta > 0 && (self.canvas.closed[1] || (0..self.canvas.size[1]).contains(&cell[1])) {
+            self.far.push((cell, quanta));
         }
     }
 
@@ -320,6 +344,24 @@ mod tests {
             let (on, cut) = (laid.map.total(), (laid.cut / laid.map.quantum).round() as u64);
             let beyond = if edges == Edges::Periodic { [3, 0] } else { [2, 1] };
             assert_eq!([on, cut], beyond.map(|halves| halves * u64::from(quanta) / 2), "{edges:?}");
+        }
+    }
+
+    /// A spiral that leaves the sheet on all sides, with pieces of up to four cells where one is the longest.
+    #[test]
+    fn identical_maps_of_a_curve_that_is_drawn_alone() {
+        let turn = |i: u32| f64::from(i) * 0.2;
+        let curve: Vec<[f64; 2]> = (0..100)
+            .map(|i| [5e-3 + 4e-4 * turn(i) * turn(i).cos(), 10e-3 + 6e-4 * turn(i) * turn(i).sin()])
+            .collect();
+        for edges in [Edges::Periodic, Edges::Cut] {
+            let (one, mut other) = (canvas(edges), canvas(edges));
+            let quanta = one.quanta(1e-9);
+            one.draw(&curve, CELL, |_| quanta);
+            other.draw_alone(&curve, CELL, quanta);
+            let (one, other) = (one.finish().unwrap(), other.finish().unwrap());
+            assert!(one.map.total() > 0 && (one.cut > 0.0) == (edges == Edges::Cut));
+            assert_eq!((one.map.cells, one.cut), (other.map.cells, other.cut), "{edges:?}");
         }
     }
 

@@ -20,6 +20,8 @@ pub(crate) struct Pens {
     pub(super) advance: f64,
     /// Parts of a piece that are drawn one by one, none longer than a cell.
     pub(super) parts: usize,
+    /// Whether no piece is longer than they are.
+    pub(crate) is_bounded: bool,
     /// Quanta of a piece of each curve; none of an unused one.
     pub(crate) quanta: Lanes,
     /// Column and row of the straight trace.
@@ -41,6 +43,7 @@ impl Task for Draw<'_, '_> {
         let Self { pens, part, points } = self;
         let [per_cell, advance] = [1.0 / part.canvas.cell, pens.advance].map(Wide::<S>::splat);
         let mut ink = Ink::<S>::new(part);
+        let pieces = Pieces::new(Wide::load(&pens.quanta), pens.parts);
         let column = Wide::load(&pens.at[0]);
         let mut row = Wide::load(&pens.at[1]);
         for pair in points.windows(2) {
@@ -49,15 +52,35 @@ impl Task for Draw<'_, '_> {
             let (next_md, next_cd) = (Wide::load(&to[0]) * per_cell, Wide::load(&to[1]) * per_cell);
             let (at, by) = ([column + cd, row + md], [next_cd - cd, next_md - md - advance]);
             let longest = by[0].abs().max(by[1].abs());
-            if longest.any_above(pens.parts as f64) {
+            if !pens.is_bounded && longest.any_above(pens.parts as f64) {
                 ink.draw_each((at, by), longest.store(), pens, part);
             } else {
-                ink.draw((at, by), Wide::load(&pens.quanta), pens.parts, part);
+                ink.draw((at, by), &pieces, part);
             }
             row -= advance;
         }
         ink.finish(part);
         pens.at[1] = ink.wrapped(row).store();
+    }
+}
+
+/// How a piece of each curve is divided into parts.
+struct Pieces<S: Register> {
+    parts: usize,
+    /// One over their number.
+    share: Wide<S>,
+    /// Quanta of a part, and of the last one, which has what is left over.
+    each: Wide<S>,
+    last: Wide<S>,
+}
+
+impl<S: Register> Pieces<S> {
+    /// * `all` – quanta of a piece
+    #[inline(always)]
+    fn new(all: Wide<S>, parts: usize) -> Self {
+        let share = Wide::splat(1.0 / parts as f64);
+        let each = ((all + Wide::splat(0.5)) * share).floor();
+        Self { parts, share, each, last: each.neg_mul_add(Wide::splat((parts - 1) as f64), all) }
     }
 }
 
@@ -146,35 +169,30 @@ impl<S: Register> Ink<S> {
         for i in (0..WIDTH).filter(|i| pens.quanta.0[*i] > 0.0) {
             let quanta = Lanes::from_fn(|lane| if lane == i { pens.quanta.0[i] } else { 0.0 });
             self.finish(part);
-            self.draw(ends, Wide::load(&quanta), pens.parts.max(longest.0[i].ceil() as usize), part);
+            let parts = pens.parts.max(longest.0[i].ceil() as usize);
+            self.draw(ends, &Pieces::new(Wide::load(&quanta), parts), part);
         }
         self.finish(part);
     }
 
-    /// Draws pieces.
-    ///
-    /// * `all` – their quanta
+    /// Draws a piece of each curve.
     #[inline(always)]
     fn draw(
         &mut self,
         (mut at, by): ([Wide<S>; 2], [Wide<S>; 2]),
-        all: Wide<S>,
-        parts: usize,
+        of: &Pieces<S>,
         part: &mut CanvasPart<'_>,
     ) {
-        let share = Wide::splat(1.0 / parts as f64);
-        let by = by.map(|by| by * share);
-        // The last part has what is left over.
-        let each = ((all + Wide::splat(0.5)) * share).floor();
-        let last = each.neg_mul_add(Wide::splat((parts - 1) as f64), all);
+        let by = by.map(|by| by * of.share);
         // Nothing that starts so far inside ends outside.
+        let parts = of.parts as f64;
         let is_far =
-            [0, 1].into_iter().any(|i| (at[i] - self.middle[i]).abs().any_above(self.half[i] - parts as f64));
+            [0, 1].into_iter().any(|i| (at[i] - self.middle[i]).abs().any_above(self.half[i] - parts));
         if is_far {
             self.finish(part);
         }
-        for i in 1..=parts {
-            let quanta = if i < parts { each } else { last };
+        for i in 1..=of.parts {
+            let quanta = if i < of.parts { of.each } else { of.last };
             let from = [at[0], self.wrapped(at[1])];
             self.draw_part((from, by), quanta, is_far, part);
             at = [at[0] + by[0], at[1] + by[1]];
@@ -225,9 +243,15 @@ impl<S: Register> Ink<S> {
     /// Adds the list to the cells.
     #[inline(always)]
     fn add(&mut self, part: &mut CanvasPart<'_>) {
+        let mut is_full = false;
         for entry in &self.list[..self.listed.min(LIST)] {
-            part.add_near((entry >> 32) as usize, *entry as u32);
+            if let Some(cell) = part.cells.get_mut((entry >> 32) as usize) {
+                let (sum, beyond) = cell.overflowing_add(*entry as u32);
+                *cell = sum;
+                is_full |= beyond;
+            }
         }
+        part.is_full |= is_full;
         self.listed = 0;
     }
 

@@ -243,9 +243,9 @@ impl FewFilaments<'_> {
     pub(crate) fn map(&self, half: Option<usize>) -> Result<Map, Error> {
         let (first, step) = half.map_or((0, 1), |first| (first, 2));
         let curves = self.rows.iter().flat_map(|row| row.iter().skip(first).step_by(step));
-        let canvas = self.canvas(self.sheet)?;
+        let mut canvas = self.canvas(self.sheet)?;
         let quanta = canvas.quanta(self.piece);
-        curves.flatten().for_each(|curve| canvas.draw(curve, self.longest, |_| quanta));
+        curves.flatten().for_each(|curve| canvas.draw_alone(curve, self.longest, quanta));
         Ok(canvas.finish()?.map)
     }
 
@@ -324,10 +324,10 @@ impl FewFilaments<'_> {
             Sheet { width: columns * cell, edges: Edges::Cut, patches: Vec::new(), ..self.sheet.clone() };
         let sums = |curve: Option<(&Vec<[f64; 2]>, f64)>| {
             let Some((curve, further)) = curve else { return Ok(None) };
-            let canvas = self.canvas(&strip)?;
+            let mut canvas = self.canvas(&strip)?;
             let quanta = canvas.quanta(self.piece);
             let place = |[cd, md]: &[f64; 2]| [cd + further - first * cell, *md];
-            canvas.draw(&curve.iter().map(place).collect::<Vec<_>>(), self.longest, |_| quanta);
+            canvas.draw_alone(&curve.iter().map(place).collect::<Vec<_>>(), self.longest, quanta);
             Ok::<_, Error>(Some(CornerSums::over(&canvas.finish()?.map)))
         };
         let mut all = Vec::new();
