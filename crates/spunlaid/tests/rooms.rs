@@ -40,7 +40,7 @@ const WINGS: &[(&str, &[&[&str]])] = &[
         ],
     ),
     ("web", &[&["laydown", "surrogate"], &["map"], &["curtain", "scan"], &["fabric"]]),
-    ("simulation", &[&["observe"], &["ensemble"], &["beam"], &["layers"]]),
+    ("simulation", &[&["observe"], &["ensemble"], &["layers"], &["one_air"]]),
     ("experiment", &[&["claim", "plausible"], &["study"], &["advice", "fit"]]),
     ("input", &[]),
 ];

@@ -16,11 +16,10 @@ use spunlaid::experiment::Advice;
 use spunlaid::fibre::{Case, Load, Note, Solution};
 use spunlaid::ground::Isa;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
-use spunlaid::simulation::{FlownWeb, LayerFibres};
+use spunlaid::simulation::FlownWeb;
 use spunlaid::web::map::{Findings, strands};
-use spunlaid::web::{Fabric, LayControl, Web};
+use spunlaid::web::{Fabric, FlownFibres, LayControl, Web};
 use spunlaid_charts::Figure;
-use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -101,8 +100,8 @@ impl Contents for WebFolder {
     const OF_ONE_FORMAT: &'static [&'static str] = &["map.npy"];
 
     fn summary(&self) -> String {
-        let FlownWeb { web, layers, .. } = &self.flown;
-        let rows = rows(&self.file.spec, web, layers);
+        let web = &self.flown.web;
+        let rows = rows(&self.file.spec, web);
         let tried = (self.advice.as_ref(), self.guesses.as_ref(), &*self.beside);
         web::summary_of_web(
             web,
@@ -115,13 +114,13 @@ impl Contents for WebFolder {
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let Self { flown: FlownWeb { web, layers, .. }, findings, .. } = self;
+        let Self { flown: FlownWeb { web, .. }, findings, .. } = self;
         let (spec, advice, guesses) = (&self.file.spec, self.advice.as_ref(), self.guesses.as_ref());
         let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
         let by = LayControl { threads, isa: Isa::detect(), stop, laid: &AtomicU64::new(0) };
-        let strands = match &findings.laid.shared_air {
-            Some(together) => Cow::Borrowed(&together.strands[..]),
-            None => Cow::Owned(strands(web, spec.window(), by)?),
+        let strands = match findings.laid.flown.is_empty() {
+            true => strands(web, spec.window(), by)?,
+            false => findings.laid.strands(),
         };
         let tried = [advice, guesses].into_iter().flatten();
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
@@ -146,7 +145,7 @@ impl Contents for WebFolder {
                 (spec, &input, web),
                 (findings, &self.fabric),
                 Advised { advice, guesses, awaited: self.awaited, beside: &self.beside },
-                (&rows(spec, web, layers), &spinlines),
+                (&rows(spec, web), &spinlines),
                 &strands,
                 &figures,
                 self.performance,
@@ -157,9 +156,9 @@ impl Contents for WebFolder {
 }
 
 /// What layers were laid from, for the files.
-fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
+fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
-        let fit = layers.get(i).and_then(LayerFibres::residual);
+        let fit = drawn.fibres.flown().and_then(|flown| flown.residual);
         let surrogate = drawn.fibres.surrogate();
         Layer {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
@@ -174,7 +173,7 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
-            curtain: curtain(layer, drawn.count(&web.sheet) as f64 / web.sheet.width, layers.get(i)),
+            curtain: curtain(layer, drawn.count(&web.sheet) as f64 / web.sheet.width, drawn.fibres.flown()),
             spinline: layer.source.case().and_then(part_of_case),
         }
     };
@@ -182,8 +181,7 @@ fn rows(spec: &WebSpec, web: &Web, layers: &[LayerFibres]) -> Vec<Layer> {
 }
 
 /// What the filaments of a layer do to their air.
-fn curtain(layer: &LayerSpec, filaments_per_metre: f64, fibres: Option<&LayerFibres>) -> Option<Load> {
-    let flown = fibres.and_then(|fibres| fibres.flown.as_ref());
+fn curtain(layer: &LayerSpec, filaments_per_metre: f64, flown: Option<&FlownFibres>) -> Option<Load> {
     let way = flown.map_or(&[][..], |flown| &flown.way);
     load_of(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), way)
 }

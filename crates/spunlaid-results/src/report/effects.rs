@@ -65,7 +65,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         with_command(row(found, format!("; over patches of {}{here}", millimetres(found.1.of))), found)
     });
     let weight = grams(findings.within().basis_weight());
-    let what = if findings.laid.shared_air.is_some() { "CV" } else { "expected CV" };
+    let what = if !findings.laid.flown.is_empty() { "CV" } else { "expected CV" };
     let about = format!(
         "the {what} over patches of {}, of {} changes that were tried at the same {weight}",
         millimetres(patch),
@@ -205,7 +205,7 @@ pub(super) fn effects_table(
     let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
     let mut error = if advice.tried.iter().any(in_same_air) {
         "from blocks of both webs which the same air has laid, so that what both have by chance does not count"
-    } else if findings.laid.shared_air.is_some() {
+    } else if !findings.laid.flown.is_empty() {
         "which counts both maps as independent"
     } else {
         "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is \

@@ -132,7 +132,7 @@ fn uneven_in_short(findings: &Findings) -> Section<'static> {
 
 /// What the errors of the CV are made of.
 fn about_errors(findings: &Findings) -> &'static str {
-    let is_shared = findings.laid.shared_air.is_some();
+    let is_shared = !findings.laid.flown.is_empty();
     if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
         "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the \
         same web, in other gusts, has another CV) and by the few filaments."
@@ -210,11 +210,10 @@ const AS_HEAVY: f64 = 0.005;
 fn headline_of(findings: &Findings) -> String {
     let weight = findings.basis_weight();
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    let together = findings.laid.shared_air.as_ref();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
-        return headline(Some(weight), patch.and_then(whole).as_ref(), together.is_none());
+        return headline(Some(weight), patch.and_then(whole).as_ref(), findings.laid.flown.is_empty());
     }
-    let few = together.iter().flat_map(|together| &together.few).filter(|few| few.doubt().is_some());
+    let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
     let remedy = match enough.is_finite() {
         true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
@@ -236,19 +235,19 @@ fn whole(patch: &PatchFindings) -> Option<Unevenness> {
 /// their own leave out, in a sentence or two.
 fn air_sentence(findings: &Findings) -> String {
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    match (&findings.laid.shared_air, patch.and_then(|patch| Some((patch, patch.independent()?)))) {
-        (Some(_), Some((patch, independent))) if patch.doubt.is_some() => format!(
+    match (findings.laid.flown.is_empty(), patch.and_then(|patch| Some((patch, patch.independent()?)))) {
+        (false, Some((patch, independent))) if patch.doubt.is_some() => format!(
             "In airs of their own the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
         ),
-        (Some(_), Some((patch, independent))) => format!(
+        (false, Some((patch, independent))) => format!(
             "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
             the same gusts, which carry them aside together and lay them in ropes and clouds.",
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
-        (Some(_), None) => "All filaments were flown in one air.".to_owned(),
-        (None, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
+        (false, None) => "All filaments were flown in one air.".to_owned(),
+        (true, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
             and come down together, and σ and A of one filament do not say how. Name a case whose filament \
             lies as this one (laydown.case) in place of the numbers to fly them in one air."
             .to_owned(),
@@ -257,8 +256,8 @@ fn air_sentence(findings: &Findings) -> String {
 
 /// What the charge of the filaments does; nothing of filaments without charge.
 fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
-    let told = |charged: &ChargedCurtain| {
-        let layer = spec.layers.get(charged.layer)?;
+    let told = |(number, charged): (usize, &ChargedCurtain)| {
+        let layer = spec.layers.get(number)?;
         let last = charged.heights.last()?;
         let [behind, .., before] = last.places;
         Some(format!(
@@ -266,14 +265,13 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
             machine direction just above the belt. The field beside them is {} at most, and air breaks \
             down at {}.",
             Dimension::SpecificCharge.pretty(layer.charge?),
-            if spec.layers.len() > 1 { format!(" of layer {}", charged.layer + 1) } else { String::new() },
+            if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() },
             Dimension::Length.pretty_to(before - behind, 3),
             Dimension::ElectricField.pretty_to(charged.edge_field, 2),
             Dimension::ElectricField.pretty(BREAKDOWN),
         ))
     };
-    let together = findings.laid.shared_air.iter().flat_map(|together| &together.charged);
-    Section::new("charge", "Charge").paragraphs(together.filter_map(told)).told()
+    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(told)).told()
 }
 
 /// What the error in the headline is made of, in sentences.
@@ -287,9 +285,9 @@ fn error_sentences(findings: &Findings) -> String {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
         None => "an unknown part".to_owned(),
     };
-    if let (Some(_), Some(together)) = (patch.few, &findings.laid.shared_air) {
-        let filaments: u64 = together.few.iter().map(|few| few.filaments).sum();
-        let sheets = together.few.iter().map(|few| few.sheet.map(metres).join(" × "));
+    if patch.few.is_some() {
+        let filaments: u64 = findings.laid.few().map(|few| few.filaments).sum();
+        let sheets = findings.laid.few().map(|few| few.sheet.map(metres).join(" × "));
         let mut sheets: Vec<String> = sheets.collect();
         sheets.dedup();
         let flown = format!(

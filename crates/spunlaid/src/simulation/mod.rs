@@ -2,29 +2,25 @@
 //!
 //! ```text
 //! observe (what is measured) → ensemble (fibres in airs of their own)
-//!                            → beam (filaments in one air) → layers (the webs of a line)
+//!                            layers (the webs of a line) → one_air (their filaments, in one air)
 //! ```
 
 pub mod observe;
 
 pub mod ensemble;
 
-pub mod beam;
-
 pub mod layers;
 
+pub mod one_air;
+
 // The face of the wing: the types that others know by it. Functions are called by their room.
-pub use beam::{Beam, BeamCharge, BeamControl, BeamFindings};
 pub use ensemble::{
     CellSource, Change, Curtain, Curve, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
     KeepShapes, LaidCurves, LostFibre, Number, Place, Recorder, Refinement, Results, RunControl, RunPaths,
     Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
-pub use layers::{
-    Compared, Flights, Flown, FlownWeb, Flyer, LaydownSource, LayerFibres, LayerSpec, PlannedFlight, WEB,
-    WEB_KEYS, WEB_TABLES, WebKey, WebSpec,
-};
-pub(crate) use layers::{FewOfWeb, SAME};
+pub(crate) use layers::SAME;
+pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use observe::{
     Aggregate, DECLARED, ErrorRole, Figure, Formula, Kind, LAYDOWN, MEASURES, Measure, Measured,
     OF_COMPONENTS, OF_FABRIC_PATCHES, OF_FABRICS, OF_LOAD_PLACES, OF_LOADS, OF_PATCHES, OF_RECORDS,
@@ -32,3 +28,7 @@ pub use observe::{
     Observer, PERCENT, SURROGATE, Unit, Value,
 };
 pub(crate) use observe::{KELVIN, PER_SQUARE_METRE};
+pub(crate) use one_air::FewOfWeb;
+pub use one_air::{
+    Beam, BeamCharge, BeamControl, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight,
+};

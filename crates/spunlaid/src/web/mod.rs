@@ -29,9 +29,9 @@ pub(crate) use map::{
     Strands, TRIED, Titres, WindowOnSheet,
 };
 pub use map::{
-    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres, LaidWeb,
-    LayControl, Layer, LayerFew, Map, NeighbourCorrelation, OneFibre, Row, SharedAirFindings, Sheet, Strand,
-    TimeSpent, Web, Window,
+    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres,
+    FlownFibres, LaidWeb, LayControl, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OneFibre, Row,
+    Sheet, Strand, TimeSpent, Web, Window,
 };
 pub use scan::{CELL, FEWEST, Format, Light, LightKind, Picture, ScanRequest, Settings, WEIGHT_OF_BLACK};
 pub use surrogate::{PathKey, Paths, Residual, Surrogate};

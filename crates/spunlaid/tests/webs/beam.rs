@@ -142,7 +142,7 @@ fn identical_on_any_threads_and_instruction_sets() {
         let (case, places) = (case_in(lateral), slot(&sheet, 12));
         let lay = |isa, threads| lay_by((&case, &sheet), &places, isa, threads);
         let (one, flown) = lay(Isa::detect(), 1);
-        let strands = |laid: &LaidWeb| laid.shared_air.clone().unwrap().strands;
+        let strands = |laid: &LaidWeb| laid.flown[0].strands.clone();
         assert!(!strands(&one).is_empty());
         for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
             let (other, again) = lay(isa, threads);

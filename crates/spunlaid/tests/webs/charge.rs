@@ -46,7 +46,7 @@ fn identical_without_charge_and_with_none_of_it() {
     let (none, of_none) = lay(&case, (&places, Some(&charge(0.0, &places))), by);
     assert_eq!(plain.map.cells, none.map.cells);
     assert_eq!(of_plain.kept, of_none.kept);
-    assert!(plain.shared_air.unwrap().charged.is_empty() && none.shared_air.unwrap().charged.is_empty());
+    assert!(plain.flown[0].charged.is_none() && none.flown[0].charged.is_none());
     let (charged, of_charged) = lay(&case, (&places, Some(&charge(2e-3, &places))), by);
     assert_ne!(plain.map.cells, charged.map.cells);
     assert_ne!(of_plain.kept, of_charged.kept);
@@ -61,7 +61,7 @@ fn identical_charged_webs_for_any_number_of_threads_and_any_registers() {
         let (other, of_other) = lay(&case, (&places, Some(&charge)), (isa, threads));
         assert_eq!(one.map.cells, other.map.cells, "{isa:?}");
         assert_eq!(of_one.kept, of_other.kept, "{isa:?}");
-        assert_eq!(one.shared_air.as_ref().unwrap().charged, other.shared_air.unwrap().charged, "{isa:?}");
+        assert_eq!(one.flown[0].charged, other.flown[0].charged, "{isa:?}");
     }
 }
 

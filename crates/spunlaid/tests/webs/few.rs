@@ -46,7 +46,7 @@ fn told(flown: &str) -> LayerFew {
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = web.find(by).unwrap();
-    findings.laid.shared_air.unwrap().few.remove(0)
+    findings.laid.flown[0].few.clone().unwrap()
 }
 
 /// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then

@@ -1,7 +1,7 @@
 //! Where charged filaments hang between inlet and belt, as they are seen from the side.
 
 use super::MM;
-use spunlaid::web::ChargedCurtain;
+use spunlaid::web::LaidWeb;
 use spunlaid_charts::palette::{BLUE, GREEN, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
 
@@ -9,7 +9,8 @@ use spunlaid_charts::{Axis, Chart, Figure, Series};
 const COLOURS: [spunlaid_charts::palette::Colour; 4] = [BLUE, VERMILION, GREEN, ORANGE];
 
 /// The curtain of each charged layer; none of filaments without charge.
-pub(super) fn figure(charged: &[ChargedCurtain]) -> Option<Figure> {
+pub(super) fn figure(laid: &LaidWeb) -> Option<Figure> {
+    let charged: Vec<_> = laid.charged().collect();
     charged.first()?;
     let mut chart = Chart::new(
         "web_charge",
@@ -17,13 +18,13 @@ pub(super) fn figure(charged: &[ChargedCurtain]) -> Option<Figure> {
         Axis::linear("Distance from the inlet (mm)").in_column("x_mm").tight(),
         Axis::linear("Place in machine direction (mm)").in_column("md_mm"),
     );
-    for (curtain, colour) in charged.iter().zip(COLOURS.into_iter().cycle()) {
+    for ((layer, curtain), colour) in charged.iter().zip(COLOURS.into_iter().cycle()) {
         let heights =
             || curtain.heights.iter().map(|height| (height.x * MM, height.places.map(|at| at * MM)));
         let between = |low: usize, high: usize| -> Vec<_> {
             heights().map(|(x, places)| (x, places[low], places[high])).collect()
         };
-        let of = if charged.len() > 1 { format!(" of layer {}", curtain.layer + 1) } else { String::new() };
+        let of = if charged.len() > 1 { format!(" of layer {}", layer + 1) } else { String::new() };
         let middle: Vec<_> = heights().map(|(x, places)| (x, places[2])).collect();
         chart = chart
             .band(Series::new(&format!("95 % of the filament{of}"), colour), &between(0, 4))

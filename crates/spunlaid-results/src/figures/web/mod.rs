@@ -42,9 +42,8 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
         unevenness::histogram(&findings.within(), GRAMS),
         profiles::laid(web, findings),
     ];
-    let together = findings.laid.shared_air.as_ref();
-    figures.extend(together.and_then(|together| neighbours::figure(&together.neighbours)));
-    figures.extend(together.and_then(|together| charge::figure(&together.charged)));
+    figures.extend(neighbours::figure(&findings.laid.flown));
+    figures.extend(charge::figure(&findings.laid));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));
     figures

@@ -1,7 +1,7 @@
 //! How filaments that hang side by side in one air come down together.
 
 use super::MM;
-use spunlaid::web::{Correlation, NeighbourCorrelation};
+use spunlaid::web::{Correlation, LayerFlown, NeighbourCorrelation};
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
 
@@ -18,23 +18,22 @@ const DIRECTIONS: [Direction; 2] = [
 
 /// The correlation of the places where two filaments come down, over the distance of their inlets; none of
 /// filaments that have no neighbours.
-pub(super) fn figure(neighbours: &[NeighbourCorrelation]) -> Option<Figure> {
-    let last = neighbours.last()?.layer;
+pub(super) fn figure(layers: &[LayerFlown]) -> Option<Figure> {
+    let last = layers.iter().rposition(|layer| !layer.neighbours.is_empty())?;
     let mut chart = Chart::new(
         "web_neighbours",
         "Correlation of neighbours",
         Axis::logarithmic("Distance in cross direction (mm)").in_column("distance_mm"),
         Axis::linear("Correlation").zero_based().in_column("correlation"),
     );
-    for layer in 0..=last {
-        let of_layer = || neighbours.iter().filter(|neighbour| neighbour.layer == layer);
+    for (layer, flown) in layers[..=last].iter().enumerate() {
         for ((name, correlation, sign), colour) in DIRECTIONS.into_iter().zip(COLOURS[layer.min(1)]) {
             let name = if last == 0 { name.to_owned() } else { format!("layer {}, {name}", layer + 1) };
             let point = |neighbour: &NeighbourCorrelation| {
                 let Correlation { value, standard_error, .. } = correlation(neighbour);
                 (neighbour.distance * MM, value, standard_error)
             };
-            let points: Vec<_> = of_layer().map(point).collect();
+            let points: Vec<_> = flown.neighbours.iter().map(point).collect();
             let line: Vec<(f64, f64)> =
                 points.iter().map(|(distance, value, _)| (*distance, *value)).collect();
             chart = chart

@@ -61,7 +61,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         .collect();
     let mut chart =
         empty_chart().line(Series::new("straight fibres at random", GREY).dashed(&[6.0, 4.0]), &straight);
-    let is_shared = findings.laid.shared_air.is_some();
+    let is_shared = !findings.laid.flown.is_empty();
     let of_single =
         if is_shared { "the same filaments in airs of their own" } else { "expected, from single fibres" };
     if !single.is_empty() {

@@ -13,8 +13,10 @@ use spunlaid::ground::{Estimate, Isa};
 use spunlaid::simulation::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::web::map::Findings;
 use spunlaid::web::scan::{self, Doubt};
-use spunlaid::web::{ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, Web};
-use std::time::Instant;
+use spunlaid::web::{
+    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, TimeSpent, Web,
+};
+use std::time::{Duration, Instant};
 
 /// What a layer was laid from.
 #[derive(Clone, Debug, Serialize)]
@@ -80,10 +82,13 @@ impl Performance {
     /// With the times of flights in one air, if there were some.
     #[must_use]
     pub fn with_flights(self, findings: &Findings) -> Self {
-        let spent = findings.laid.shared_air.as_ref().map(|together| together.spent);
+        let flown = Some(&findings.laid.flown).filter(|flown| !flown.is_empty());
+        let sum = |of: fn(&TimeSpent) -> Duration| {
+            flown.map(|flown| flown.iter().map(|layer| of(&layer.spent)).sum::<Duration>().as_secs_f64())
+        };
         Self {
-            flights_s: spent.map(|spent| spent.whole.as_secs_f64()),
-            flights_in_parallel_s: spent.map(|spent| spent.in_parallel.as_secs_f64()),
+            flights_s: sum(|spent| spent.whole),
+            flights_in_parallel_s: sum(|spent| spent.in_parallel),
             ..self
         }
     }
@@ -113,8 +118,8 @@ pub fn summary_of_web(
         let interval = patch.interval().ok_or_else(|| why.to_owned());
         numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
     });
-    let together = findings.laid.shared_air.as_ref();
-    let flown: Vec<Json> = together.iter().flat_map(|together| together.few.iter().map(few_flown)).collect();
+    let flown: Vec<Json> = findings.laid.few().map(few_flown).collect();
+    let lost = findings.laid.flown.iter().map(|layer| layer.lost);
     // Where edges cut fibre off: the strips that all but the map leaves out, and the mean basis weight between them.
     let edges = (web.sheet.edges == Edges::Cut).then(|| {
         json!({
@@ -126,7 +131,7 @@ pub fn summary_of_web(
     let laid = known(json!({
         "fibre_length_m": findings.fibre_length,
         "cut_off_kg": findings.laid.cut,
-        "lost_filaments": together.map(|together| together.lost),
+        "lost_filaments": lost.reduce(|all, lost| all + lost),
         "flown": (!flown.is_empty()).then_some(flown),
         "edges": edges,
     }));
@@ -232,28 +237,27 @@ fn few_flown(few: &LayerFew) -> Json {
 ///
 /// * `name` – of a layer
 fn charged<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Json {
-    let together = findings.laid.shared_air.iter().flat_map(|together| &together.charged);
-    let entry = |charged: &ChargedCurtain| {
+    let entry = |(layer, charged): (usize, &ChargedCurtain)| {
         // From the inlet to the belt: length of filament for each length of height, and places in machine direction
         // behind which 2.5, 25, 50, 75 and 97.5 % of the filament hangs.
         let heights = charged.heights.iter().map(
             |height| json!({"x_m": height.x, "length_per_height": height.length, "md_m": height.places}),
         );
         json!({
-            "layer": name(charged.layer),
+            "layer": name(layer),
             "edge_field_v_m": charged.edge_field,
             "heights": heights.collect::<Json>(),
         })
     };
-    together.map(entry).collect()
+    findings.laid.charged().map(entry).collect()
 }
 
 /// How filaments that hang side by side in one air come down together; none of a web of independent filaments.
 fn neighbours<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Option<Json> {
-    let entry = |neighbour: &NeighbourCorrelation| {
-        let NeighbourCorrelation { layer, distance, md, cd } = neighbour;
+    let entry = |(layer, neighbour): (usize, &NeighbourCorrelation)| {
+        let NeighbourCorrelation { distance, md, cd } = neighbour;
         json!({
-            "layer": name(*layer),
+            "layer": name(layer),
             "distance_m": distance,
             "correlation_md": md.value,
             "correlation_md_se": md.standard_error,
@@ -264,8 +268,10 @@ fn neighbours<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Optio
             "correlation_cd_interval": cd.interval(),
         })
     };
-    let neighbours = &findings.laid.shared_air.as_ref()?.neighbours;
-    (!neighbours.is_empty()).then(|| json!({"cd": neighbours.iter().map(entry).collect::<Json>()}))
+    let flown = findings.laid.flown.iter().enumerate();
+    let all = flown.flat_map(|(layer, flown)| flown.neighbours.iter().map(move |one| (layer, one)));
+    let neighbours: Vec<Json> = all.map(entry).collect();
+    (!neighbours.is_empty()).then(|| json!({"cd": neighbours}))
 }
 
 /// The numbers of the patches of one size. Those that are not known are left out; the CV, which is the first,

@@ -29,8 +29,8 @@ struct Patches<'a> {
 
 impl WebOfFew {
     pub(super) fn new(spec: &WebSpec, few: Vec<LayerFew>) -> Self {
-        let share = |few: &LayerFew| spec.alone(few.layer).mass_flow() / spec.mass_flow();
-        Self { layers: few.into_iter().map(|few| (share(&few), few)).collect() }
+        let share = |layer: usize| spec.alone(layer).mass_flow() / spec.mass_flow();
+        Self { layers: few.into_iter().enumerate().map(|(layer, few)| (share(layer), few)).collect() }
     }
 
     /// The changes of the CV from this web to another one in the same air, over the patches that both have.

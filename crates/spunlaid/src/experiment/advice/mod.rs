@@ -18,7 +18,7 @@ use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;
 use crate::ground::{Dimension, Effect, Error, Fault, Outcome, RACING, Setting, Trials, effects};
-use crate::simulation::layers::{fits_memory, steps_in_same_air};
+use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
 use crate::web::{ExpectedCv, LayControl, Web};
@@ -74,10 +74,9 @@ pub const MOST_STEPS: u64 = 20_000_000;
 /// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
 /// effects are seen. Guesses must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
-    let few = findings.laid.shared_air.as_ref().map(|together| together.few.len());
     let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
     let is_told = seen.is_none_or(|seen| findings.patches[seen].doubt.is_none());
-    let says_enough = is_told && few.is_none_or(|layers| layers == spec.layers.len());
+    let says_enough = is_told && findings.laid.flown.iter().all(|layer| layer.few.is_some());
     let are_guesses = changes.iter().any(is_guess);
     let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
     says_enough && steps(spec, changes) <= MOST_STEPS && fits()
@@ -119,7 +118,7 @@ pub fn advise(
     let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
         few_of_changes((spec, findings), (changes, of_each), (shelf, by))
     };
-    let has_few = findings.laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+    let has_few = findings.laid.few().next().is_some();
     let mut is_in_same_air = false;
     let mut advice = Trials::new(changes, |changes| {
         let in_same_air = if has_few { few_of((spec, changes), compared(changes))? } else { None };

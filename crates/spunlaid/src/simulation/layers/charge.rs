@@ -1,15 +1,9 @@
 //! The charge of the filaments of a layer, and what is known of it before they fly.
 
-use super::few::FewPlan;
-use super::{LayerSpec, WebSpec};
+use super::LayerSpec;
 use crate::fibre::{Case, Charge, ChargeEstimate};
-use crate::ground::place::Place;
-use crate::simulation::beam::BeamCharge;
+use crate::web::Sheet;
 use crate::web::map::Filaments;
-use crate::web::{Arrangement, Sheet};
-
-/// Parts of a filament in which those are counted for which it stands.
-const PARTS: f64 = 1e3;
 
 impl LayerSpec {
     /// Its charge; None of filaments without charge.
@@ -42,29 +36,4 @@ fn length_per_height(case: &Case) -> Option<f64> {
     let (air, _) = case.air.along_and_speed(case.along());
     let slack = case.line?.feed_speed / air;
     Some(if air > 0.0 { slack.max(1.0) } else { 1.0 })
-}
-
-impl WebSpec {
-    /// The charge of the filaments of a layer that fly.
-    ///
-    /// * `flown` – where they are fed, and for which filaments they stand if they are a few
-    pub(super) fn beam_charge(
-        &self,
-        layer: usize,
-        flown: (&[Place], Option<&FewPlan>),
-    ) -> Option<BeamCharge> {
-        let (places, few) = flown;
-        let spec = self.layers.get(layer)?;
-        let charge = spec.charged()?;
-        let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;
-        let weight = |place: &Place| match (&spec.filaments, few) {
-            (Filaments::Rows(rows), Some(FewPlan { arrangement: Arrangement::Rows, .. })) => {
-                let same = || rows.iter().filter(|row| row.md == place.y);
-                let all: u64 = same().map(|row| row.filaments).sum();
-                (PARTS * all as f64 / same().count().max(1) as f64).round() as u64
-            }
-            _ => 1,
-        };
-        Some(BeamCharge { charge, per_metre, weights: places.iter().map(weight).collect() })
-    }
 }

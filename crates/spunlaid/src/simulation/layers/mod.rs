@@ -1,18 +1,13 @@
-//! The layers of a web: what is to be laid, as a file says it, and the fibres of which it is laid.
+//! The layers of a web: what is to be laid, as a file says it.
 //!
 //! ```text
-//! WebSpec (sheet and layers) → Flyer: the fibres of each layer, flown or known → Web, which `web` lays
+//! WebSpec (sheet and layers) + the fibres of each layer, flown or known → Web, which `web` lays
 //! ```
 
 mod charge;
-mod comparison;
 mod fabric;
-mod few;
-mod flown_curtain;
-mod flyer;
 pub(crate) mod full_names;
 pub(crate) mod keys;
-mod shared_air;
 
 use crate::fibre::Case;
 use crate::fibre::case::keys::{self as case_keys, Value};
@@ -21,12 +16,8 @@ use crate::ground::{Dimension, Error, Fault, Finding, Problem};
 use crate::simulation::ensemble::Curtain;
 use crate::web::map::{Filaments, inlets};
 use crate::web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
-pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
-pub use few::Compared;
-pub use flyer::{Flights, FlownFibres, FlownWeb, Flyer, LayerFibres};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-pub use shared_air::PlannedFlight;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -313,7 +304,7 @@ impl WebSpec {
     pub fn curtain(&self, layer: usize) -> Option<Curtain> {
         let filaments = &self.layers.get(layer)?.filaments;
         let places = inlets(&self.sheet, self.seed, layer, filaments);
-        let mut inlets: Vec<f64> = places.into_iter().map(|[_, md]| md).collect();
+        let mut inlets: Vec<f64> = places.iter().map(|place| place.y).collect();
         inlets.sort_unstable_by(f64::total_cmp);
         Some(Curtain { filaments_per_metre: filaments.count(&self.sheet) as f64 / self.sheet.width, inlets })
     }

@@ -2,6 +2,7 @@
 
 use super::canvas::Canvas;
 use super::{Filaments, Row, Sheet};
+use crate::ground::place::Place;
 use crate::ground::random::{stream, uniform};
 use crate::ground::sort::sort_by_key;
 use std::collections::BTreeMap;
@@ -139,12 +140,13 @@ impl<'a> Brush<'a> {
 pub(super) const PLACES: u64 = 4;
 const DEPTHS: u64 = 6;
 
-/// Where the inlets of the filaments of a layer are in cross and in machine direction, in order across the web [m].
+/// Where the inlets of the filaments of a layer are, in order across the web.
 ///
 /// * `seed` – of the web
 /// * `number` – of the layer
-pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<[f64; 2]> {
-    sorted_nozzles(sheet, seed, number, filaments).into_iter().map(|nozzle| nozzle.at).collect()
+pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Place> {
+    let nozzles = sorted_nozzles(sheet, seed, number, filaments).into_iter();
+    nozzles.map(|Nozzle { at: [z, y], .. }| Place { y, z }).collect()
 }
 
 /// Where a filament comes from.

@@ -55,8 +55,6 @@ pub enum FewDoubt {
 /// What a few filaments of a layer say about all of them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerFew {
-    /// Index of the layer.
-    pub layer: usize,
     /// Number of filaments that were flown and not lost.
     pub filaments: u64,
     /// Number of those that were lost.

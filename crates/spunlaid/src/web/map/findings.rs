@@ -5,7 +5,7 @@ use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
-use super::laid_web::{LaidWeb, LayControl, SharedAirFindings};
+use super::laid_web::{LaidWeb, LayControl, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
@@ -145,7 +145,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
         return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
     let laid = laid.map_or_else(|| lay(web, by), Ok)?;
-    let is_shared = laid.shared_air.is_some();
+    let is_shared = !laid.flown.is_empty();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
     let by = LayControl { laid: &aside, ..by };
@@ -164,12 +164,12 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
         let single_fibres = alone.as_ref().map(|alone| alone[i].cv);
         let straight_fibres =
             alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
-        let few = laid.shared_air.as_ref().and_then(|together| of_all_layers(web, together, map));
+        let few = of_all_layers(web, &laid, map);
         let of_map = map.cv;
         // A map of pieces of another sheet says nothing of chance.
-        let is_of_few = laid.shared_air.as_ref().is_some_and(|together| !together.few.is_empty());
+        let is_of_few = laid.few().next().is_some();
         let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
-        let doubt = laid.shared_air.as_ref().and_then(|together| together.doubt_over(map.patch));
+        let doubt = laid.few().find_map(|few| few.doubt_over(map.patch));
         let told = few.filter(|_| doubt.is_none());
         let map = told.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
         patches.push(PatchFindings {
@@ -212,11 +212,11 @@ fn straight(web: &Web, patch: f64) -> f64 {
 
 /// What the few filaments of all layers say together: their airs are independent of each other, so the
 /// variances add up.
-fn of_all_layers(web: &Web, together: &SharedAirFindings, map: Unevenness) -> Option<FewFilamentsCv> {
+fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilamentsCv> {
     let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
     let whole = weights.iter().sum::<f64>();
     let layers = weights.iter().enumerate().map(|(number, weight)| {
-        let few = together.few.iter().find(|few| few.layer == number)?;
+        let few = laid.flown.get(number)?.few.as_ref()?;
         let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
         Some((weight / whole, *cv))
     });
@@ -278,17 +278,15 @@ const OF_MAP: f64 = 0.05;
 impl Findings {
     /// What must be known of these numbers before they are believed.
     pub(crate) fn doubts(&self, web: &Web) -> Vec<Doubt> {
-        let mut doubts = match &self.laid.shared_air {
-            Some(together) => {
-                [lost(web, together), few_filaments(self, together), charged(together)].concat()
-            }
-            None if self.patches.is_empty() => Vec::new(),
-            None => vec![Doubt::NothingFlown],
+        let laid = &self.laid;
+        let mut doubts = match laid.flown.is_empty() {
+            false => [lost(web, laid), few_filaments(self), charged(laid)].concat(),
+            true if self.patches.is_empty() => Vec::new(),
+            true => vec![Doubt::NothingFlown],
         };
-        let map = &self.laid.map;
-        if self.laid.cut > 0.0 {
-            let whole = map.total() as f64 * map.quantum + self.laid.cut;
-            doubts.push(Doubt::CutOff { share: self.laid.cut / whole });
+        if laid.cut > 0.0 {
+            let whole = laid.map.total() as f64 * laid.map.quantum + laid.cut;
+            doubts.push(Doubt::CutOff { share: laid.cut / whole });
         }
         if self.margins != [0.0; 2] {
             doubts.push(Doubt::ThinEdges { margins: self.margins });
@@ -307,32 +305,32 @@ fn of_sides(sides: impl Iterator<Item = f64>, doubt: impl FnOnce(Vec<f64>) -> Do
 }
 
 /// Filaments of a web in one air that were lost.
-fn lost(web: &Web, together: &SharedAirFindings) -> Vec<Doubt> {
-    let count = |(number, layer): (usize, &Layer)| {
-        let few = together.few.iter().find(|few| few.layer == number);
-        few.map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
+fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
+    let count = |(layer, flown): (&Layer, &LayerFlown)| {
+        flown.few.as_ref().map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
     };
-    let of = web.layers.iter().enumerate().map(count).sum();
-    let lost = Some(together.lost).filter(|lost| *lost > 0);
+    let of = web.layers.iter().zip(&laid.flown).map(count).sum();
+    let lost = Some(laid.flown.iter().map(|layer| layer.lost).sum()).filter(|lost| *lost > 0);
     lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
 }
 
 /// Whether charged filaments would keep their charge.
-fn charged(together: &SharedAirFindings) -> Vec<Doubt> {
-    let field = together.charged.iter().map(|charged| charged.edge_field).fold(0.0, f64::max);
+fn charged(laid: &LaidWeb) -> Vec<Doubt> {
+    let field = laid.charged().map(|(_, charged)| charged.edge_field).fold(0.0, f64::max);
     (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
 }
 
 /// Whether the few filaments that were flown are enough for what is told of all.
-fn few_filaments(findings: &Findings, together: &SharedAirFindings) -> Vec<Doubt> {
-    let too_few = together.few.iter().filter_map(|few| {
+fn few_filaments(findings: &Findings) -> Vec<Doubt> {
+    let few = || findings.laid.few();
+    let too_few = few().filter_map(|few| {
         let why = few.doubt()?;
         let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
         let (pitch, enough) = (few.pitch, few.enough_per_metre());
         Some(Doubt::FewFilaments { sides: sides.collect(), why, pitch, enough })
     });
     let mut doubts: Vec<Doubt> = too_few.collect();
-    let missing = together.few.iter().flat_map(|few| few.missing).fold(0.0, f64::max);
+    let missing = few().flat_map(|few| few.missing).fold(0.0, f64::max);
     let apart = |patch: &PatchFindings| {
         let told = patch.few.and_then(|_| patch.told())?;
         Some((told.patch, patch.filled? / told.cv - 1.0))
@@ -344,7 +342,7 @@ fn few_filaments(findings: &Findings, together: &SharedAirFindings) -> Vec<Doubt
         let sides = off.iter().map(|(side, _)| *side).collect();
         doubts.push(Doubt::FilledIn { missing, sides, apart: most.unwrap_or(0.0) });
     }
-    let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && !together.few.is_empty());
+    let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && few().next().is_some());
     doubts.extend(of_sides(larger.map(|patch| patch.map.patch), |sides| Doubt::SmallSheet { sides }));
     doubts
 }

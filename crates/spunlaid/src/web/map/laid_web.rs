@@ -1,11 +1,12 @@
 //! What has been laid.
 
 use super::basis_weight::Map;
-use super::few_findings::{FewDoubt, LayerFew};
+use super::few_findings::LayerFew;
 use super::window::Strand;
-use crate::fibre::SheetHeight;
+use crate::fibre::{SheetHeight, WayPlace};
 use crate::ground::statistics::student_t_95_at;
-use crate::ground::{Fault, Isa};
+use crate::ground::{Estimate, Fault, Isa};
+use crate::web::surrogate::{Residual, Surrogate};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Duration;
 
@@ -41,47 +42,45 @@ pub struct LaidWeb {
     pub map: Map,
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
-    /// What is known of filaments that were flown together and laid as they came down; None of a web of
-    /// independent filaments.
-    pub shared_air: Option<SharedAirFindings>,
+    /// What is known of each layer whose filaments were flown together and laid as they came down; empty of a web
+    /// of independent filaments.
+    pub flown: Vec<LayerFlown>,
 }
 
-/// What is known of filaments that were flown together, in one air.
+/// What is known of the filaments of a layer that were flown together, in one air.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct SharedAirFindings {
+pub struct LayerFlown {
     /// Single fibres of a window.
     pub strands: Vec<Strand>,
-    /// How filaments of each layer come down together, over their distance.
+    /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// What a few filaments say about the web of all, of each layer of which only a few were flown.
-    pub few: Vec<LayerFew>,
-    /// What charge has made of the filaments of each layer that carry some.
-    pub charged: Vec<ChargedCurtain>,
+    /// What a few filaments say about the web of all; None if all were flown.
+    pub few: Option<LayerFew>,
+    /// What charge has made of the filaments; None if they carry none.
+    pub charged: Option<ChargedCurtain>,
     /// Filaments that were lost: they are missing on the web from then on.
     pub lost: u64,
-    /// Length of time that was flown, of the layer that took the longest [s].
-    pub time: f64,
     /// What the flights took.
     pub spent: TimeSpent,
 }
 
-impl SharedAirFindings {
-    /// Why the few filaments of a layer do not tell the CV of all over patches of a side; None if they do.
-    pub(crate) fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
-        self.few.iter().find_map(|few| few.doubt_over(patch))
+impl LaidWeb {
+    /// What the few filaments say of each layer of which only a few were flown.
+    pub fn few(&self) -> impl Iterator<Item = &LayerFew> {
+        self.flown.iter().filter_map(|layer| layer.few.as_ref())
     }
 
-    /// Adds what is known of another layer.
-    pub(crate) fn add(&mut self, layer: usize, other: Self) {
-        self.strands.extend(other.strands.into_iter().map(|strand| Strand { layer, ..strand }));
-        let neighbours = other.neighbours.into_iter();
-        self.neighbours.extend(neighbours.map(|neighbour| NeighbourCorrelation { layer, ..neighbour }));
-        self.few.extend(other.few.into_iter().map(|few| LayerFew { layer, ..few }));
-        self.charged.extend(other.charged.into_iter().map(|charged| ChargedCurtain { layer, ..charged }));
-        self.lost += other.lost;
-        self.time = self.time.max(other.time);
-        self.spent.whole += other.spent.whole;
-        self.spent.in_parallel += other.spent.in_parallel;
+    /// The single fibres of all layers in the window.
+    pub fn strands(&self) -> Vec<Strand> {
+        let of_layer = |(layer, flown): (usize, &LayerFlown)| {
+            flown.strands.iter().map(|strand| Strand { layer, ..strand.clone() }).collect::<Vec<_>>()
+        };
+        self.flown.iter().enumerate().flat_map(of_layer).collect()
+    }
+
+    /// The layers whose filaments are charged, by their index.
+    pub fn charged(&self) -> impl Iterator<Item = (usize, &ChargedCurtain)> {
+        self.flown.iter().enumerate().filter_map(|(layer, flown)| Some((layer, flown.charged.as_ref()?)))
     }
 }
 
@@ -96,8 +95,6 @@ pub(super) fn too_full(cell: f64) -> Fault {
 /// The charged filaments of a layer, as they hung at the end of their flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChargedCurtain {
-    /// Index of the layer.
-    pub layer: usize,
     /// The strongest field beside them, at any height [V/m].
     pub edge_field: f64,
     /// Where they hung, from the inlet to the belt.
@@ -107,8 +104,6 @@ pub struct ChargedCurtain {
 /// The correlation of the places where two filaments of a layer come down, at equal fed length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NeighbourCorrelation {
-    /// Index of the layer.
-    pub layer: usize,
     /// Distance of their inlets in cross direction [m].
     pub distance: f64,
     /// Of the places in machine direction.
@@ -136,15 +131,35 @@ impl Correlation {
     }
 }
 
+/// What filaments have laid that were flown in one air, and the surrogate of it.
+#[derive(Clone, Debug)]
+pub struct FlownFibres {
+    /// The curves of some of them on the belt, without the spin-up.
+    pub curves: Curves,
+    /// σ₁ and σ₂ [m] and A [m^-½] over the filaments for which they are known.
+    pub numbers: [Estimate; 3],
+    /// How well the surrogate with the mean numbers fits; None without one.
+    pub residual: Option<Residual>,
+    /// What a filament does to its air on its way, in the mean.
+    pub way: Vec<WayPlace>,
+}
+
+impl FlownFibres {
+    /// The surrogate with the mean numbers of the filaments; None if none was identified.
+    pub(crate) fn surrogate(&self) -> Option<Surrogate> {
+        let [sigma_md, sigma_cd, noise] = [0, 1, 2].map(|number| self.numbers[number].mean);
+        noise.is_finite().then_some(Surrogate { sigma_md, sigma_cd, noise })
+    }
+}
+
 /// Laid curves of one line, seen from their straight traces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curves {
     spacing: f64,
-    belt_ratio: f64,
     /// Of each curve the points (ξ₁, ξ₂) [m].
     curves: Vec<Vec<[f64; 2]>>,
-    /// How far they hang together, if they were flown in one air.
-    one_air: Option<OneAir>,
+    /// How far they hang together.
+    pub(super) one_air: OneAir,
 }
 
 /// How far curves that were flown in one air hang together.
@@ -168,7 +183,11 @@ impl Curves {
     ///
     /// # Errors
     /// If there is no curve, or one of less than 16 pieces or with a point that is not finite.
-    pub(crate) fn new(spacing: f64, belt_ratio: f64, mut curves: Vec<Vec<[f64; 2]>>) -> Result<Self, Fault> {
+    pub(crate) fn new(
+        (spacing, belt_ratio): (f64, f64),
+        mut curves: Vec<Vec<[f64; 2]>>,
+        one_air: OneAir,
+    ) -> Result<Self, Fault> {
         let usable = |curve: &Vec<[f64; 2]>| {
             curve.len() > Self::FEWEST && curve.iter().flatten().all(|x| x.is_finite())
         };
@@ -186,16 +205,7 @@ impl Curves {
                 *point = [point[0] - middle[0], point[1] - middle[1]];
             }
         }
-        Ok(Self { spacing, belt_ratio, curves, one_air: None })
-    }
-
-    /// The same curves, known to hang together.
-    pub(crate) fn in_one_air(self, one_air: OneAir) -> Self {
-        Self { one_air: Some(one_air), ..self }
-    }
-
-    pub(super) const fn one_air(&self) -> Option<&OneAir> {
-        self.one_air.as_ref()
+        Ok(Self { spacing, curves, one_air })
     }
 
     /// Fed length from point to point [m].

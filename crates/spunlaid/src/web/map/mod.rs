@@ -42,7 +42,7 @@ pub(crate) use findings::find_laid;
 pub use findings::{Findings, PatchFindings, WholeError, find};
 pub(crate) use laid_web::OneAir;
 pub use laid_web::{
-    ChargedCurtain, Correlation, Curves, LaidWeb, LayControl, NeighbourCorrelation, SharedAirFindings,
+    ChargedCurtain, Correlation, Curves, FlownFibres, LaidWeb, LayControl, LayerFlown, NeighbourCorrelation,
     TimeSpent,
 };
 pub use lay::{lay, pieces, strands};
@@ -200,12 +200,7 @@ pub enum Fibres {
     /// Paths of the stochastic model, each its own.
     Surrogate(Surrogate),
     /// Curves of filaments that were flown in one air, which lay them on the sheet as they come down.
-    Flown {
-        /// Those of some of the filaments.
-        curves: Arc<Curves>,
-        /// The model of each of them, if one was found.
-        surrogate: Option<Surrogate>,
-    },
+    Flown(Arc<FlownFibres>),
 }
 
 impl Layer {

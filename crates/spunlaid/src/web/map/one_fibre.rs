@@ -3,7 +3,7 @@
 use super::laid_web::LayControl;
 use super::lay::lay;
 use super::uniformity::boxes;
-use super::{Fibres, Filaments, Layer, Row, Sheet, Web};
+use super::{Fibres, Filaments, FlownFibres, Layer, Row, Sheet, Web};
 use crate::ground::threads::try_each;
 use crate::ground::{Error, Estimate};
 use crate::web::surrogate::Surrogate;
@@ -215,10 +215,18 @@ pub fn straight_fibres(tau: f64, patch: f64) -> f64 {
 
 impl Fibres {
     /// The stochastic model of each filament, if it is known.
-    pub const fn surrogate(&self) -> Option<Surrogate> {
+    pub fn surrogate(&self) -> Option<Surrogate> {
         match self {
             Self::Surrogate(surrogate) => Some(*surrogate),
-            Self::Flown { surrogate, .. } => *surrogate,
+            Self::Flown(flown) => flown.surrogate(),
+        }
+    }
+
+    /// What was flown, if they were.
+    pub fn flown(&self) -> Option<&FlownFibres> {
+        match self {
+            Self::Surrogate(_) => None,
+            Self::Flown(flown) => Some(flown),
         }
     }
 
@@ -226,7 +234,7 @@ impl Fibres {
     pub(crate) fn sigma_cd(&self) -> f64 {
         match self {
             Self::Surrogate(surrogate) => surrogate.sigma_cd,
-            Self::Flown { curves, .. } => curves.sigma_cd(),
+            Self::Flown(flown) => flown.curves.sigma_cd(),
         }
     }
 

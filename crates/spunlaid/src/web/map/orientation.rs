@@ -78,10 +78,8 @@ impl Sample {
 
     /// All curves that were flown, each once.
     fn of_curves(weight: f64, curves: &Curves, advance: f64) -> Self {
-        let one_air = curves.one_air();
-        let stretches = one_air.map_or(1, |air| (curves.length() / air.memory).max(1.0) as usize);
-        let mut sample = Self::new(weight);
-        sample.groups = one_air.map(|air| air.groups.clone());
+        let stretches = (curves.length() / curves.one_air.memory).max(1.0) as usize;
+        let mut sample = Self { groups: Some(curves.one_air.groups.clone()), ..Self::new(weight) };
         for (number, curve) in curves.curves().iter().enumerate() {
             sample.filaments.push(vec![DirectionSums::default(); stretches]);
             let pieces = curve.len() - 1;
@@ -209,7 +207,8 @@ pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> 
     for (number, layer) in web.layers.iter().enumerate() {
         let weight = layer.basis_weight(&web.sheet) / web.basis_weight();
         samples.push(match &layer.fibres {
-            Fibres::Flown { curves, .. } => {
+            Fibres::Flown(flown) => {
+                let curves = &flown.curves;
                 piece = piece.max(curves.spacing());
                 Sample::of_curves(weight, curves, layer.belt_ratio() * curves.spacing())
             }

@@ -188,7 +188,7 @@ impl<'a> Plan<'a> {
 
 /// Where the filaments of a layer come down in cross direction, in order [m].
 pub(super) fn places(web: &Web, number: usize, layer: &Layer) -> Vec<f64> {
-    inlets(&web.sheet, web.seed, number, &layer.filaments).into_iter().map(|[cd, _]| cd).collect()
+    inlets(&web.sheet, web.seed, number, &layer.filaments).iter().map(|place| place.z).collect()
 }
 
 pub(super) fn plans(web: &Web) -> Result<Vec<Plan<'_>>, Fault> {

@@ -169,7 +169,7 @@ impl Canvas {
         let [columns, rows] = self.size.map(|size| size as usize);
         let (quantum, closed) = (self.quantum, self.closed);
         let map = Map { columns, rows, cell: self.cell, quantum, closed, cells };
-        Ok(LaidWeb { map, cut: cut as f64 * quantum, shared_air: None })
+        Ok(LaidWeb { map, cut: cut as f64 * quantum, flown: Vec::new() })
     }
 }
 

@@ -88,17 +88,11 @@ const BLOCK: f64 = 0.05;
 impl FewFilaments<'_> {
     /// What they say of all filaments.
     ///
-    /// * `layer` – its index
     /// * `filled` – with the filaments between them
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
-    pub(crate) fn tell(
-        &self,
-        layer: usize,
-        filled: Option<&FilledMaps>,
-        threads: usize,
-    ) -> Result<LayerFew, Error> {
+    pub(crate) fn tell(&self, filled: Option<&FilledMaps>, threads: usize) -> Result<LayerFew, Error> {
         let count = self.count();
         let halves = [self.map(Some(0))?, self.map(Some(1))?];
         let mut cells = halves[0].cells.clone();
@@ -116,8 +110,7 @@ impl FewFilaments<'_> {
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
-        let mut told =
-            LayerFew { layer, filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
+        let mut told = LayerFew { filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
         for ((found, blocks), (products, patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {

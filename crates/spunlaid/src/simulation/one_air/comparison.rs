@@ -6,13 +6,14 @@
 //!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
 //! ```
 
+use super::abreast::{fly_abreast, memory_abreast};
 use super::few::Compared;
-use super::shared_air::{LayerBeam, beam_on};
-use super::{Flyer, WebSpec};
+use super::layer_beam::{LayerBeam, beam_on};
+use super::{Beam, BeamControl, BeamFindings, Flyer};
 use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::each;
 use crate::ground::{Dimension, Error, Fault, Isa};
-use crate::simulation::beam::{Beam, BeamControl, BeamFindings, fly_abreast, memory_abreast};
+use crate::simulation::WebSpec;
 use crate::web::map::blocks_on;
 use crate::web::{Arrangement, LayerFew, Sheet};
 use std::ops::Range;
@@ -41,10 +42,10 @@ impl Flyer<'_> {
         (specs, of_each): (&[&WebSpec], Compared),
         steps: &AtomicU64,
     ) -> Result<Option<Vec<FewOfWeb>>, Error> {
-        let Some(layers) = comparisons(specs, of_each)? else { return Ok(None) };
+        let Some(layers) = comparisons(specs, of_each) else { return Ok(None) };
         let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
-        for (number, layer) in layers.into_iter().enumerate() {
-            for (told, of_layer) in told.iter_mut().zip(self.compare((number, layer), steps)?) {
+        for layer in &layers {
+            for (told, of_layer) in told.iter_mut().zip(self.compare(layer, steps)?) {
                 match (&mut *told, of_layer) {
                     (Ok(told), Ok(few)) => told.push(few),
                     (Ok(_), Err(error)) => *told = Err(error),
@@ -58,7 +59,7 @@ impl Flyer<'_> {
     /// Flies a layer of all webs and says what the filaments of each tell.
     fn compare(
         &self,
-        (number, layer): (usize, Comparison<'_>),
+        layer: &Comparison<'_>,
         steps: &AtomicU64,
     ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
         let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
@@ -91,8 +92,7 @@ impl Flyer<'_> {
                 }
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
-            let of_sheet = (number, &sheet, layer.blocks);
-            few.tell(of_sheet, (&beam, &flown), curves.as_ref(), (threads, self.stop))
+            few.tell((&sheet, layer.blocks), (&beam, &flown), curves.as_ref(), (threads, self.stop))
         }))
     }
 }
@@ -105,7 +105,7 @@ fn again(error: &Error) -> Error {
 /// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of
 /// all webs but the first.
 pub(crate) fn steps_in_same_air(specs: &[&WebSpec], of_each: Compared) -> u64 {
-    let Some(layers) = comparisons(specs, of_each).ok().flatten() else {
+    let Some(layers) = comparisons(specs, of_each) else {
         let layers = |spec: &&'_ WebSpec| -> u64 {
             let beams = (0..spec.layers.len()).filter_map(|number| beam_on(spec, number, None).ok());
             beams.map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum()
@@ -120,7 +120,7 @@ pub(crate) fn steps_in_same_air(specs: &[&WebSpec], of_each: Compared) -> u64 {
 
 /// Whether the air in which webs fly beside each other takes no more memory than the first of them may take.
 pub(crate) fn fits_memory(specs: &[&WebSpec], of_each: Compared) -> bool {
-    let layers = comparisons(specs, of_each).ok().flatten().unwrap_or_default();
+    let layers = comparisons(specs, of_each).unwrap_or_default();
     layers.iter().all(|layer| layer.check_memory().is_ok())
 }
 
@@ -139,34 +139,28 @@ struct Comparison<'a> {
 }
 
 /// The layers of webs that are compared; None if some of the first one are not flown as a few for all.
-fn comparisons<'a>(specs: &[&'a WebSpec], of_each: Compared) -> Result<Option<Vec<Comparison<'a>>>, Error> {
-    let Some((first, _)) = specs.split_first() else { return Ok(None) };
-    (0..first.layers.len()).map(|number| Comparison::new(specs, number, of_each)).collect()
+fn comparisons<'a>(specs: &[&'a WebSpec], of_each: Compared) -> Option<Vec<Comparison<'a>>> {
+    (0..specs.first()?.layers.len()).map(|number| Comparison::new(specs, number, of_each)).collect()
 }
 
 impl<'a> Comparison<'a> {
-    fn new(specs: &[&'a WebSpec], number: usize, of_each: Compared) -> Result<Option<Self>, Error> {
-        let Some(on) = specs.first().and_then(|first| first.flown_sheet(number, Some(of_each))) else {
-            return Ok(None);
-        };
+    fn new(specs: &[&'a WebSpec], number: usize, of_each: Compared) -> Option<Self> {
+        let first = specs.first()?;
+        let on = first.flown_sheet(number, Some(of_each))?;
+        first.few(number, &on)?;
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
             Some(_) => Ok(of_beam.with_coarser_mesh()),
             None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
         };
         let beams: Vec<Result<LayerBeam<'_>, Error>> =
             specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
-        match specs.first().map(|first| first.few(number, &on)) {
-            Some(Some(_)) => {}
-            _ => return Ok(None),
-        }
         let flight_of = (0..beams.len()).map(|web| {
             let of_beam = beams[web].as_ref().ok()?;
             let is_same = |other: &usize| beams[*other].as_ref().is_ok_and(|other| flies_as(of_beam, other));
             Some((0..web).find(is_same).unwrap_or(web))
         });
-        let flight_of = flight_of.collect();
-        let memory_limit = specs.first().map_or(f64::INFINITY, |first| first.memory_limit);
-        Ok(Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, memory_limit, flight_of, beams }))
+        let (flight_of, memory_limit) = (flight_of.collect(), first.memory_limit);
+        Some(Self { blocks: blocks_on(&on.sheet), sheet: on.sheet, memory_limit, flight_of, beams })
     }
 
     /// Refuses webs whose common air does not fit into the memory that it may take.

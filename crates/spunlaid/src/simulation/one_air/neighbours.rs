@@ -161,7 +161,6 @@ impl Neighbours {
         // The mean of a filament is told by the same stretches, and so is left out with them.
         let means_without: Vec<Means> = all.map(|left_out| self.means(Some(left_out))).collect();
         let correlation = |(number, distance): (usize, &Distance)| NeighbourCorrelation {
-            layer: 0,
             distance: distance.distance,
             md: self.correlation(number, 0, &means, &means_without),
             cd: self.correlation(number, 1, &means, &means_without),

@@ -153,7 +153,7 @@ impl Pack {
         balance.add(&self.balance);
         for filament in self.filaments {
             let Filament { number, kept, strands, lost, .. } = filament;
-            flown.strands.extend(strands.into_parts());
+            flown.layer.strands.extend(strands.into_parts());
             match lost {
                 Some(reason) => flown.lost.push((number, reason)),
                 None => flown.kept.extend(kept.map(|points| (number, points))),

@@ -128,14 +128,14 @@ impl<'a> Flying<'a> {
     /// If more than 2 % of them are lost.
     pub(super) fn finish(self, mut flown: BeamFindings) -> Result<BeamFindings, Error> {
         let has_lost_too_many = self.has_lost_too_many();
-        flown.charged = self.field.as_ref().map(BeamField::curtain);
+        flown.layer.charged = self.field.as_ref().map(BeamField::curtain);
         flown.back = self.stretch.back().unwrap_or(f64::NAN);
-        flown.time = self.done as f64 * self.beam.case.run.time_step;
         let mut balance = StretchedBalance::new(self.beam.case);
         for pack in self.packs {
             unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown, &mut balance));
         }
         flown.way = balance.way();
+        flown.layer.lost = flown.lost.len() as u64;
         flown.sort();
         if has_lost_too_many { Err(too_many_lost(flown, self.beam.places.len())) } else { Ok(flown) }
     }

@@ -1,8 +1,11 @@
-//! A beam: all filaments of a layer, flown together and laid on a sheet as they come down.
+//! All filaments of a layer in one air: a beam, flown together and laid on a sheet as they come down.
 //!
 //! ```text
 //! places → packs of eight neighbours → flights, which advance together by a block of time
 //!        → laid points → the canvas, at once; the curves of a few filaments are kept
+//!
+//! layer → all of its filaments, or a few for all → a beam → the map, and what is said of all
+//! webs  → a few filaments of each, in the same air → comparison
 //! ```
 //!
 //! A sheet is not closed to a ring in machine direction, because the air at its two ends is not the same.
@@ -16,7 +19,11 @@
 
 mod abreast;
 mod charge;
+mod comparison;
+mod few;
+mod flyer;
 mod flying;
+mod layer_beam;
 mod neighbours;
 mod pack;
 
@@ -24,13 +31,13 @@ use crate::fibre::{Case, LaidPoint, WayPlace};
 use crate::ground::place::Place;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa};
-use crate::web::{
-    Brush, Canvas, ChargedCurtain, LaidWeb, NeighbourCorrelation, SharedAirFindings, Sheet, Strand,
-    TimeSpent, Titres, Window,
-};
+use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
 use abreast::{SharedAir, Sink, fly};
-pub(crate) use abreast::{fly_abreast, memory_abreast};
 pub use charge::BeamCharge;
+pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
+pub use few::Compared;
+pub use flyer::{Flights, FlownWeb, Flyer};
+pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -74,24 +81,16 @@ pub struct BeamControl<'a> {
 pub struct BeamFindings {
     /// All points that some filaments have laid, from the start on, with their numbers across the web.
     pub kept: Vec<(usize, Vec<LaidPoint>)>,
-    /// The parts of all filaments in the window of the sheet.
-    pub(crate) strands: Vec<Strand>,
-    /// How filaments come down together, over their distance.
-    pub neighbours: Vec<NeighbourCorrelation>,
+    /// What the web keeps of them.
+    pub layer: LayerFlown,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
     /// What a filament does to its air on its way, in the mean.
     pub way: Vec<WayPlace>,
     /// Where the sheet begins on the belt, at its back [m].
     pub back: f64,
-    /// Time that was flown [s].
-    pub time: f64,
-    /// What it took.
-    pub spent: TimeSpent,
     /// How many times as fast the pattern of its air passes as that of the first beam beside it.
     pub(crate) pace: f64,
-    /// What charge has made of them, if they are charged.
-    pub charged: Option<ChargedCurtain>,
 }
 
 impl<'a> Beam<'a> {
@@ -129,9 +128,8 @@ impl Beam<'_> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
         let brush = Brush::new(&canvas, element, Titres::default());
-        let mut flown = self.fly((sheet, window), Some(&brush), by)?;
-        let shared_air = Some(flown.take_shared_air());
-        Ok((LaidWeb { shared_air, ..canvas.finish()? }, flown))
+        let flown = self.fly((sheet, window), Some(&brush), by)?;
+        Ok((LaidWeb { flown: vec![flown.layer.clone()], ..canvas.finish()? }, flown))
     }
 
     /// Mass of an element of a filament [kg].
@@ -178,25 +176,11 @@ impl Beam<'_> {
 }
 
 impl BeamFindings {
-    /// The findings on the web in one air. The strands of single fibres are moved out of `self`.
-    pub(crate) fn take_shared_air(&mut self) -> SharedAirFindings {
-        let Self { strands, neighbours, lost, time, spent, charged, .. } = self;
-        SharedAirFindings {
-            strands: std::mem::take(strands),
-            neighbours: neighbours.clone(),
-            few: Vec::new(),
-            charged: charged.take().into_iter().collect(),
-            lost: lost.len() as u64,
-            time: *time,
-            spent: *spent,
-        }
-    }
-
     /// Puts what packs have given into the order across the web.
     fn sort(&mut self) {
         sort_by_key(&mut self.kept, |(filament, _)| *filament);
         sort_by_key(&mut self.lost, |(filament, _)| *filament);
         // A filament comes through the window in the order of its strands.
-        sort_by_key(&mut self.strands, |strand| strand.filament);
+        sort_by_key(&mut self.layer.strands, |strand| strand.filament);
     }
 }

@@ -1,13 +1,20 @@
 //! What the charge of all filaments of a beam does to each of them, found anew after every block of time.
 
 use super::Beam;
+use super::few::FewPlan;
 use crate::fibre::charge::Curtain;
 use crate::fibre::{Charge, ChargedNode, Flight, SheetField, Sheets};
-use crate::web::ChargedCurtain;
+use crate::ground::place::Place;
+use crate::simulation::WebSpec;
+use crate::web::map::Filaments;
+use crate::web::{Arrangement, ChargedCurtain};
 use std::sync::Arc;
 
 /// Blocks in the time over which the charge is averaged. The field is that of the block before.
 const BLOCKS: f64 = 8.0;
+/// Parts of a filament in which those are counted for which it stands.
+const PARTS: f64 = 1e3;
+
 /// The charge of the filaments of a beam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeamCharge {
@@ -85,7 +92,7 @@ impl BeamField {
     /// What the filaments have been like of late.
     pub(super) fn curtain(&self) -> ChargedCurtain {
         let field = self.sheets.field();
-        ChargedCurtain { layer: 0, edge_field: field.edge(), heights: self.sheets.heights() }
+        ChargedCurtain { edge_field: field.edge(), heights: self.sheets.heights() }
     }
 }
 
@@ -100,4 +107,29 @@ impl Beam<'_> {
 /// The time over which the charge of a beam is averaged [s]: a filament that is straight comes down in it.
 fn memory(beam: &Beam<'_>) -> Option<f64> {
     beam.case.line.map(|line| line.distance / line.feed_speed)
+}
+
+impl WebSpec {
+    /// The charge of the filaments of a layer that fly.
+    ///
+    /// * `flown` – where they are fed, and for which filaments they stand if they are a few
+    pub(super) fn beam_charge(
+        &self,
+        layer: usize,
+        flown: (&[Place], Option<&FewPlan>),
+    ) -> Option<BeamCharge> {
+        let (places, few) = flown;
+        let spec = self.layers.get(layer)?;
+        let charge = spec.charged()?;
+        let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;
+        let weight = |place: &Place| match (&spec.filaments, few) {
+            (Filaments::Rows(rows), Some(FewPlan { arrangement: Arrangement::Rows, .. })) => {
+                let same = || rows.iter().filter(|row| row.md == place.y);
+                let all: u64 = same().map(|row| row.filaments).sum();
+                (PARTS * all as f64 / same().count().max(1) as f64).round() as u64
+            }
+            _ => 1,
+        };
+        Some(BeamCharge { charge, per_metre, weights: places.iter().map(weight).collect() })
+    }
 }

@@ -1,23 +1,24 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{FewFlight, FewPlan, FlownSheet};
-use super::flown_curtain::{FlownCurtain, FlownLayers};
-use super::flyer::Flights;
-use super::{Flown, FlownFibres, Flyer, LaydownSource, LayerFibres, WebSpec};
-use crate::fibre::Case;
+use super::few::{FewPlan, FlownSheet};
+use super::{Beam, BeamCharge, BeamFindings};
+use crate::fibre::{Case, LaidPoint};
 use crate::ground::error::Place as ErrorPlace;
 use crate::ground::place::Place;
-use crate::ground::{Dimension, Error, Fault, Isa, Problem};
-use crate::simulation::beam::{Beam, BeamCharge, BeamControl, BeamFindings};
-use crate::web::map::{blocks_on, inlets};
+use crate::ground::threads::each;
+use crate::ground::{Dimension, Error, Estimate, Fault, Problem};
+use crate::simulation::{LaydownSource, WebSpec};
+use crate::web::curtain::drawing::draw;
+use crate::web::map::inlets;
+use crate::web::surrogate::identify;
 use crate::web::{
-    Brush, Canvas, Curves, Fibres, FlownCurves, LaidWeb, LayerFew, OneAir, Sheet, TRIED, TimeSpent,
+    Belt, Brush, Curves, Edges, FlownCurves, FlownFibres, Library, OneAir, Sheet, Strand, Trace,
+    TraceSettings,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::AtomicBool;
 
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
@@ -37,7 +38,7 @@ const MEMORY: f64 = 2.0;
 
 /// The filaments of a layer before they fly.
 pub(super) struct LayerBeam<'a> {
-    path: &'a Path,
+    pub(super) path: &'a Path,
     case: Case,
     /// The sheet on which they are laid, and whether they are a few of all.
     pub(super) sheet: Sheet,
@@ -48,9 +49,6 @@ pub(super) struct LayerBeam<'a> {
     /// What they carry.
     pub(super) charge: Option<BeamCharge>,
 }
-
-/// The flight of a layer, with the curves of a few filaments and what they say of all.
-type ToldFlight<'a> = (LayerBeam<'a>, BeamFindings, Option<(FlownCurves, LayerFew)>);
 
 impl LayerBeam<'_> {
     pub(super) fn beam(&self) -> Beam<'_> {
@@ -80,125 +78,91 @@ impl LayerBeam<'_> {
     }
 
     /// Mass of all filaments, the ones that are not flown too, over the area on which they are laid [kg/m²].
-    fn basis_weight(&self) -> f64 {
+    pub(super) fn basis_weight(&self) -> f64 {
         let beam = self.beam();
         let all = self.few.as_ref().map_or(1.0, |few| few.all / self.places.len() as f64);
         all * beam.basis_weight(&self.sheet)
     }
 
-    /// What some of its filaments have laid, each for itself.
-    fn gather(&self, mut flown: BeamFindings, threads: usize) -> Result<FlownFibres, Error> {
-        flown.kept.retain(|(filament, _)| self.beam().keeps(*filament));
-        let one_air = self.one_air(flown.kept.iter().map(|(filament, _)| *filament));
-        let (way, curves) = (flown.way, flown.kept.into_iter().map(|(_, points)| points).collect());
-        let gathered = FlownFibres::gather((self.path, &self.case), curves, threads)?;
-        let curves = Curves::clone(&gathered.curves).in_one_air(one_air);
-        Ok(FlownFibres { curves: Arc::new(curves), way, ..gathered })
+    /// What some of its filaments have laid, each for itself, and the surrogate of it.
+    pub(super) fn gather(&self, flown: BeamFindings, threads: usize) -> Result<FlownFibres, Error> {
+        let line = self
+            .case
+            .line
+            .ok_or_else(|| Error::folder(self.path, Fault::plain("its fibre is not fed on to a belt")))?;
+        let kept = flown.kept.into_iter().filter(|(filament, _)| self.beam().keeps(*filament));
+        let (filaments, laid): (Vec<usize>, Vec<Vec<LaidPoint>>) = kept.unzip();
+        let (spacing, belt_ratio) = (self.case.fibre.rest_length(), line.belt_ratio());
+        // As the measures of a run do, to the same bits.
+        let skip = (line.feed_speed * self.case.run.spin_up() / spacing).round() as u64;
+        let tracing = TraceSettings { spacing, belt_ratio, skip, reach: line.distance };
+        let traced = each(threads, laid.len(), |filament| {
+            let mut trace = Trace::new(tracing);
+            laid[filament].iter().for_each(|point| trace.add(point.md, point.cd));
+            let statistics = trace.finish();
+            let sigmas = [statistics.sigma_md, statistics.sigma_cd];
+            let correlations = [&*statistics.correlation_md, &*statistics.correlation_cd];
+            let found = identify(sigmas, statistics.lag_step, correlations);
+            let noise = found.map_or(f64::NAN, |found| found.surrogate.noise);
+            (statistics, [sigmas[0], sigmas[1], noise])
+        });
+        let numbers = [0, 1, 2].map(|number| {
+            let of_each = traced.iter().map(|(_, numbers)| numbers[number]);
+            Estimate::new(of_each.filter(|value| value.is_finite()).collect())
+        });
+        let after_start = |points: Vec<LaidPoint>| {
+            points.iter().skip(skip as usize).map(|point| [point.md, point.cd]).collect()
+        };
+        let places = laid.into_iter().map(after_start).collect();
+        let curves = Curves::new((spacing, belt_ratio), places, self.one_air(filaments))?;
+        let found = FlownFibres { curves, numbers, residual: None, way: flown.way };
+        let correlations: Vec<[&[f64]; 2]> =
+            traced.iter().map(|(of, _)| [&*of.correlation_md, &*of.correlation_cd]).collect();
+        let step = traced.first().map_or(f64::NAN, |(statistics, _)| statistics.lag_step);
+        let residual = found.surrogate().and_then(|surrogate| surrogate.residual(step, &correlations));
+        Ok(FlownFibres { residual, ..found })
+    }
+
+    /// Draws all filaments of which these are a few: those between the flown ones on the sheet that these have
+    /// laid, and pieces of it on any other sheet. Returns their parts in the window, and the part of the variance
+    /// that the few do not tell.
+    ///
+    /// * `back` – where the sheet that was flown begins on the belt [m]
+    pub(super) fn fill_in(
+        &self,
+        (spec, number): (&WebSpec, usize),
+        (curves, back): (&FlownCurves, f64),
+        brush: &Brush<'_>,
+        by: (usize, &AtomicBool),
+    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
+        let (sheet, window, flown) = (&spec.sheet, spec.window(), &self.sheet);
+        let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);
+        if [sheet.width, sheet.length] == [flown.width, flown.length] {
+            let all = curves.fill(places, by.0);
+            let kept = draw(&all, Belt { sheet, window, back }, brush, by)?;
+            return Ok((kept, all.missing()));
+        }
+        let library = Library::new(curves, by.0)?;
+        let around = match sheet.edges {
+            // A web that is narrower than the flown sheet is a strip of it.
+            Edges::Periodic => sheet.width.max(flown.width),
+            // Filaments at the two edges know nothing of each other.
+            Edges::Cut => sheet.width + flown.width,
+        };
+        let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
+        Ok((kept, library.missing()))
     }
 
     /// How far some of its filaments hang together.
-    fn one_air(&self, filaments: impl Iterator<Item = usize>) -> OneAir {
+    fn one_air(&self, filaments: Vec<usize>) -> OneAir {
         let (case, sheet) = (&self.case, &self.sheet);
         let groups = (sheet.width / (APART * case.extent_of_air().z)).floor().max(1.0);
         let group =
             |filament: usize| (self.places[filament].z / sheet.width * groups).clamp(0.0, groups - 1.0);
         let way = case.line.map_or(0.0, |line| line.distance);
-        OneAir { groups: filaments.map(|filament| group(filament) as usize).collect(), memory: MEMORY * way }
-    }
-}
-
-impl Flyer<'_> {
-    /// Threads and stop flag.
-    const fn by(&self) -> (usize, &AtomicBool) {
-        (self.threads, self.stop)
-    }
-
-    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A
-    /// few curves of each layer are kept, which say what independent filaments would give.
-    pub(super) fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<LayerFibres>, LaidWeb), Error> {
-        let beams = beams(spec)?;
-        let canvas = canvas(spec)?;
-        let mut all = FlownLayers::default();
-        for (number, layer) in beams.into_iter().enumerate() {
-            let brush = Brush::new(&canvas, layer.beam().element_mass(), spec.titres(number));
-            let (layer, mut flown, told) = self.fly_until_told(spec, (number, layer), &brush)?;
-            let mut of_layer = flown.take_shared_air();
-            if let Some((curves, told)) = told {
-                let flown_sheet = [layer.sheet.width, layer.sheet.length];
-                all.curtains.push(FlownCurtain {
-                    layer: number,
-                    curves,
-                    sheet: flown_sheet,
-                    back: flown.back,
-                });
-                of_layer.few = vec![told];
-                // Those of all filaments are found when they are drawn.
-                of_layer.strands = Vec::new();
-            }
-            all.shared_air.add(number, of_layer);
-            let flown = Arc::new(layer.gather(flown, self.threads)?);
-            // In machine direction the sheet is not closed.
-            spec.check_spreads([0.0, flown.numbers[1].mean])?;
-            let (curves, surrogate) = (Arc::clone(&flown.curves), flown.surrogate());
-            let fibres = Fibres::Flown { curves, surrogate };
-            all.layers.push(LayerFibres { fibres, flown: Some(flown) });
-        }
-        all.draw(spec, &canvas, self.by())?;
-        let FlownLayers { layers, shared_air, .. } = all;
-        Ok((layers, LaidWeb { shared_air: Some(shared_air), ..canvas.finish()? }))
-    }
-
-    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
-    /// tell what all do.
-    fn fly_until_told<'a>(
-        &self,
-        spec: &'a WebSpec,
-        (number, mut layer): (usize, LayerBeam<'a>),
-        on: &Brush<'_>,
-    ) -> Result<ToldFlight<'a>, Error> {
-        let (mut flights, mut spent) = (0, TimeSpent::default());
-        let mut sheet = spec.flown_sheet(number, None);
-        loop {
-            let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
-            spent.whole += flown.spent.whole;
-            spent.in_parallel += flown.spent.in_parallel;
-            flown.spent = spent;
-            let Some(few) = &layer.few else { return Ok((layer, flown, None)) };
-            let curves = few.curves(&layer.sheet, &layer.beam(), &flown)?;
-            let of_sheet = (number, &layer.sheet, blocks_on(&layer.sheet));
-            let told = few.tell(of_sheet, (&layer.beam(), &flown), Some(&curves), self.by())?;
-            flights += 1;
-            sheet = sheet.map(FlownSheet::finer);
-            let more = told.doubt().is_some() && spec.flown == Flown::Auto && flights < TRIED.len();
-            let more = more.then(|| beam_on(spec, number, sheet.as_ref())).transpose()?;
-            let Some(more) = more.filter(|more| more.few.is_some()) else {
-                return Ok((layer, flown, Some((curves, told))));
-            };
-            layer = more;
-        }
-    }
-
-    /// Flies a layer and shows the progress.
-    ///
-    /// * `on` – what lays an element of fibre; None if only a few are flown
-    fn fly_layer(
-        &self,
-        layer: &LayerBeam<'_>,
-        spec: &WebSpec,
-        on: Option<&Brush<'_>>,
-    ) -> Result<BeamFindings, Error> {
-        let (beam, done) = (layer.beam(), AtomicU64::new(0));
-        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
-        let flights = Flights {
-            path: layer.path,
-            fibres: layer.places.len() as u64,
-            done: &done,
-            steps: beam.steps(&layer.sheet),
-            time_step: layer.case.run.time_step,
-        };
-        let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
-        flown
+        let groups = filaments.into_iter().map(|filament| group(filament) as usize);
+        OneAir { groups: groups.collect(), memory: MEMORY * way }
     }
 }
 
@@ -247,26 +211,6 @@ impl WebSpec {
     }
 }
 
-/// The filaments of all layers.
-///
-/// # Errors
-/// If a layer is not flown, or if its air does not fit into the memory.
-fn beams(spec: &WebSpec) -> Result<Vec<LayerBeam<'_>>, Error> {
-    if let Some(problem) = spec.air_beyond_memory() {
-        return Err(vec![problem].into());
-    }
-    (0..spec.layers.len()).map(|number| beam_on(spec, number, None)).collect()
-}
-
-/// The canvas of the sheet.
-fn canvas(spec: &WebSpec) -> Result<Canvas, Error> {
-    let beams = (0..spec.layers.len()).map(|number| beam_on(spec, number, None));
-    let beams = beams.collect::<Result<Vec<_>, _>>()?;
-    let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
-    let weight = beams.iter().map(LayerBeam::basis_weight).sum();
-    Ok(Canvas::new(&spec.sheet, &elements, weight)?)
-}
-
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field
 /// in space. The seed of the web and the number of the layer are in the key of the air, so that layers and
 /// webs have airs of their own.
@@ -287,19 +231,13 @@ pub(super) fn beam_on<'a>(
     case.run.seed = key(case.run.seed, spec.seed, number as u64);
     let depth = layer.filaments.depth();
     let flown_sheet = sheet.cloned().or_else(|| spec.flown_sheet(number, None));
-    Ok(match flown_sheet.and_then(|sheet| spec.few(number, &sheet)) {
-        Some(FewFlight { sheet, places, few }) => {
-            let charge = spec.beam_charge(number, (&places, Some(&few)));
-            LayerBeam { path, case, sheet, few: Some(few), places, depth, charge }
-        }
-        None => {
-            let place = |[z, y]: [f64; 2]| Place { y, z };
-            let inlets = inlets(&spec.sheet, spec.seed, number, &layer.filaments);
-            let places: Vec<Place> = inlets.into_iter().map(place).collect();
-            let charge = spec.beam_charge(number, (&places, None));
-            LayerBeam { path, case, sheet: spec.sheet.clone(), few: None, places, depth, charge }
-        }
-    })
+    let few = flown_sheet.and_then(|on| Some((spec.few(number, &on)?, on.sheet)));
+    let (places, sheet, few) = match few {
+        Some(((places, few), sheet)) => (places, sheet, Some(few)),
+        None => (inlets(&spec.sheet, spec.seed, number, &layer.filaments), spec.sheet.clone(), None),
+    };
+    let charge = spec.beam_charge(number, (&places, few.as_ref()));
+    Ok(LayerBeam { path, case, sheet, few, places, depth, charge })
 }
 
 /// A seed from those of the case and of the web and the number of a layer, each of which changes about half

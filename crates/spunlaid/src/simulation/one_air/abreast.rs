@@ -13,7 +13,7 @@ use super::{BLOCK, Beam, BeamControl, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Lateral, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
 use crate::ground::{Error, Fault, Vec3};
-use crate::web::{Brush, Edges, Sheet, TimeSpent, Window};
+use crate::web::{Brush, Edges, LayerFlown, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
@@ -118,7 +118,8 @@ pub(super) fn fly(
     let paces = air.airs.iter().map(|of_beam| all.pace(of_beam.maker) * of_beam.pace);
     let finish = |((of_beam, sink), pace): ((Result<Flying<'_>, Error>, Sink<'_>), f64)| {
         let neighbours = sink.neighbours.map_or_else(Vec::new, |together| together.correlations());
-        of_beam?.finish(BeamFindings { neighbours, spent, pace, ..BeamFindings::default() })
+        let layer = LayerFlown { neighbours, spent, ..LayerFlown::default() };
+        of_beam?.finish(BeamFindings { layer, pace, ..BeamFindings::default() })
     };
     Ok(flying.into_iter().zip(sinks).zip(paces).map(finish).collect())
 }

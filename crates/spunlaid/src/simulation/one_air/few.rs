@@ -1,10 +1,10 @@
 //! Which few filaments of a layer are flown for all of them, and on which sheet.
 
-use super::{Flown, WebSpec};
+use super::{Beam, BeamFindings};
 use crate::fibre::LaidPoint;
 use crate::ground::Error;
 use crate::ground::place::{Place, rows};
-use crate::simulation::beam::{Beam, BeamFindings};
+use crate::simulation::{Flown, WebSpec};
 use crate::web::curtain::lay;
 use crate::web::map::{Filaments, inlets, small_patch};
 use crate::web::{
@@ -27,17 +27,6 @@ const FINER: usize = 8;
 /// A sheet whose area is larger by no more than this is flown as it is.
 const NEARLY: f64 = 1.3;
 
-/// The few filaments of a layer and the sheet on which they are laid.
-#[derive(Clone, Debug)]
-pub(super) struct FewFlight {
-    /// The sheet. It goes on at its edges across.
-    pub(super) sheet: Sheet,
-    /// Where they are fed, in order across the web.
-    pub(super) places: Vec<Place>,
-    /// Those for which they stand.
-    pub(super) few: FewPlan,
-}
-
 /// How much of webs is flown where they are compared in the same air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
@@ -48,7 +37,7 @@ pub struct Compared {
     pub pitches: f64,
 }
 
-/// The sheet that a few filaments lay.
+/// The sheet that a few filaments lay. It goes on at its edges across.
 #[derive(Clone, Debug)]
 pub(super) struct FlownSheet {
     pub(super) sheet: Sheet,
@@ -81,10 +70,11 @@ pub(super) struct FewPlan {
 }
 
 impl WebSpec {
-    /// The few filaments that are flown for all of a layer; None if all are flown.
+    /// Where the few filaments of a layer are fed that are flown for all, in order across the web, and those for
+    /// which they stand; None if all are flown.
     ///
     /// * `on` – the sheet that they lay
-    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<FewFlight> {
+    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<(Vec<Place>, FewPlan)> {
         let spec = self.layers.get(layer)?;
         let case = spec.source.case()?;
         let pitch = match self.flown {
@@ -92,7 +82,7 @@ impl WebSpec {
             Flown::PerMetre(number) => 1.0 / number as f64,
             Flown::Auto => PITCH * case.smallest_length_scale(),
         };
-        let (sheet, pitch) = (on.sheet.clone(), on.pitches * pitch);
+        let (sheet, pitch) = (&on.sheet, on.pitches * pitch);
         let of_web = spec.filaments.count(&self.sheet) as f64;
         let all = of_web * sheet.width / self.sheet.width;
         // An even number, so that every second one is at an even pitch as well.
@@ -100,7 +90,7 @@ impl WebSpec {
         let is_few = |of_all: f64| LEAST_SAVING * count as f64 <= of_all;
         let (filaments, arrangement) = match &spec.filaments {
             Filaments::AtRandom { .. } => {
-                (Filaments::Rows(vec![even_row(&sheet, count, 0.0)]), Arrangement::AtRandom)
+                (Filaments::Rows(vec![even_row(sheet, count, 0.0)]), Arrangement::AtRandom)
             }
             Filaments::Slot { depth, .. } => {
                 let per_metre = count as f64 / sheet.width;
@@ -111,16 +101,14 @@ impl WebSpec {
                 if !rows.iter().all(|row| is_few(row.filaments as f64 * share)) {
                     return None;
                 }
-                let few = rows.iter().map(|row| even_row(&sheet, count, row.md));
+                let few = rows.iter().map(|row| even_row(sheet, count, row.md));
                 (Filaments::Rows(few.collect()), Arrangement::Rows)
             }
         };
         if !is_few(all.min(of_web)) || (count as usize) < FEWEST_OF_FEW {
             return None;
         }
-        let place = |[z, y]: [f64; 2]| Place { y, z };
-        let places: Vec<Place> =
-            inlets(&sheet, self.seed, layer, &filaments).into_iter().map(place).collect();
+        let places = inlets(sheet, self.seed, layer, &filaments);
         let rows = match arrangement {
             Arrangement::Slot | Arrangement::AtRandom => vec![(0..places.len()).collect()],
             Arrangement::Rows => rows(&places),
@@ -128,11 +116,11 @@ impl WebSpec {
         let slot = match &spec.filaments {
             Filaments::Slot { depth, .. } => {
                 let of_all = Filaments::Slot { per_metre: all / sheet.width, depth: *depth };
-                inlets(&sheet, self.seed, layer, &of_all).into_iter().map(place).collect()
+                inlets(sheet, self.seed, layer, &of_all)
             }
             Filaments::Rows(_) | Filaments::AtRandom { .. } => Vec::new(),
         };
-        Some(FewFlight { sheet, places, few: FewPlan { rows, arrangement, all, slot, pairs: on.pairs } })
+        Some((places, FewPlan { rows, arrangement, all, slot, pairs: on.pairs }))
     }
 
     /// Whether a few filaments of each layer lay the whole sheet of the web, as all of them would, in the same air.
@@ -199,7 +187,7 @@ impl FewPlan {
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     pub(super) fn tell(
         &self,
-        (number, sheet, blocks): (usize, &Sheet, [usize; 2]),
+        (sheet, blocks): (&Sheet, [usize; 2]),
         (beam, flown): (&Beam<'_>, &BeamFindings),
         curves: Option<&FlownCurves>,
         by: (usize, &AtomicBool),
@@ -209,13 +197,13 @@ impl FewPlan {
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
         let with_pitches = |told: LayerFew| LayerFew { usual_pitch, pitch_of_all, ..told };
         let Some(curves) = curves else {
-            let told = filaments.tell(number, None, by.0)?;
+            let told = filaments.tell(None, by.0)?;
             return Ok(with_pitches(LayerFew { correlation: f64::NAN, ..told }));
         };
         let covariances = Covariances::fit(curves, by.0);
         let filled =
             self.filled((sheet, flown.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
-        let told = filaments.tell(number, Some(&filled), by.0)?;
+        let told = filaments.tell(Some(&filled), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
         Ok(with_pitches(LayerFew { correlation: correlation[0].min(correlation[1]), ..told }))
     }

@@ -1,0 +1,199 @@
+//! The fibres of each layer: flown in one air, or paths of a surrogate whose numbers are known.
+//!
+//! ```text
+//! case → beam → laid points of each filament → the web, and the surrogate identified in some of the curves
+//!             → of a few filaments: what they say of all, and all filaments that follow from them
+//! ```
+
+use super::few::FlownSheet;
+use super::layer_beam::{LayerBeam, beam_on};
+use super::{BeamControl, BeamFindings};
+use crate::ground::{Error, Isa};
+use crate::simulation::{Flown, LaydownSource, WebSpec};
+use crate::web::map::{Doubt, Findings, blocks_on, find_laid, lay, pieces};
+use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, LayControl, Map, TRIED, TimeSpent, Web};
+use std::mem::take;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64};
+
+/// The flights of a case, to be watched.
+#[derive(Clone, Copy, Debug)]
+pub struct Flights<'a> {
+    /// Path of the case.
+    pub path: &'a Path,
+    /// Number of fibres.
+    pub fibres: u64,
+    /// Steps of all fibres that have been done.
+    pub done: &'a AtomicU64,
+    /// Their number at the end; where it is not known yet, about so many.
+    pub steps: u64,
+    /// Time of a step [s].
+    pub time_step: f64,
+}
+
+/// Shows the progress of a case's flights while it does the work that it is given.
+pub(crate) type ProgressDisplay<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
+
+/// A web with its fibres.
+#[derive(Clone, Debug)]
+pub struct FlownWeb {
+    /// The web.
+    pub web: Web,
+    /// What filaments in one air have laid; None of a web that is still to be laid.
+    laid: Option<LaidWeb>,
+}
+
+/// Makes the fibres of the layers.
+pub struct Flyer<'a> {
+    pub(super) threads: usize,
+    pub(super) stop: &'a AtomicBool,
+    follow: ProgressDisplay<'a>,
+}
+
+impl std::fmt::Debug for Flyer<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Flyer").field("threads", &self.threads).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Flyer<'a> {
+    /// * `stop` – set from elsewhere to stop early
+    pub const fn new(threads: usize, stop: &'a AtomicBool, follow: ProgressDisplay<'a>) -> Self {
+        Self { threads, stop, follow }
+    }
+
+    /// A web and its fibres. Filaments that fly in one air have laid it then.
+    ///
+    /// # Errors
+    /// If the fibres cannot be flown, have laid nothing, or spread too far for the sheet; and if it is stopped.
+    pub fn web(&self, spec: &WebSpec) -> Result<FlownWeb, Error> {
+        let (fibres, laid) = if spec.flies() {
+            let (fibres, laid) = self.fly_together(spec)?;
+            (fibres, Some(laid))
+        } else {
+            let known = spec.layers.iter().filter_map(|layer| match layer.source {
+                LaydownSource::Surrogate(surrogate) => Some(Fibres::Surrogate(surrogate)),
+                LaydownSource::Case { .. } => None,
+            });
+            (known.collect(), None)
+        };
+        Ok(FlownWeb { web: spec.web(fibres), laid })
+    }
+
+    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A
+    /// few curves of each layer are kept, which say what independent filaments would give.
+    fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<Fibres>, LaidWeb), Error> {
+        if let Some(problem) = spec.air_beyond_memory() {
+            return Err(vec![problem].into());
+        }
+        let beams = (0..spec.layers.len()).map(|number| beam_on(spec, number, None));
+        let beams = beams.collect::<Result<Vec<_>, _>>()?;
+        let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
+        let canvas = Canvas::new(&spec.sheet, &elements, beams.iter().map(LayerBeam::basis_weight).sum())?;
+        let (mut fibres, mut flown, by) = (Vec::new(), Vec::new(), (self.threads, self.stop));
+        for (number, layer) in beams.into_iter().enumerate() {
+            let brush = Brush::new(&canvas, layer.beam().element_mass(), spec.titres(number));
+            let (layer, mut found, curves) = self.fly_until_told(spec, (number, layer), &brush)?;
+            let (mut of_layer, back) = (take(&mut found.layer), found.back);
+            let gathered = layer.gather(found, self.threads)?;
+            // In machine direction the sheet is not closed.
+            spec.check_spreads([0.0, gathered.numbers[1].mean])?;
+            if let (Some(curves), Some(few)) = (curves, &mut of_layer.few) {
+                let filled = layer.fill_in((spec, number), (&curves, back), &brush, by)?;
+                (of_layer.strands, few.missing) = filled;
+            }
+            fibres.push(Fibres::Flown(Arc::new(gathered)));
+            flown.push(of_layer);
+        }
+        Ok((fibres, LaidWeb { flown, ..canvas.finish()? }))
+    }
+
+    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
+    /// tell what all do. The curves of a few filaments are returned too.
+    fn fly_until_told<'b>(
+        &self,
+        spec: &'b WebSpec,
+        (number, mut layer): (usize, LayerBeam<'b>),
+        on: &Brush<'_>,
+    ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
+        let (mut flights, mut spent) = (0, TimeSpent::default());
+        let mut sheet = spec.flown_sheet(number, None);
+        loop {
+            let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
+            spent.whole += flown.layer.spent.whole;
+            spent.in_parallel += flown.layer.spent.in_parallel;
+            flown.layer.spent = spent;
+            let Some(few) = &layer.few else { return Ok((layer, flown, None)) };
+            let (beam, on) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
+            let curves = few.curves(&layer.sheet, &beam, &flown)?;
+            let told = few.tell(on, (&beam, &flown), Some(&curves), (self.threads, self.stop))?;
+            flights += 1;
+            sheet = sheet.map(FlownSheet::finer);
+            let more = told.doubt().is_some() && spec.flown == Flown::Auto && flights < TRIED.len();
+            let more = more.then(|| beam_on(spec, number, sheet.as_ref())).transpose()?;
+            let Some(more) = more.filter(|more| more.few.is_some()) else {
+                // The strands of all filaments are found when they are drawn.
+                (flown.layer.few, flown.layer.strands) = (Some(told), Vec::new());
+                return Ok((layer, flown, Some(curves)));
+            };
+            layer = more;
+        }
+    }
+
+    /// Flies a layer and shows the progress.
+    ///
+    /// * `on` – what lays an element of fibre; None if only a few are flown
+    fn fly_layer(
+        &self,
+        layer: &LayerBeam<'_>,
+        spec: &WebSpec,
+        on: Option<&Brush<'_>>,
+    ) -> Result<BeamFindings, Error> {
+        let (beam, done) = (layer.beam(), AtomicU64::new(0));
+        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
+        let flights = Flights {
+            path: layer.path,
+            fibres: layer.places.len() as u64,
+            done: &done,
+            steps: beam.steps(&layer.sheet),
+            time_step: beam.case.run.time_step,
+        };
+        let mut flown = Err(Error::Interrupted);
+        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
+        flown
+    }
+}
+
+impl FlownWeb {
+    /// What must be known of the numbers of this web before they are believed.
+    pub fn doubts(&self, findings: &Findings) -> Vec<Doubt> {
+        findings.doubts(&self.web)
+    }
+
+    /// Pieces of filaments that are still to be laid.
+    ///
+    /// # Errors
+    /// If the web cannot be laid.
+    pub fn pieces(&self) -> Result<u64, Error> {
+        if self.laid.is_some() { Ok(0) } else { pieces(&self.web) }
+    }
+
+    /// Lays the web, unless it has been laid, and looks at nothing but its map.
+    ///
+    /// # Errors
+    /// If the web cannot be laid, or if it is stopped.
+    pub fn map(&mut self, by: LayControl<'_>) -> Result<Map, Error> {
+        let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
+        Ok(laid.map)
+    }
+
+    /// Lays the web, unless it has been laid, and looks at it.
+    ///
+    /// # Errors
+    /// If the web cannot be laid, or if it is stopped.
+    pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
+        let laid = self.laid.take();
+        find_laid(&self.web, laid, by)
+    }
+}
