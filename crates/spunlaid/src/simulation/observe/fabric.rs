@@ -5,6 +5,12 @@ use super::{Figure, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit
 use crate::web::Known::Exact;
 use crate::web::{Fabric, FabricPatch, Marked, Streak, Strips};
 
+type OfFabric = Measure<Fabric>;
+type OfPatch = Measure<FabricPatch>;
+type OfStrips = Measure<Strips>;
+type OfPlace = Measure<Marked>;
+type OfStreak = Measure<Streak>;
+
 const THIN_PLACES: Figure =
     figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin places");
 const WEAKEST: Figure =
@@ -14,15 +20,15 @@ const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 
 /// The numbers of a whole fabric.
 pub const OF_FABRICS: &[Measure<Fabric>] = &[
-    Measure::new("width_m", "Width", MILLIMETRES, Told(|fabric: &Fabric| Some(Exact(fabric.width))))
+    OfFabric::new("width_m", "Width", MILLIMETRES, Told(|fabric| Some(Exact(fabric.width))))
         .meaning("width of the part of the web whose numbers these are"),
-    Measure::new("trim_m", "Trim", MILLIMETRES, Told(|fabric: &Fabric| fabric.trim.map(Exact)))
+    OfFabric::new("trim_m", "Trim", MILLIMETRES, Told(|fabric| fabric.trim.map(Exact)))
         .meaning("what is cut off of the web at both edges together"),
-    Measure::new(
+    OfFabric::new(
         "usable_width_m",
         "Width within the tolerance of the weight",
         MILLIMETRES,
-        Told(|fabric: &Fabric| Some(Exact(fabric.usable?.width))),
+        Told(|fabric| Some(Exact(fabric.usable?.width))),
     )
     .short("Width within tolerance")
     .meaning(
@@ -30,18 +36,18 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
          the mean of the middle half",
     )
     .named("usable_width"),
-    Measure::new(
+    OfFabric::new(
         "usable_trim",
         "Trim to that width",
         PERCENT,
-        Told(|fabric: &Fabric| Some(Exact(fabric.usable?.trim))),
+        Told(|fabric| Some(Exact(fabric.usable?.trim))),
     )
     .meaning("what is cut off for it, as a share of the web"),
-    Measure::new(
+    OfFabric::new(
         "stiffness_ratio",
         "Stiffness MD/CD, of the directions alone",
         RATIO,
-        Told(|fabric: &Fabric| fabric.stiffness_ratio),
+        Told(|fabric| fabric.stiffness_ratio),
     )
     .short("Stiffness MD/CD")
     .meaning(
@@ -49,7 +55,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
          without curl within a piece and bonds",
     )
     .named("stiffness_ratio"),
-    Measure::new("bare_area", "Bare area", PERCENT, Told(|fabric: &Fabric| fabric.bare))
+    OfFabric::new("bare_area", "Bare area", PERCENT, Told(|fabric| fabric.bare))
         .meaning(
             "share of the area that no fibre covers, of round fibres that lie independently within 2 mm: \
          bonds lower it, ropes raise it",
@@ -57,19 +63,19 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
         .named("bare_area")
         .main()
         .figure(&figure("bare_area", "Bare area", "bare area")),
-    Measure::new(
+    OfFabric::new(
         "solid_fraction",
         "Share of the volume that is fibre",
         PERCENT,
-        Told(|fabric: &Fabric| Some(Exact(fabric.air?.solid))),
+        Told(|fabric| Some(Exact(fabric.air?.solid))),
     )
     .short("Fibre by volume")
     .meaning("volume of the fibre over that of the fabric"),
-    Measure::new(
+    OfFabric::new(
         "air_permeability_m_s",
         "Air permeability",
         Unit { shown: "m/s", per_si: 1.0 },
-        Told(|fabric: &Fabric| Some(fabric.air?.permeability)),
+        Told(|fabric| Some(fabric.air?.permeability)),
     )
     .meaning(
         "mean speed of the air at the pressure of the test, over places of 2 mm, from half the \
@@ -78,23 +84,23 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
     )
     .named("air_permeability")
     .figure(&figure("air_permeability", "Air permeability", "air permeability")),
-    Measure::new(
+    OfFabric::new(
         "air_permeability_cv",
         "Spread of the air permeability over 20 cm²",
         PERCENT,
-        Told(|fabric: &Fabric| fabric.air?.spread),
+        Told(|fabric| fabric.air?.spread),
     )
     .short("Its spread over 20 cm²")
     .meaning("coefficient of variation of the speed of the air over areas of 20 cm², by the clouds")
     .named("air_permeability_cv"),
-    Measure::new("opacity", "Opacity", PERCENT, Told(|fabric: &Fabric| Some(fabric.opacity?.mean)))
+    OfFabric::new("opacity", "Opacity", PERCENT, Told(|fabric| Some(fabric.opacity?.mean)))
         .meaning("mean opacity of patches of 2 mm, from the measured one")
         .named("opacity"),
-    Measure::new(
+    OfFabric::new(
         "opacity_spread",
         "Spread of the opacity over 2 mm",
         PERCENT,
-        Told(|fabric: &Fabric| Some(fabric.opacity?.spread)),
+        Told(|fabric| Some(fabric.opacity?.spread)),
     )
     .short("Its spread over 2 mm")
     .meaning("standard deviation of the opacity over patches of 2 mm, by the clouds")
@@ -103,96 +109,76 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
 
 /// The numbers of the patches of one size.
 pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
-    Measure::new("patch_m", "Patch", MILLIMETRES, Told(|patch: &FabricPatch| Some(Exact(patch.thin.patch))))
+    OfPatch::new("patch_m", "Patch", MILLIMETRES, Told(|patch| Some(Exact(patch.thin.patch))))
         .meaning("side of the square patches"),
-    Measure::new("formation", "Formation number", RATIO, Told(|patch: &FabricPatch| patch.formation))
+    OfPatch::new("formation", "Formation number", RATIO, Told(|patch| patch.formation))
         .meaning("CV² over that of straight fibres at random, which have 1; a cloudy web has more")
         .kept("formation_#_mm", "formation_#_mm"),
-    Measure::new(
+    OfPatch::new(
         "lighter_than_50_percent_per_m2",
         "Lighter than 50 %",
         PER_SQUARE_METRE,
-        Told(|patch: &FabricPatch| Some(patch.thin.lighter[0])),
+        Told(|patch| Some(patch.thin.lighter[0])),
     )
     .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_50_percent_#_mm", "lighter_than_50_percent_#_mm_per_m2"),
-    Measure::new(
+    OfPatch::new(
         "lighter_than_70_percent_per_m2",
         "Lighter than 70 %",
         PER_SQUARE_METRE,
-        Told(|patch: &FabricPatch| Some(patch.thin.lighter[1])),
+        Told(|patch| Some(patch.thin.lighter[1])),
     )
     .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_70_percent_#_mm", "lighter_than_70_percent_#_mm_per_m2"),
-    Measure::new(
+    OfPatch::new(
         "lighter_than_80_percent_per_m2",
         "Lighter than 80 %",
         PER_SQUARE_METRE,
-        Told(|patch: &FabricPatch| Some(patch.thin.lighter[2])),
+        Told(|patch| Some(patch.thin.lighter[2])),
     )
     .meaning("patches lighter than this share of the mean, per area")
     .kept("lighter_than_80_percent_#_mm", "lighter_than_80_percent_#_mm_per_m2")
     .main()
     .figure(&THIN_PLACES)
     .series("# mm"),
-    Measure::new(
+    OfPatch::new(
         "heavier_than_130_percent_per_m2",
         "Heavier than 130 %",
         PER_SQUARE_METRE,
-        Told(|patch: &FabricPatch| Some(patch.thin.heavier)),
+        Told(|patch| Some(patch.thin.heavier)),
     )
     .meaning("patches heavier than this share of the mean, per area")
     .kept("heavier_than_130_percent_#_mm", "heavier_than_130_percent_#_mm_per_m2"),
-    Measure::new(
-        "weight_of_1_percent",
-        "Lightest 1 %",
-        PERCENT,
-        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[0])),
-    )
-    .meaning("weight over the mean below which this share of the patches lies")
-    .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
-    Measure::new(
-        "weight_of_5_percent",
-        "Lightest 5 %",
-        PERCENT,
-        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[1])),
-    )
-    .meaning("weight over the mean below which this share of the patches lies"),
-    Measure::new(
-        "median_weight",
-        "Median",
-        PERCENT,
-        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[2])),
-    )
-    .meaning("weight over the mean below which this share of the patches lies"),
-    Measure::new(
+    OfPatch::new("weight_of_1_percent", "Lightest 1 %", PERCENT, Told(|patch| Some(patch.thin.quantiles[0])))
+        .meaning("weight over the mean below which this share of the patches lies")
+        .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
+    OfPatch::new("weight_of_5_percent", "Lightest 5 %", PERCENT, Told(|patch| Some(patch.thin.quantiles[1])))
+        .meaning("weight over the mean below which this share of the patches lies"),
+    OfPatch::new("median_weight", "Median", PERCENT, Told(|patch| Some(patch.thin.quantiles[2])))
+        .meaning("weight over the mean below which this share of the patches lies"),
+    OfPatch::new(
         "weight_of_95_percent",
         "Heaviest 5 %",
         PERCENT,
-        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[3])),
+        Told(|patch| Some(patch.thin.quantiles[3])),
     )
     .meaning("weight over the mean below which this share of the patches lies"),
-    Measure::new(
+    OfPatch::new(
         "weight_of_99_percent",
         "Heaviest 1 %",
         PERCENT,
-        Told(|patch: &FabricPatch| Some(patch.thin.quantiles[4])),
+        Told(|patch| Some(patch.thin.quantiles[4])),
     )
     .meaning("weight over the mean below which this share of the patches lies"),
 ];
 
 /// The numbers of the strips in one direction.
 pub const OF_STRIPS: &[Measure<Strips>] = &[
-    Measure::new("strips", "Strips", RATIO, Told(|strips: &Strips| Some(Exact(strips.count as f64))))
+    OfStrips::new("strips", "Strips", RATIO, Told(|strips| Some(Exact(strips.count as f64))))
         .meaning("number of strips on the sheet"),
-    Measure::new(
-        "section_m",
-        "Section",
-        MILLIMETRES,
-        Told(|strips: &Strips| Some(Exact(strips.size.section))),
-    )
-    .meaning("length of a section of a strip, in whole cells"),
-    Measure::new("weakest_section", "Weakest section", PERCENT, Told(|strips: &Strips| Some(strips.weakest)))
+    OfStrips::new("section_m", "Section", MILLIMETRES, Told(|strips| Some(Exact(strips.size.section))))
+        .meaning("length of a section of a strip, in whole cells"),
+    OfStrips::new("weakest_section", "Weakest section", PERCENT, Told(|strips| Some(strips.weakest)))
         .meaning(
             "weight of the lightest section of a strip over the mean of the strip, the mean of all strips",
         )
@@ -200,39 +186,34 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
         .main()
         .figure(&WEAKEST)
         .series("#"),
-    Measure::new(
+    OfStrips::new(
         "weakest_section_cv",
         "Scatter of the weakest section",
         PERCENT,
-        Told(|strips: &Strips| strips.scatter),
+        Told(|strips| strips.scatter),
     )
     .meaning("standard deviation of the weakest section over its mean, from strip to strip"),
-    Measure::new(
+    OfStrips::new(
         "weakest_section_of_5_percent",
         "5 % of strips are below",
         PERCENT,
-        Told(|strips: &Strips| strips.low),
+        Told(|strips| strips.low),
     )
     .meaning("the weakest section below which one strip in twenty is"),
-    Measure::new(
-        "sections_cv",
-        "Scatter of all sections",
-        PERCENT,
-        Told(|strips: &Strips| Some(strips.sections)),
-    )
-    .meaning("standard deviation of a section about the mean of its strip, over that mean")
-    .kept("sections_cv_#", "sections_cv_#"),
+    OfStrips::new("sections_cv", "Scatter of all sections", PERCENT, Told(|strips| Some(strips.sections)))
+        .meaning("standard deviation of a section about the mean of its strip, over that mean")
+        .kept("sections_cv_#", "sections_cv_#"),
 ];
 
 /// The numbers of one of the thinnest places.
 pub const OF_THINNEST: &[Measure<Marked>] = &[
-    Measure::new("across_m", "Across", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[0]))))
+    OfPlace::new("across_m", "Across", MILLIMETRES, Told(|place| Some(Exact(place.middle()[0]))))
         .meaning("middle of the patch across the sheet, from the edge of the map")
         .digits(5),
-    Measure::new("along_m", "Along", MILLIMETRES, Told(|place: &Marked| Some(Exact(place.middle()[1]))))
+    OfPlace::new("along_m", "Along", MILLIMETRES, Told(|place| Some(Exact(place.middle()[1]))))
         .meaning("middle of the patch along the sheet, from its beginning")
         .digits(5),
-    Measure::new("weight", "Weight", PERCENT, Told(|place: &Marked| Some(Exact(place.weight)))).meaning(
+    OfPlace::new("weight", "Weight", PERCENT, Told(|place| Some(Exact(place.weight)))).meaning(
         "weight of the patch over the mean: the lightest patch, then the lightest ones that are at \
          least half a side apart",
     ),
@@ -240,21 +221,20 @@ pub const OF_THINNEST: &[Measure<Marked>] = &[
 
 /// The numbers of the streak that a defect of the line leaves.
 pub const OF_STREAKS: &[Measure<Streak>] = &[
-    Measure::new("place_m", "Place", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.place))))
+    OfStreak::new("place_m", "Place", MILLIMETRES, Told(|streak| Some(Exact(streak.place))))
         .meaning("middle of the streak across the sheet"),
-    Measure::new("holes", "Holes", RATIO, Told(|streak: &Streak| Some(Exact(streak.holes as f64))))
+    OfStreak::new("holes", "Holes", RATIO, Told(|streak| Some(Exact(streak.holes as f64))))
         .meaning("holes that make it"),
-    Measure::new("band_m", "Band", MILLIMETRES, Told(|streak: &Streak| Some(Exact(streak.band))))
+    OfStreak::new("band_m", "Band", MILLIMETRES, Told(|streak| Some(Exact(streak.band))))
         .meaning("width over which it is looked for"),
-    Measure::new("dip", "Dip", PERCENT, Told(|streak: &Streak| Some(Exact(streak.dip)))).meaning(
+    OfStreak::new("dip", "Dip", PERCENT, Told(|streak| Some(Exact(streak.dip)))).meaning(
         "share by which the band is lighter than the web beside it, by the missing filaments; below \
          zero where it is heavier",
     ),
-    Measure::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak: &Streak| streak.found))
+    OfStreak::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak| streak.found))
         .meaning("the same in this map, with its error by chance; a dip of more than two errors can be seen"),
-    Measure::new("length_m", "Shows from a length of", METRES, Told(|streak: &Streak| streak.length))
-        .meaning(
-            "length of a scan from which on the dip exceeds the 95 % bound of chance; none where the \
+    OfStreak::new("length_m", "Shows from a length of", METRES, Told(|streak| streak.length)).meaning(
+        "length of a scan from which on the dip exceeds the 95 % bound of chance; none where the \
              web has streaks of its own as large, or is too small",
-        ),
+    ),
 ];

@@ -5,6 +5,9 @@ use crate::air::{self, Analysis, Component};
 use crate::ground::Dimension;
 use Formula::{Interval, Number};
 
+type OfRecord = Measure<Analysis>;
+type OfComponent = Measure<Component>;
+
 /// The measures of a record, in the order of the tables: what the `[air]` of a case needs.
 pub const OF_RECORDS: &[Measure<Analysis>] = &[
     result("mean_velocity_m_s", "Mean velocity", METRES_PER_SECOND, |record| record.mean_velocity)
@@ -38,49 +41,39 @@ pub const OF_RECORDS: &[Measure<Analysis>] = &[
 /// The measures of each component of a record, in the order of the tables; what has no label stands in
 /// `analysis.json` alone.
 pub const OF_COMPONENTS: &[Measure<Component>] = &[
-    Measure::<Component>::new("mean_m_s", "Mean", METRES_PER_SECOND, Interval(|found| found.mean))
+    OfComponent::new("mean_m_s", "Mean", METRES_PER_SECOND, Interval(|found| found.mean))
         .meaning("mean over the record"),
-    Measure::<Component>::new("rms_m_s", "Rms", METRES_PER_SECOND, Interval(|found| found.rms))
+    OfComponent::new("rms_m_s", "Rms", METRES_PER_SECOND, Interval(|found| found.rms))
         .meaning("root mean square of the fluctuation about the mean"),
-    Measure::<Component>::new("skewness", "Skewness", RATIO, Interval(|found| found.skewness))
+    OfComponent::new("skewness", "Skewness", RATIO, Interval(|found| found.skewness))
         .meaning("0 for a Gaussian"),
-    Measure::<Component>::new("flatness", "Flatness", RATIO, Interval(|found| found.flatness))
+    OfComponent::new("flatness", "Flatness", RATIO, Interval(|found| found.flatness))
         .meaning("3 for a Gaussian"),
-    Measure::<Component>::new("minimum_m_s", "", METRES_PER_SECOND, Number(|found| found.range.0))
+    OfComponent::new("minimum_m_s", "", METRES_PER_SECOND, Number(|found| found.range.0))
         .meaning("smallest sample"),
-    Measure::<Component>::new("maximum_m_s", "", METRES_PER_SECOND, Number(|found| found.range.1))
+    OfComponent::new("maximum_m_s", "", METRES_PER_SECOND, Number(|found| found.range.1))
         .meaning("largest sample"),
-    Measure::<Component>::new(
-        "integral_time_s",
-        "Integral time",
-        MILLISECONDS,
-        Interval(|found| found.integral_time),
-    )
-    .meaning("integral of the autocorrelation")
-    .remark(|found| {
-        let time = |s: f64| Dimension::Time.pretty_to(s, 3);
-        Some(format!(
-            "{}, here {}; by the plateau of the spectrum {}",
-            found.integral.words(),
-            time(found.autocorrelation.limit),
-            time(found.flat.integral_time())
-        ))
-    }),
-    Measure::<Component>::new(
-        "integral_limit_s",
-        "",
-        MILLISECONDS,
-        Number(|found| found.autocorrelation.limit),
-    )
-    .meaning("lag at which that integral ends"),
-    Measure::<Component>::new(
+    OfComponent::new("integral_time_s", "Integral time", MILLISECONDS, Interval(|found| found.integral_time))
+        .meaning("integral of the autocorrelation")
+        .remark(|found| {
+            let time = |s: f64| Dimension::Time.pretty_to(s, 3);
+            Some(format!(
+                "{}, here {}; by the plateau of the spectrum {}",
+                found.integral.words(),
+                time(found.autocorrelation.limit),
+                time(found.flat.integral_time())
+            ))
+        }),
+    OfComponent::new("integral_limit_s", "", MILLISECONDS, Number(|found| found.autocorrelation.limit))
+        .meaning("lag at which that integral ends"),
+    OfComponent::new(
         "integral_time_of_plateau_s",
         "",
         MILLISECONDS,
         Number(|found| found.flat.integral_time()),
     )
     .meaning("integral time by the plateau of the spectrum"),
-    Measure::<Component>::new(
+    OfComponent::new(
         "plateau_m2_s2_per_hz",
         "Plateau of the spectrum",
         Unit { shown: "10⁻³ (m/s)²/Hz", per_si: 1e3 },
@@ -90,23 +83,18 @@ pub const OF_COMPONENTS: &[Measure<Component>] = &[
     .remark(|found| {
         Some(format!("mean density up to {}", Dimension::Frequency.pretty_to(found.flat.until, 3)))
     }),
-    Measure::<Component>::new("plateau_until_hz", "", HERTZ, Number(|found| found.flat.until))
+    OfComponent::new("plateau_until_hz", "", HERTZ, Number(|found| found.flat.until))
         .meaning("where the plateau ends"),
-    Measure::<Component>::new(
-        "cutoff_frequency_hz",
-        "Cut-off frequency",
-        HERTZ,
-        Interval(|found| found.flat.cutoff),
-    )
-    .meaning("variance over plateau"),
-    Measure::<Component>::new(
+    OfComponent::new("cutoff_frequency_hz", "Cut-off frequency", HERTZ, Interval(|found| found.flat.cutoff))
+        .meaning("variance over plateau"),
+    OfComponent::new(
         "drift_of_mean_m_s",
         "Drift of the mean",
         METRES_PER_SECOND,
         Interval(|found| found.mean_trend.change),
     )
     .meaning("from start to end, by a straight line"),
-    Measure::<Component>::new(
+    OfComponent::new(
         "drift_of_rms_m_s",
         "Drift of the rms",
         METRES_PER_SECOND,
@@ -121,7 +109,7 @@ const fn result(
     unit: Unit,
     found: fn(&Analysis) -> air::Interval,
 ) -> Measure<Analysis> {
-    Measure::<Analysis>::new(column, label, unit, Interval(found))
+    OfRecord::new(column, label, unit, Interval(found))
 }
 
 const MILLISECONDS: Unit = Unit { shown: "ms", per_si: 1e3 };

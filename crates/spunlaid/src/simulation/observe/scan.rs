@@ -4,20 +4,18 @@ use super::{ErrorRole, Formula, Measure, PERCENT, RATIO, Unit};
 use crate::web::scan::{Findings, PatchFindings};
 use Formula::{Count, Known, Number};
 
+type OfScan = Measure<Findings>;
+type OfPatch = Measure<PatchFindings>;
+
 /// The measures of a scan, in the order of `summary.json`; what has no label stands there alone.
 pub const OF_SCANS: &[Measure<Findings>] = &[
-    Measure::<Findings>::new("white", "Grey level of the lamp without web", RATIO, Known(|scan| scan.white))
+    OfScan::new("white", "Grey level of the lamp without web", RATIO, Known(|scan| scan.white))
         .meaning("grey level of the lamp without web; none with a picture of the lamp")
         .digits(5),
-    Measure::<Findings>::new(
-        "mean_density",
-        "Mean optical density ln(white/level)",
-        RATIO,
-        Known(|scan| scan.density),
-    )
-    .meaning("mean over the web of ln(white/level)")
-    .digits(3),
-    Measure::<Findings>::new(
+    OfScan::new("mean_density", "Mean optical density ln(white/level)", RATIO, Known(|scan| scan.density))
+        .meaning("mean over the web of ln(white/level)")
+        .digits(3),
+    OfScan::new(
         "shading",
         "Shading that was taken out, brightest over darkest",
         PERCENT,
@@ -25,15 +23,15 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
     )
     .meaning("brightest over darkest place of the lamp, if shading was taken out")
     .digits(2),
-    Measure::<Findings>::new("noise", "", RATIO, Known(|scan| scan.noise))
+    OfScan::new("noise", "", RATIO, Known(|scan| scan.noise))
         .meaning("standard deviation of the noise of a pixel, in levels, if it was given and taken out"),
-    Measure::<Findings>::new("filled_pixels", "", RATIO, Count(|scan| scan.pixels.filled as u64))
+    OfScan::new("filled_pixels", "", RATIO, Count(|scan| scan.pixels.filled as u64))
         .meaning("pixels without a value, black ones included, filled in along their row"),
-    Measure::<Findings>::new("saturated_pixels", "", RATIO, Count(|scan| scan.pixels.saturated as u64))
+    OfScan::new("saturated_pixels", "", RATIO, Count(|scan| scan.pixels.saturated as u64))
         .meaning("pixels of the largest grey level, where there may have been more light"),
-    Measure::<Findings>::new("lighter_pixels", "", RATIO, Count(|scan| scan.pixels.lighter as u64))
+    OfScan::new("lighter_pixels", "", RATIO, Count(|scan| scan.pixels.lighter as u64))
         .meaning("pixels lighter than the lamp, which count as empty"),
-    Measure::<Findings>::new(
+    OfScan::new(
         "cut_off_m2",
         "Cut off beside the web",
         SQUARE_MILLIMETRES,
@@ -41,19 +39,19 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
     )
     .meaning("area beside the web that was cut off")
     .digits(3),
-    Measure::<Findings>::new("bare_lamp", "", RATIO, Known(|scan| scan.aside.bare))
+    OfScan::new("bare_lamp", "", RATIO, Known(|scan| scan.aside.bare))
         .meaning("median grey level of the bare lamp beside the web"),
-    Measure::<Findings>::new("dark_spots", "", RATIO, Count(|scan| scan.aside.spots.len() as u64))
+    OfScan::new("dark_spots", "", RATIO, Count(|scan| scan.aside.spots.len() as u64))
         .meaning("dark spots on the web, which count for no patch"),
-    Measure::<Findings>::new("dark_spots_m2", "", SQUARE_MILLIMETRES, Number(|scan| scan.aside.masked))
+    OfScan::new("dark_spots_m2", "", SQUARE_MILLIMETRES, Number(|scan| scan.aside.masked))
         .meaning("area of the dark spots"),
 ];
 
 /// The measures of the patches of one size, in the order of `summary.json`, where the interval follows the first.
 pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
-    Measure::<PatchFindings>::new("cv", "CV", PERCENT, Number(|patch| patch.unevenness.cv))
+    OfPatch::new("cv", "CV", PERCENT, Number(|patch| patch.unevenness.cv))
         .meaning("coefficient of variation of the basis weight over square patches")
-        .errors(&[Measure::<PatchFindings>::new(
+        .errors(&[OfPatch::new(
             "cv_standard_error",
             "Error of the CV by chance",
             PERCENT,
@@ -61,19 +59,14 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
         )
         .meaning("standard error of the CV: another piece of the same web would have another CV")
         .role(ErrorRole::OfOne)]),
-    Measure::<PatchFindings>::new("cv_noise", "Noise of the pixels", PERCENT, Number(|patch| patch.noise))
+    OfPatch::new("cv_noise", "Noise of the pixels", PERCENT, Number(|patch| patch.noise))
         .meaning("CV of the noise of the camera: as given and taken out, or at most")
         .short("pixel noise")
         .digits(2),
-    Measure::<PatchFindings>::new(
-        "blur_of_a_pixel",
-        "Lost by one more pixel of blur",
-        PERCENT,
-        Known(|patch| patch.blur),
-    )
-    .meaning("share by which one more pixel of blur lowers the CV")
-    .short("lost by blur")
-    .digits(2),
+    OfPatch::new("blur_of_a_pixel", "Lost by one more pixel of blur", PERCENT, Known(|patch| patch.blur))
+        .meaning("share by which one more pixel of blur lowers the CV")
+        .short("lost by blur")
+        .digits(2),
 ];
 
 const SQUARE_MILLIMETRES: Unit = Unit { shown: "mm²", per_si: 1e6 };

@@ -6,6 +6,9 @@ use crate::web::map::{Findings, PatchFindings};
 use ErrorRole::{Further, OfOne};
 use Formula::{Known, Mean, Number};
 
+type OfWeb = Measure<Findings>;
+type OfPatch = Measure<PatchFindings>;
+
 /// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
 /// first, of the tables and of studies.
 pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
@@ -19,7 +22,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
                 .meaning("standard error of the CV: another piece of the same web would have another CV")
                 .kept("cv_#_mm_chance", "cv_#_mm_chance")
                 .role(OfOne),
-            Measure::<PatchFindings>::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
+            OfPatch::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
                 .meaning("degrees of freedom of the error by chance"),
             share("cv_flight_error", "Error of the CV by the few fibres", |patch| patch.whole_error().flight)
                 .meaning("standard error of the CV because only a few fibres were flown")
@@ -33,7 +36,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
         ]),
     share("cv_of_map", "", |patch| patch.filled)
         .meaning("CV of the map itself, in which filaments are filled in"),
-    Measure::<PatchFindings>::new(
+    OfPatch::new(
         "own_share",
         "",
         RATIO,
@@ -71,7 +74,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
 
 /// The measures of a whole web, in the order of `summary.json` and of studies.
 pub const OF_WEBS: &[Measure<Findings>] = &[
-    Measure::<Findings>::new(
+    OfWeb::new(
         "basis_weight_kg_m2",
         "Basis weight",
         Unit { shown: "g/m²", per_si: 1e3 },
@@ -82,7 +85,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
     .main()
     .elsewhere()
     .figure(&figure("basis_weight", "Basis weight", "basis weight")),
-    Measure::<Findings>::new(
+    OfWeb::new(
         "fibre_length_m",
         "Length of fibre",
         Unit { shown: "km", per_si: 1e-3 },
@@ -91,7 +94,7 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
     .meaning("length of all filaments on the web")
     .named("fibre_length")
     .elsewhere(),
-    Measure::<Findings>::new(
+    OfWeb::new(
         "orientation_md",
         "Orientation along MD",
         RATIO,
@@ -105,30 +108,20 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
          orientation",
     )
     .named("orientation_md"),
-    Measure::<Findings>::new("md_cd_ratio", "MD/CD", RATIO, Mean(|found| found.orientation.md_cd_ratio()))
+    OfWeb::new("md_cd_ratio", "MD/CD", RATIO, Mean(|found| found.orientation.md_cd_ratio()))
         .meaning("length of fibre along the machine direction over that across")
         .named("md_cd_ratio")
         .main()
         .figure(&figure("md_cd_ratio", "Ratio of fibre along MD and CD", "MD/CD ratio")),
-    Measure::<Findings>::new(
-        "sigma_md_m",
-        "Spread in MD",
-        MILLIMETRES,
-        Known(|found| Some(found.surrogate?.sigma_md)),
-    )
-    .meaning("spread of a filament in machine direction, of the first layer")
-    .named("sigma_md")
-    .elsewhere(),
-    Measure::<Findings>::new(
-        "sigma_cd_m",
-        "Spread in CD",
-        MILLIMETRES,
-        Known(|found| Some(found.surrogate?.sigma_cd)),
-    )
-    .meaning("spread of a filament in cross direction, of the first layer")
-    .named("sigma_cd")
-    .elsewhere(),
-    Measure::<Findings>::new(
+    OfWeb::new("sigma_md_m", "Spread in MD", MILLIMETRES, Known(|found| Some(found.surrogate?.sigma_md)))
+        .meaning("spread of a filament in machine direction, of the first layer")
+        .named("sigma_md")
+        .elsewhere(),
+    OfWeb::new("sigma_cd_m", "Spread in CD", MILLIMETRES, Known(|found| Some(found.surrogate?.sigma_cd)))
+        .meaning("spread of a filament in cross direction, of the first layer")
+        .named("sigma_cd")
+        .elsewhere(),
+    OfWeb::new(
         "noise_per_sqrt_m",
         "Noise of the direction",
         Unit { shown: "m^-½", per_si: 1.0 },

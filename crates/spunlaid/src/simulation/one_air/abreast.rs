@@ -6,15 +6,15 @@
 //!       → all fly for the same time, counted in what passes of the pattern → what they lay goes to their sinks
 //! ```
 
-use super::flying::Flying;
-use super::neighbours::Neighbours;
+use super::flying::{Flying, Sink};
 use super::pack::Reach;
 use super::{BLOCK, Beam, BeamControl, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Lateral, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
 use crate::ground::{Error, Fault, Vec3};
-use crate::web::{Brush, Edges, LayerFlown, Sheet, TimeSpent, Window};
+use crate::web::{Edges, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
+use std::slice::from_ref;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
@@ -22,17 +22,10 @@ use std::time::Instant;
 /// no CV from patches of 10 mm on, and hardly any change of it, but take as much time again.
 const HIGHEST: f64 = 8.0;
 
-/// What takes what the filaments of a beam lay.
-pub(super) struct Sink<'a> {
-    /// A window of the sheet, whose single fibres are kept.
-    pub(super) window: Window,
-    /// What draws an element of fibre; None to keep the curves of all filaments in place of it.
-    pub(super) on: Option<&'a Brush<'a>>,
-    pub(super) neighbours: Option<Neighbours>,
-}
-
-/// The airs of beams that are flown.
-pub(super) struct SharedAir {
+/// Beams that fly on one sheet, with their airs.
+pub(super) struct SharedAir<'a> {
+    beams: &'a [Beam<'a>],
+    sheet: &'a Sheet,
     airs: Vec<BeamAir>,
     /// Most memory that the airs which pass side by side take, unless a single one takes more [B].
     memory: f64,
@@ -70,58 +63,7 @@ pub(crate) fn fly_abreast(
 ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
-    fly(beams, (SharedAir::of(beams, (sheet, memory))?, sheet), sinks, by)
-}
-
-/// Flies beams in their airs until they have laid the sheet, or the belt that passes in the same time.
-pub(super) fn fly(
-    beams: &[Beam<'_>],
-    (air, sheet): (SharedAir, &Sheet),
-    mut sinks: Vec<Sink<'_>>,
-    by: BeamControl<'_>,
-) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
-    let (started, mut spent) = (Instant::now(), TimeSpent::default());
-    let beside = beams.iter().zip(&sinks);
-    let mut flying: Vec<_> = beside.map(|(beam, sink)| Flying::new(*beam, (sheet, sink.window))).collect();
-    let all = All { beams, airs: &air.airs, sheet };
-    let makers = (0..beams.len()).filter(|beam| air.airs[*beam].maker == *beam);
-    let mut waiting: VecDeque<Group> = makers.map(|maker| all.group(maker)).collect();
-    let memory = |group: &Group| air.airs[group.members[0]].memory;
-    let mut until = None;
-    while let Some(first) = waiting.pop_front() {
-        let mut needed = memory(&first);
-        let mut groups = vec![first];
-        while let Some(next) = waiting.front()
-            && needed + memory(next) <= air.memory
-        {
-            needed += memory(next);
-            groups.extend(waiting.pop_front());
-        }
-        let begun = Instant::now();
-        loop {
-            groups.retain(|group| group.members.iter().any(|beam| flies(&flying[*beam])));
-            let has_ended = match (groups.first(), until) {
-                (None, _) => true,
-                (Some(group), Some(until)) => group.time * group.pace >= until,
-                (Some(group), None) => all.is_laid_by(group, &flying),
-            };
-            if has_ended {
-                break;
-            }
-            make(&mut groups, by.threads);
-            all.advance(&groups, &mut flying, &mut sinks, by)?;
-        }
-        spent.in_parallel += begun.elapsed();
-        until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
-    }
-    spent.whole = started.elapsed();
-    let paces = air.airs.iter().map(|of_beam| all.pace(of_beam.maker) * of_beam.pace);
-    let finish = |((of_beam, sink), pace): ((Result<Flying<'_>, Error>, Sink<'_>), f64)| {
-        let neighbours = sink.neighbours.map_or_else(Vec::new, |together| together.correlations());
-        let layer = LayerFlown { neighbours, spent, ..LayerFlown::default() };
-        of_beam?.finish(BeamFindings { layer, pace, ..BeamFindings::default() })
-    };
-    Ok(flying.into_iter().zip(sinks).zip(paces).map(finish).collect())
+    SharedAir::of(beams, (sheet, memory))?.fly(sinks, by)
 }
 
 /// Whether a beam goes on.
@@ -156,15 +98,15 @@ pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
     beams.iter().map(|beam| memory_of_air(beam, &room)).fold(0.0, f64::max)
 }
 
-impl SharedAir {
+impl<'a> SharedAir<'a> {
     /// The air of one beam alone.
-    pub(super) fn of_one(beam: &Beam<'_>, sheet: &Sheet) -> Self {
+    pub(super) fn of_one(beam: &'a Beam<'a>, sheet: &'a Sheet) -> Self {
         let air = BeamAir { field: beam.field(sheet), maker: 0, pace: 1.0, memory: 0.0 };
-        Self { airs: vec![air], memory: f64::INFINITY }
+        Self { beams: from_ref(beam), sheet, airs: vec![air], memory: f64::INFINITY }
     }
 
     /// The airs of beams in one room, of which those with one pattern share one.
-    fn of(beams: &[Beam<'_>], (sheet, memory): (&Sheet, f64)) -> Result<Self, Error> {
+    fn of(beams: &'a [Beam<'a>], (sheet, memory): (&'a Sheet, f64)) -> Result<Self, Error> {
         let room = room_of(beams, sheet);
         let mut airs: Vec<BeamAir> = Vec::new();
         for (number, beam) in beams.iter().enumerate() {
@@ -191,7 +133,51 @@ impl SharedAir {
             });
             airs.push(BeamAir { field: Some(field), maker, pace, memory: memory_of_air(beam, &room) });
         }
-        Ok(Self { airs, memory })
+        Ok(Self { beams, sheet, airs, memory })
+    }
+
+    /// Flies the beams until they have laid the sheet, or the belt that passes in the same time.
+    pub(super) fn fly(
+        &self,
+        sinks: Vec<Sink<'_>>,
+        by: BeamControl<'_>,
+    ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+        let (started, mut spent) = (Instant::now(), TimeSpent::default());
+        let beside = self.beams.iter().zip(sinks);
+        let mut flying: Vec<_> = beside.map(|(beam, sink)| Flying::new(*beam, self.sheet, sink)).collect();
+        let makers = (0..self.beams.len()).filter(|beam| self.airs[*beam].maker == *beam);
+        let mut waiting: VecDeque<Group> = makers.map(|maker| self.group(maker)).collect();
+        let memory = |group: &Group| self.airs[group.members[0]].memory;
+        let mut until = None;
+        while let Some(first) = waiting.pop_front() {
+            let mut needed = memory(&first);
+            let mut groups = vec![first];
+            while let Some(next) = waiting.front()
+                && needed + memory(next) <= self.memory
+            {
+                needed += memory(next);
+                groups.extend(waiting.pop_front());
+            }
+            let begun = Instant::now();
+            loop {
+                groups.retain(|group| group.members.iter().any(|beam| flies(&flying[*beam])));
+                let has_ended = match (groups.first(), until) {
+                    (None, _) => true,
+                    (Some(group), Some(until)) => group.time * group.pace >= until,
+                    (Some(group), None) => self.is_laid_by(group, &flying),
+                };
+                if has_ended {
+                    break;
+                }
+                make(&mut groups, by.threads);
+                self.advance(&groups, &mut flying, by)?;
+            }
+            spent.in_parallel += begun.elapsed();
+            until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
+        }
+        spent.whole = started.elapsed();
+        let paces = self.airs.iter().map(|of_beam| self.pace(of_beam.maker) * of_beam.pace);
+        Ok(flying.into_iter().zip(paces).map(|(of_beam, pace)| of_beam?.finish(spent, pace)).collect())
     }
 }
 
@@ -210,14 +196,7 @@ struct Group {
     margin: f64,
 }
 
-/// All beams, with the fields of their airs.
-struct All<'a> {
-    beams: &'a [Beam<'a>],
-    airs: &'a [BeamAir],
-    sheet: &'a Sheet,
-}
-
-impl All<'_> {
+impl SharedAir<'_> {
     /// How many times as fast the pattern passes in the field of a beam as in that of the first one.
     fn pace(&self, maker: usize) -> f64 {
         self.airs[0].block() / self.airs[maker].block()
@@ -259,7 +238,6 @@ impl All<'_> {
         &self,
         groups: &[Group],
         flying: &mut [Result<Flying<'_>, Error>],
-        sinks: &mut [Sink<'_>],
         by: BeamControl<'_>,
     ) -> Result<(), Error> {
         let members = groups.iter().flat_map(|group| {
@@ -280,10 +258,8 @@ impl All<'_> {
         // A beam that cannot fly does not end the others.
         let reaches = try_each(by.threads, packs.len(), |i| {
             let (number, of_beam, pack) = packs[i];
-            let (beam, field, steps) = &advancing[number];
-            let (field, on) = (field.as_ref(), sinks[*beam].on);
-            let start = if of_beam.done == 0 { of_beam.start(pack, on.is_none(), field, by) } else { Ok(()) };
-            match start.and_then(|()| of_beam.advance(pack, *steps, field, on, by)) {
+            let (_, field, steps) = &advancing[number];
+            match of_beam.advance(pack, *steps, field.as_ref(), by) {
                 Err(Error::Interrupted) => Err(Error::Interrupted),
                 reached => Ok(reached),
             }
@@ -293,15 +269,7 @@ impl All<'_> {
         for (number, (beam, _, steps)) in advancing.into_iter().enumerate() {
             let of_packs = std::iter::from_fn(|| Some(reaches.next_if(|(of, _)| *of == number)?.1));
             match (of_packs.collect::<Result<Vec<Reach>, Error>>(), &mut flying[beam]) {
-                (Ok(of_packs), Ok(of_beam)) => {
-                    of_beam.reached(steps, of_packs);
-                    if let Some(together) = &mut sinks[beam].neighbours
-                        && !of_beam.has_lost_too_many()
-                    {
-                        of_beam.compare(together);
-                        together.add();
-                    }
-                }
+                (Ok(of_packs), Ok(of_beam)) => of_beam.reached(steps, of_packs),
                 (Err(error), of_beam) => *of_beam = Err(error),
                 (Ok(_), Err(_)) => {}
             }

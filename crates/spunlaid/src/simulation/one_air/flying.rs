@@ -2,14 +2,14 @@
 
 use super::charge::BeamField;
 use super::neighbours::Neighbours;
-use super::pack::{self, BeltStretch, Pack, Reach};
+use super::pack::{BeltStretch, Pack, Reach, side_by_side};
 use super::{Beam, BeamControl, BeamFindings};
 use crate::air::EddyField;
 use crate::fibre::Line;
 use crate::ground::threads::{lock, unlock};
 use crate::ground::{Error, Fault};
 use crate::simulation::observe::StretchedBalance;
-use crate::web::{Brush, Sheet, Window};
+use crate::web::{Brush, LayerFlown, Sheet, TimeSpent, Window};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
@@ -17,12 +17,22 @@ use std::sync::{Arc, Mutex};
 /// Most filaments that may be lost, of all.
 const MOST_LOST: f64 = 0.02;
 
+/// What takes what the filaments of a beam lay.
+pub(super) struct Sink<'a> {
+    /// A window of the sheet, whose single fibres are kept.
+    pub(super) window: Window,
+    /// What draws an element of fibre; None to keep the curves of all filaments in place of it.
+    pub(super) on: Option<&'a Brush<'a>>,
+    pub(super) neighbours: Option<Neighbours>,
+}
+
 /// The filaments of a beam, and how far they have come.
 pub(super) struct Flying<'a> {
     beam: Beam<'a>,
     line: Line,
-    numbers: Vec<Vec<usize>>,
-    packs: Vec<Mutex<Option<Pack>>>,
+    /// The numbers of the filaments of each pack, which begins to fly in the first block.
+    packs: Vec<(Vec<usize>, Mutex<Option<Pack>>)>,
+    sink: Sink<'a>,
     stretch: BeltStretch,
     reach: Reach,
     /// The electric field around them, if they are charged.
@@ -36,14 +46,14 @@ impl<'a> Flying<'a> {
     ///
     /// # Errors
     /// If the fibre of the case is not laid on a moving belt.
-    pub(super) fn new(beam: Beam<'a>, (sheet, window): (&Sheet, Window)) -> Result<Self, Error> {
+    pub(super) fn new(beam: Beam<'a>, sheet: &Sheet, sink: Sink<'a>) -> Result<Self, Error> {
         let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
-        let numbers = pack::side_by_side(beam.places);
-        let packs = numbers.iter().map(|_| Mutex::new(None)).collect();
-        let stretch = BeltStretch::before(&beam, &line, (sheet, window));
+        let packs =
+            side_by_side(beam.places).into_iter().map(|numbers| (numbers, Mutex::new(None))).collect();
+        let stretch = BeltStretch::before(&beam, &line, (sheet, sink.window));
         let field = BeamField::new(&beam);
-        Ok(Self { beam, line, numbers, packs, stretch, reach: Reach::default(), field, done: 0 })
+        Ok(Self { beam, line, packs, sink, stretch, reach: Reach::default(), field, done: 0 })
     }
 
     /// Number of packs.
@@ -51,36 +61,25 @@ impl<'a> Flying<'a> {
         self.packs.len()
     }
 
-    /// Starts a pack.
-    ///
-    /// * `keeps_all` – whether the curves of all filaments are kept
-    /// * `field` – the air of all filaments, if they share one
-    pub(super) fn start(
-        &self,
-        pack: usize,
-        keeps_all: bool,
-        field: Option<&Arc<EddyField>>,
-        by: BeamControl<'_>,
-    ) -> Result<(), Error> {
-        *lock(&self.packs[pack]) =
-            Some(Pack::new(&self.beam, (&self.numbers[pack], keeps_all), by.isa, field)?);
-        Ok(())
-    }
-
     /// Advances a pack by some steps and lays what has come down; [`Flying::reached`] takes how far all packs reach.
+    ///
+    /// * `field` – the air of all filaments, if they share one
     pub(super) fn advance(
         &self,
         pack: usize,
         steps: u64,
         field: Option<&Arc<EddyField>>,
-        on: Option<&Brush<'_>>,
         by: BeamControl<'_>,
     ) -> Result<Reach, Error> {
         if by.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
         }
-        let mut pack = lock(&self.packs[pack]);
-        let Some(pack) = pack.as_mut() else { return Ok(self.reach) };
+        let ((numbers, pack), on) = (&self.packs[pack], self.sink.on);
+        let mut pack = lock(pack);
+        let pack = match &mut *pack {
+            Some(pack) => pack,
+            none => none.insert(Pack::new(&self.beam, (numbers, on.is_none()), by.isa, field)?),
+        };
         if let Some(field) = &self.field {
             pack.charge(field);
         }
@@ -96,17 +95,19 @@ impl<'a> Flying<'a> {
         self.done += steps;
         if let Some(field) = &mut self.field {
             field.begin(steps as f64 * self.beam.case.run.time_step);
-            self.packs.iter().for_each(|pack| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
+            self.packs.iter().for_each(|(_, pack)| lock(pack).iter().for_each(|pack| pack.see_charge(field)));
             field.renew();
         }
-        if !self.has_lost_too_many() {
-            self.stretch.settle(&self.reach);
+        if self.has_lost_too_many() {
+            return;
         }
-    }
-
-    /// Hands over where the filaments have come down since the last time.
-    pub(super) fn compare(&self, neighbours: &mut Neighbours) {
-        self.packs.iter().for_each(|pack| lock(pack).iter_mut().for_each(|pack| pack.compare(neighbours)));
+        self.stretch.settle(&self.reach);
+        if let Some(together) = &mut self.sink.neighbours {
+            self.packs.iter().for_each(|(_, pack)| {
+                lock(pack).iter_mut().for_each(|pack| pack.compare(together));
+            });
+            together.add();
+        }
     }
 
     pub(super) fn has_lost_too_many(&self) -> bool {
@@ -124,14 +125,20 @@ impl<'a> Flying<'a> {
 
     /// What the filaments have done.
     ///
+    /// * `spent` – what all flights took
+    /// * `pace` – as of [`BeamFindings`]
+    ///
     /// # Errors
     /// If more than 2 % of them are lost.
-    pub(super) fn finish(self, mut flown: BeamFindings) -> Result<BeamFindings, Error> {
+    pub(super) fn finish(self, spent: TimeSpent, pace: f64) -> Result<BeamFindings, Error> {
         let has_lost_too_many = self.has_lost_too_many();
-        flown.layer.charged = self.field.as_ref().map(BeamField::curtain);
-        flown.back = self.stretch.back().unwrap_or(f64::NAN);
+        let neighbours = self.sink.neighbours.as_ref().map_or_else(Vec::new, Neighbours::correlations);
+        let charged = self.field.as_ref().map(BeamField::curtain);
+        let layer = LayerFlown { neighbours, charged, spent, ..LayerFlown::default() };
+        let back = self.stretch.back().unwrap_or(f64::NAN);
+        let mut flown = BeamFindings { layer, back, pace, ..BeamFindings::default() };
         let mut balance = StretchedBalance::new(self.beam.case);
-        for pack in self.packs {
+        for (_, pack) in self.packs {
             unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown, &mut balance));
         }
         flown.way = balance.way();

@@ -32,11 +32,12 @@ use crate::ground::place::Place;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa};
 use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
-use abreast::{SharedAir, Sink, fly};
+use abreast::SharedAir;
 pub use charge::BeamCharge;
 pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
 pub use few::Compared;
 pub use flyer::{Flights, FlownWeb, Flyer};
+use flying::Sink;
 pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -164,7 +165,7 @@ impl Beam<'_> {
         by: BeamControl<'_>,
     ) -> Result<BeamFindings, Error> {
         let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
-        let flown = fly(&[*self], (SharedAir::of_one(self, sheet), sheet), vec![sink], by)?;
+        let flown = SharedAir::of_one(self, sheet).fly(vec![sink], by)?;
         flown.into_iter().next().ok_or_else(Error::no_fibre)?
     }
 

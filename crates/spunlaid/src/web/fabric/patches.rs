@@ -2,7 +2,7 @@
 
 use super::Known;
 use crate::web::map::Map;
-use crate::web::map::uniformity::boxes;
+use crate::web::map::uniformity::{boxes, places_of_patches};
 
 /// Patches are counted that are lighter than these shares of the mean, and heavier than this one.
 pub(crate) const LIGHTER: [f64; 3] = [0.5, 0.7, 0.8];
@@ -42,12 +42,7 @@ pub struct ThinPlaces {
 ///
 /// * `side` – of a patch [cells]; None unless two fit on the map each way, and without any fibre
 pub fn thin_places(map: &Map, side: usize) -> Option<ThinPlaces> {
-    let sizes = [map.columns, map.rows];
-    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
-    if side == 0 || sizes.iter().any(|size| 2 * side > *size) || mean <= 0.0 {
-        return None;
-    }
-    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    let (places, mean) = places_of_patches(map, side).filter(|_| 2 * side <= map.columns.min(map.rows))?;
     let blocks = places.map(|places| (places / (BLOCK * side)).clamp(1, MOST_BLOCKS));
     let mut classes = vec![vec![0u32; CLASSES]; blocks[0] * blocks[1]];
     let per_mean = CLASSES_PER_MEAN / mean;

@@ -106,12 +106,7 @@ pub(crate) fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
 /// The mean square of the deviations of the patches of one side from the mean, over it, and the powers of their
 /// waves, if they are enough.
 fn deviations(map: &Map, side: usize) -> Option<(f64, Option<Powers>)> {
-    let sizes = [map.columns, map.rows];
-    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
-    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
-        return None;
-    }
-    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    let (places, mean) = places_of_patches(map, side)?;
     // So many of the places, evenly spread, a power of two.
     let overlapping = |places: usize| places.min((2 * places / side).clamp(WAVES, MOST_WAVES));
     let [columns, rows] = places.map(|places| 1 << overlapping(places).ilog2());
@@ -147,6 +142,17 @@ pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {
     let count = (places[0] * places[1]) as f64;
     let mean = sum / count;
     (mean > 0.0).then(|| (squares / count / (mean * mean) - 1.0).max(0.0).sqrt())
+}
+
+/// Number of places of a patch on a map, across and along, and its quanta in the mean; None unless it is within the
+/// map, and without any fibre.
+pub(crate) fn places_of_patches(map: &Map, side: usize) -> Option<([usize; 2], f64)> {
+    let sizes = [map.columns, map.rows];
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
+        return None;
+    }
+    Some(([0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 }), mean))
 }
 
 /// Passes on the quanta in all patches, row by row of their places.

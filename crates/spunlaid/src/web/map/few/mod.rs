@@ -17,7 +17,7 @@ mod tests;
 use super::basis_weight::Map;
 use super::canvas::Canvas;
 use super::few_findings::{FewFilamentsCv, LayerFew};
-use super::uniformity::{boxes, unevenness};
+use super::uniformity::{boxes, places_of_patches, unevenness};
 use super::{Edges, Sheet};
 use crate::ground::Error;
 use crate::ground::threads::{each, try_each};
@@ -352,12 +352,7 @@ pub(crate) fn blocks_on(sheet: &Sheet) -> [usize; 2] {
 ///
 /// * `numbers` – of the blocks, across and along
 fn blocks(map: &Map, side: usize, numbers: [usize; 2]) -> Vec<f64> {
-    let sizes = [map.columns, map.rows];
-    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
-    if side == 0 || sizes.iter().any(|size| side > *size) || mean <= 0.0 {
-        return Vec::new();
-    }
-    let places = [0, 1].map(|axis| if map.closed[axis] { sizes[axis] } else { sizes[axis] - side + 1 });
+    let Some((places, mean)) = places_of_patches(map, side) else { return Vec::new() };
     let mut sums = vec![(0.0, 0.0); numbers[0] * numbers[1]];
     boxes(map, side, places, |row, boxes| {
         let along = row * numbers[1] / places[1];
