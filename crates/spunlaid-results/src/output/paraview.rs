@@ -7,7 +7,6 @@ use spunlaid::fibre::Case;
 use spunlaid::ground::Vec3;
 use spunlaid::simulation::{Shape, Trajectory};
 use spunlaid::web::Strand;
-use std::fmt::Write;
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.
 const MOST_INSTANTS: usize = 500;
@@ -26,10 +25,7 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
     let rest_length = case.fibre.rest_length();
     let trajectories: Vec<&Trajectory> = trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
     let Some(first) = trajectories.first() else { return Ok(()) };
-    let mut collection = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" \
-        byte_order=\"LittleEndian\">\n<Collection>\n",
-    );
+    let mut series = Vec::new();
     let every = thinned(case, first.shapes.len());
     let digits = first.shapes.len().div_ceil(every).to_string().len();
     for (number, k) in (0..first.shapes.len()).step_by(every).enumerate() {
@@ -42,11 +38,21 @@ pub fn write(staging: &Staging<'_>, case: &Case, trajectories: &[Trajectory]) ->
             }
         }
         staging.write(&name, poly_data("replicate", &["distance_m"], &lines))?;
-        let time = time.unwrap_or_default();
-        let _ = writeln!(collection, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>");
+        series.push((time.unwrap_or_default(), name));
     }
-    collection.push_str("</Collection>\n</VTKFile>\n");
-    staging.write("shape.pvd", collection)
+    staging.write("shape.pvd", collection(&series))
+}
+
+/// A collection file: the times of some files [s].
+pub(super) fn collection(series: &[(f64, String)]) -> String {
+    let file = |(time, name): &(f64, String)| {
+        format!("<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{name}\"/>\n")
+    };
+    format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+        <Collection>\n{}</Collection>\n</VTKFile>\n",
+        series.iter().map(file).collect::<String>()
+    )
 }
 
 /// Writes what fed fibres have laid, a line for each kept replicate, in the coordinates of the belt.
@@ -99,37 +105,34 @@ struct Line {
 /// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
 fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
     let count: usize = lines.iter().map(|line| line.points.len()).sum();
-    let mut points = String::with_capacity(count * 48);
-    let mut data = vec![String::new(); names.len()];
-    let (mut number, mut connectivity, mut offsets) = (String::new(), String::new(), String::new());
-    let mut before = 0;
-    for line in lines {
-        for (i, p) in line.points.iter().enumerate() {
-            let _ = writeln!(points, "{:e} {:e} {:e}", p.x, p.y, p.z);
-            let _ = write!(number, "{} ", line.number);
-            let _ = write!(connectivity, "{} ", before + i);
-        }
-        for (text, values) in data.iter_mut().zip(&line.data) {
-            for value in values {
-                let _ = write!(text, "{value:e} ");
-            }
-        }
-        before += line.points.len();
-        let _ = write!(offsets, "{before} ");
-    }
-    let array = |(name, values): (&&str, &String)| {
-        format!("<DataArray type=\"Float64\" Name=\"{name}\" format=\"ascii\">\n{values}\n</DataArray>\n")
+    let points: String = lines
+        .iter()
+        .flat_map(|line| &line.points)
+        .map(|p| format!("{:e} {:e} {:e}\n", p.x, p.y, p.z))
+        .collect();
+    let array = |kind: &str, name: &str, values: &mut dyn Iterator<Item = String>| {
+        let values = values.map(|value| value + " ").collect::<String>();
+        format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">\n{values}\n</DataArray>\n")
     };
-    let data: String = names.iter().zip(&data).map(array).collect();
+    let number = |line: &Line| std::iter::repeat_n(line.number.to_string(), line.points.len());
+    let number = array("Int32", numbered, &mut lines.iter().flat_map(number));
+    let data = |(i, name): (usize, &&str)| {
+        let values = lines.iter().flat_map(|line| &line.data[i]);
+        array("Float64", name, &mut values.map(|value| format!("{value:e}")))
+    };
+    let data: String = names.iter().enumerate().map(data).collect();
+    let connectivity = array("Int64", "connectivity", &mut (0..count).map(|i| i.to_string()));
+    let ends = lines.iter().scan(0, |end, line| {
+        *end += line.points.len();
+        Some(end.to_string())
+    });
+    let offsets = array("Int64", "offsets", &mut ends.into_iter());
     format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
         <PolyData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" \
         NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"{numbered}\">\n\
-        <DataArray type=\"Int32\" Name=\"{numbered}\" format=\"ascii\">\n{number}\n</DataArray>\n\
-        {data}</PointData>\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" \
-        format=\"ascii\">\n{points}</DataArray>\n</Points>\n<Lines>\n\
-        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{connectivity}\n</DataArray>\n\
-        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{offsets}\n</DataArray>\n</Lines>\n\
+        {number}{data}</PointData>\n<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" \
+        format=\"ascii\">\n{points}</DataArray>\n</Points>\n<Lines>\n{connectivity}{offsets}</Lines>\n\
         </Piece>\n</PolyData>\n</VTKFile>\n",
         lines.len()
     )

@@ -5,9 +5,11 @@ use super::methods::methods;
 use super::table::{Content, Layout, Row, Table};
 use super::words::{count, time};
 use crate::numbers::{THIN, significant};
-use crate::output::analysis::{ResultRow, results};
-use spunlaid::air::{Analysis, Interval, Record};
+use crate::output::analysis::with_interval;
+use spunlaid::air::{Analysis, Component, Interval, Record};
 use spunlaid::ground::Dimension;
+use spunlaid::simulation::observe::measured;
+use spunlaid::simulation::{Measure, Measured, OF_COMPONENTS, OF_RECORDS};
 use spunlaid_charts::Figure;
 
 /// What was found in a velocity record.
@@ -39,14 +41,17 @@ pub fn analysis_report<'a>(
 
 /// The numbers for the air of a case, then those of each component.
 fn numbers(analysis: &Analysis) -> [Section<'static>; 2] {
-    let (rows, components) = results(analysis);
-    let air = Section::new("air", "The air of a case").table(table(rows)).caption(durations(analysis));
+    let air = table(OF_RECORDS, analysis);
+    let air = Section::new("air", "The air of a case").table(air).caption(durations(analysis));
     let of_each = Section::new("components", "Each component");
-    let add = |section: Section<'static>, (name, rows)| section.heading(name).table(table(rows));
-    [air, components.into_iter().fold(of_each, add)]
+    let add = |section: Section<'static>, component: &Component| {
+        section.heading(&component.name).table(table(OF_COMPONENTS, component))
+    };
+    [air, analysis.components.iter().fold(of_each, add)]
 }
 
-fn table(rows: Vec<ResultRow>) -> Table {
+/// The measures that have a label.
+fn table<T>(measures: &'static [Measure<T>], found: &T) -> Table {
     let columns = [
         ("Result", Content::Words),
         ("Value", Content::Numbers),
@@ -55,18 +60,21 @@ fn table(rows: Vec<ResultRow>) -> Table {
         ("Unit", Content::Words),
         ("How", Content::Sentences),
     ];
-    let row =
-        |row: ResultRow| Row::new(row.name, [row.value, row.low, row.high, row.unit.to_owned(), row.meaning]);
-    Table::of(columns).laid_out(Layout::Results).rows(rows.into_iter().map(row))
+    let row = |row: Measured<T>| {
+        let about = [row.measure.unit.shown, row.meaning()].map(str::to_owned);
+        Row::new(row.measure.label, with_interval(&row, found).into_iter().chain(about))
+    };
+    let labelled = measured(measures, found).filter(|row| !row.measure.label.is_empty());
+    Table::of(columns).laid_out(Layout::Results).rows(labelled.map(row))
 }
 
 /// With the numbers of the table below it, and their intervals.
 fn headline(analysis: &Analysis) -> String {
-    let (rows, _) = results(analysis);
     let told = |name: &str| {
-        let row = rows.iter().find(|row| row.name == name);
-        row.map_or_else(String::new, |ResultRow { value, low, high, unit, .. }| {
-            format!("{value}{THIN}{unit} ({low} to {high})")
+        let row = measured(OF_RECORDS, analysis).find(|row| row.measure.label == name);
+        row.map_or_else(String::new, |row| {
+            let [value, low, high] = with_interval(&row, analysis);
+            format!("{value}{THIN}{} ({low} to {high})", row.measure.unit.shown)
         })
     };
     let [velocity, intensity, length] = ["Mean velocity", "Turbulence intensity", "Length scale"].map(told);

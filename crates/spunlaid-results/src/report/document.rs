@@ -196,7 +196,12 @@ impl<'a> Section<'a> {
 
     /// Shown by a terminal too, and not folded on the page.
     pub(super) fn told(self) -> Self {
-        Self { seen: Seen::Both, ..self.open() }
+        self.open().both()
+    }
+
+    /// Shown by a terminal too.
+    pub(super) fn both(self) -> Self {
+        Self { seen: Seen::Both, ..self }
     }
 
     /// A terminal shows its sentences too.

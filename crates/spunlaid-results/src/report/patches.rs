@@ -7,9 +7,7 @@ use spunlaid::simulation::{ErrorRole, Measure, OF_PATCHES};
 use spunlaid::web::map::{Findings, PatchFindings};
 
 /// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
-///
-/// * `with` – a table with some heads
-pub(super) fn patch_table(findings: &Findings, with: fn(Vec<&'static str>) -> Table) -> Table {
+pub(super) fn patch_table(findings: &Findings) -> Table {
     // That of a web of few filaments holds what these do too.
     let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
         true => ["Patch", "CV of this web", "by chance", "95 % interval"],
@@ -21,7 +19,7 @@ pub(super) fn patch_table(findings: &Findings, with: fn(Vec<&'static str>) -> Ta
         Row::from(cells_of_map(patch).into_iter().chain(cells).collect::<Vec<_>>())
     };
     let heads = of_map.into_iter().chain(declared.iter().map(|measure| measure.terse()));
-    with(heads.collect()).rows(findings.patches.iter().map(row))
+    Table::of_numbers(heads).rows(findings.patches.iter().map(row))
 }
 
 /// The declared columns that a web has, in their order: after that of the CV its further errors,

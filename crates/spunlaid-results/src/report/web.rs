@@ -67,8 +67,9 @@ pub fn web_report<'a>(
     };
     let judged = headline_patch(findings).map(|i| Judged::from(&findings.patches[i]));
     let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
+    let mut sentences = verdict(findings);
     Ok(Report::new("web", headline_of(findings))
-        .lead(verdict(findings).pop().unwrap_or_default())
+        .lead(sentences.pop().unwrap_or_default())
         .lead(spun)
         .with(table)
         .with_all(scale)
@@ -82,8 +83,7 @@ pub fn web_report<'a>(
             ]
             .map(Section::from),
         )
-        .with(uneven(web, findings))
-        .with(uneven_in_short(findings))
+        .with(uneven(web, findings, sentences))
         .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
         .with_all(section_of_loads(&loads))
@@ -108,40 +108,16 @@ fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'
     )
 }
 
-/// How uneven it is over patches of each size, and what makes it so.
-fn uneven(web: &Web, findings: &Findings) -> Section<'static> {
-    Section::new("verdict", "How uneven over which size")
-        .paragraphs(verdict(findings))
-        .table(patch_table(findings, Table::new))
-        .caption(format!("{CV_OF_PATCHES} {}", about_errors(findings)))
+/// How uneven it is over patches of each size.
+///
+/// * `verdict` – what makes it so, without what is said first
+fn uneven(web: &Web, findings: &Findings, verdict: Vec<String>) -> Section<'static> {
+    Section::new("verdict", "How uneven over which size, by the CV of the basis weight")
+        .paragraphs(verdict)
+        .table(patch_table(findings))
+        .caption(format!("{CV_OF_PATCHES} [What its error is made of](#doubt) stands above."))
         .paragraph(sentences([summary(web), laid_weight(web, findings)]))
-}
-
-/// The unevenness for a terminal.
-fn uneven_in_short(findings: &Findings) -> Section<'static> {
-    let whole = if findings.patches.iter().any(|patch| patch.few.is_some()) {
-        "of the web of all filaments, from the flown ones, ± its standard error by all causes (chance, few \
-        filaments flown)"
-    } else {
-        "of this map ± its standard error by chance alone"
-    };
-    Section::new("", format!("Unevenness, CV: {whole}, and as expected"))
-        .table(patch_table(findings, Table::of_numbers))
-        .on_terminal()
-}
-
-/// What the errors of the CV are made of.
-fn about_errors(findings: &Findings) -> &'static str {
-    let is_shared = !findings.laid.flown.is_empty();
-    if is_shared && findings.patches.iter().any(|patch| patch.few.is_some()) {
-        "Filaments were flown in one air, a few for all others. The error is by chance (another piece of the \
-        same web, in other gusts, has another CV) and by the few filaments."
-    } else if is_shared {
-        "All filaments were flown in one air. The error is by chance: another piece of the same web, in \
-        other gusts, has another CV."
-    } else {
-        "The error is by chance only: no fibre was flown, so it is not known how far the surrogate is from real fibres."
-    }
+        .both()
 }
 
 /// The loads of the layers on their air, with the names of these where there are several.
@@ -278,7 +254,9 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
 fn error_sentences(findings: &Findings) -> String {
     let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
     if patch.in_one_air && patch.few.is_none() {
-        return "The error is by chance: every filament of the sheet was flown.".to_owned();
+        return "The error is by chance: every filament of the sheet was flown, and another piece of the same web, in \
+            other gusts, has another CV."
+            .to_owned();
     }
     let error = patch.whole_error();
     let part = |part: Option<f64>| match part {

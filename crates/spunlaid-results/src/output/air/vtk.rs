@@ -3,26 +3,21 @@
 use super::{Plane, Slices};
 use crate::Failure;
 use crate::output::folder::Staging;
-use crate::output::paraview::AppendedArrays;
+use crate::output::paraview::{AppendedArrays, collection};
 use spunlaid::ground::Vec3;
-use std::fmt::Write;
 
 /// Writes each instant of each plane, and the collections with their times.
 pub fn write_vtk(staging: &Staging<'_>, slices: &Slices) -> Result<(), Failure> {
     let digits = slices.times.len().to_string().len();
     for ((name, plane), velocities) in ["along", "across"].iter().zip(&slices.planes).zip(&slices.velocities)
     {
-        let mut collection = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" \
-            byte_order=\"LittleEndian\">\n<Collection>\n",
-        );
+        let mut series = Vec::new();
         for (number, (time, velocities)) in slices.times.iter().zip(velocities).enumerate() {
             let file = format!("slices/{name}_{number:0digits$}.vts");
             staging.write(&file, structured_grid(plane, velocities))?;
-            let _ = writeln!(collection, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+            series.push((*time, file));
         }
-        collection.push_str("</Collection>\n</VTKFile>\n");
-        staging.write(&format!("{name}.pvd"), collection)?;
+        staging.write(&format!("{name}.pvd"), collection(&series))?;
     }
     Ok(())
 }

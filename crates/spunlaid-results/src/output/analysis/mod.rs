@@ -11,8 +11,7 @@ use crate::output::versioned_json;
 pub use air::air_block;
 use serde_json::{Value as Json, json};
 use spunlaid::air::{Analysis, Component, Interval, Record};
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measure, Measured, OF_COMPONENTS, OF_RECORDS, Unit, Value};
+use spunlaid::simulation::{Measured, OF_COMPONENTS, OF_RECORDS, Value};
 
 /// Half the width of an interval: the error of the value.
 pub fn half_width(interval: &Interval) -> f64 {
@@ -65,51 +64,19 @@ fn component(component: &Component) -> Json {
     joined([json!({"name": component.name}), values(OF_COMPONENTS, component)])
 }
 
-/// A result with its interval and how it was computed.
-pub struct ResultRow {
-    /// Name of the quantity.
-    pub name: &'static str,
-    /// Its value, as shown.
-    pub value: String,
-    /// Lower end of the 95 % interval, as shown.
-    pub low: String,
-    /// Upper end of the 95 % interval, as shown.
-    pub high: String,
-    /// Unit.
-    pub unit: &'static str,
-    /// What it means.
-    pub meaning: String,
-}
-
-/// The measures that have a label, as rows of a table.
-fn rows<T>(measures: &'static [Measure<T>], found: &T) -> Vec<ResultRow> {
-    let row = |row: Measured<T>| {
-        let interval = match row.value {
-            Some(Value::Interval(interval)) => interval,
-            _ => Interval::exactly(row.measure.number(found)),
-        };
-        let Unit { shown, per_si } = row.measure.unit;
-        let half = half_width(&interval) * per_si;
-        // A value that was given has no interval.
-        let end = |end: f64| {
-            decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * per_si, decimals))
-        };
-        ResultRow {
-            name: row.measure.label,
-            value: rounded(interval.value * per_si, Some(half)).0,
-            low: end(interval.low),
-            high: end(interval.high),
-            unit: shown,
-            meaning: row.meaning().to_owned(),
-        }
+/// The value of a measure and the ends of its 95 % interval, as they are shown.
+pub fn with_interval<T>(row: &Measured<T>, found: &T) -> [String; 3] {
+    let interval = match row.value {
+        Some(Value::Interval(interval)) => interval,
+        _ => Interval::exactly(row.measure.number(found)),
     };
-    measured(measures, found).filter(|row| !row.measure.label.is_empty()).map(row).collect()
-}
-
-/// The results for the [air] of a case, then those of each component.
-pub fn results(analysis: &Analysis) -> (Vec<ResultRow>, Vec<(String, Vec<ResultRow>)>) {
-    let component = |component: &Component| (component.name.clone(), rows(OF_COMPONENTS, component));
-    (rows(OF_RECORDS, analysis), analysis.components.iter().map(component).collect())
+    let per_si = row.measure.unit.per_si;
+    let half = half_width(&interval) * per_si;
+    // A value that was given has no interval.
+    let end = |end: f64| {
+        decimals(half).map_or_else(|| "–".to_owned(), |decimals| to_decimals(end * per_si, decimals))
+    };
+    [rounded(interval.value * per_si, Some(half)).0, end(interval.low), end(interval.high)]
 }
 
 /// Writes the spectral density of each component over frequency, and its autocorrelation coefficient over the lag.
