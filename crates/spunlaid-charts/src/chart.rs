@@ -6,6 +6,7 @@ use crate::label::plain;
 use crate::map::Map;
 use crate::palette::{BLUE, Colour, GREY, INK, Marker, VERMILION};
 use crate::scale::Axis;
+use std::borrow::Borrow;
 
 /// How one quantity is drawn throughout a chart.
 #[derive(Clone, Debug)]
@@ -95,6 +96,13 @@ impl Series {
     }
 }
 
+/// A point with its error: x, y, ± error.
+type Spot = (f64, f64, Option<f64>);
+
+fn owned<T: Copy>(points: impl IntoIterator<Item: Borrow<T>>) -> Vec<T> {
+    points.into_iter().map(|point| *point.borrow()).collect()
+}
+
 /// What is drawn for a series.
 #[derive(Clone, Debug)]
 pub enum Mark {
@@ -168,23 +176,23 @@ impl Chart {
     }
 
     /// Adds a line along x.
-    pub fn line(self, series: Series, points: &[(f64, f64)]) -> Self {
-        self.with(series, Mark::Line(points.to_vec()))
+    pub fn line(self, series: Series, points: impl IntoIterator<Item: Borrow<(f64, f64)>>) -> Self {
+        self.with(series, Mark::Line(owned(points)))
     }
 
     /// Adds a path.
-    pub fn path(self, series: Series, points: &[(f64, f64)]) -> Self {
-        self.with(series, Mark::Path(points.to_vec()))
+    pub fn path(self, series: Series, points: impl IntoIterator<Item: Borrow<(f64, f64)>>) -> Self {
+        self.with(series, Mark::Path(owned(points)))
     }
 
     /// Adds points with error bars: x, y, ± error.
-    pub fn scatter(self, series: Series, points: &[(f64, f64, Option<f64>)]) -> Self {
-        self.with(series, Mark::Scatter(points.to_vec()))
+    pub fn scatter(self, series: Series, points: impl IntoIterator<Item: Borrow<Spot>>) -> Self {
+        self.with(series, Mark::Scatter(owned(points)))
     }
 
     /// Adds a band: x, lower, upper.
-    pub fn band(self, series: Series, points: &[(f64, f64, f64)]) -> Self {
-        self.with(series, Mark::Band(points.to_vec()))
+    pub fn band(self, series: Series, points: impl IntoIterator<Item: Borrow<(f64, f64, f64)>>) -> Self {
+        self.with(series, Mark::Band(owned(points)))
     }
 
     /// Adds a line across at `x`.

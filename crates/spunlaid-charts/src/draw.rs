@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn a_narrow_picture_has_text_of_the_same_size() {
         let chart = Chart::new("c", "", Axis::linear("x"), Axis::linear("y"))
-            .scatter(Series::circles("*y*"), &[(0.0, 1.0, None), (1.0, 2.0, None)]);
+            .scatter(Series::circles("*y*"), [(0.0, 1.0, None), (1.0, 2.0, None)]);
         let svg = svg(&picture("", &[chart], 384.0));
         assert!(svg.contains("width=\"384\"") && svg.contains("font-size=\"14\""), "{svg}");
         assert!(!svg.contains("font-size=\"8"), "{svg}");
@@ -276,11 +276,11 @@ mod tests {
     fn series_that_only_their_colour_sets_apart_get_markers_in_plot_and_legend() {
         let line = [(0.0, 1.0), (1.0, 2.0), (2.0, 2.5)];
         let chart = Chart::new("c", "", Axis::linear("x"), Axis::linear("y"))
-            .line(Series::new("a", BLUE), &line)
-            .line(Series::new("b", VERMILION), &line)
-            .line(Series::new("c", GREEN).dashed(&[6.0, 4.0]), &line)
-            .scatter(Series::spots("d", BLUE), &[(0.0, 1.0, None)])
-            .scatter(Series::spots("e", VERMILION), &[(0.0, 1.0, None)]);
+            .line(Series::new("a", BLUE), line)
+            .line(Series::new("b", VERMILION), line)
+            .line(Series::new("c", GREEN).dashed(&[6.0, 4.0]), line)
+            .scatter(Series::spots("d", BLUE), [(0.0, 1.0, None)])
+            .scatter(Series::spots("e", VERMILION), [(0.0, 1.0, None)]);
         let markers = chart.marks.iter().map(|(series, _)| series.marker).collect::<Vec<_>>();
         let expected = [None, Some(Marker::Square), None, Some(Marker::Spot), Some(Marker::Diamond)];
         assert_eq!(markers, expected);

@@ -180,9 +180,9 @@ mod tests {
     #[test]
     fn charts_share_columns_of_the_same_name() {
         let above = chart("*y* (mm)")
-            .line(Series::new("mean", BLUE), &[(0.0, 1.0)])
-            .band(Series::new("range", BLUE), &[(0.0, 0.5, 1.5)]);
-        let below = chart("*z* (mm)").scatter(Series::new("spot", BLUE), &[(2.0, 3.0, Some(0.25))]);
+            .line(Series::new("mean", BLUE), [(0.0, 1.0)])
+            .band(Series::new("range", BLUE), [(0.0, 0.5, 1.5)]);
+        let below = chart("*z* (mm)").scatter(Series::new("spot", BLUE), [(2.0, 3.0, Some(0.25))]);
         assert_eq!(
             Figure::stacked("s", "", &[&above, &below], "").table().csv(),
             "series,time_s,y_mm,z_mm,lower,upper,error\nmean,0,1,,,,\nrange,0,,,0.5,1.5,\nspot,2,,3,,,0.25\n"
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn words_stand_in_the_table() {
         let chart = Chart::new("c", "", Axis::from_words("Law", ["one", "two"]), Axis::linear("*y* (mm)"))
-            .scatter(Series::new("*y*", BLUE), &[(0.1, 1.0, None), (0.9, 2.0, None)]);
+            .scatter(Series::new("*y*", BLUE), [(0.1, 1.0, None), (0.9, 2.0, None)]);
         let figure = Figure::new(&chart, "");
         assert_eq!(figure.table().csv(), "series,law,y_mm\ny,one,1\ny,two,2\n");
         let svg = figure.svg();
@@ -203,8 +203,8 @@ mod tests {
     fn the_table_has_what_was_thinned_and_leaves_out_what_only_adorns() {
         let full = vec![(0.0, 1.0, None), (1.0, 2.0, None), (2.0, 3.0, None)];
         let chart = chart("*y* (mm)")
-            .line(Series::new("zero", BLUE).adorning(), &[(0.0, 0.0), (2.0, 0.0)])
-            .line(Series::new("*y*", BLUE).unlabelled().thinned_from(full), &[(0.0, 1.0), (2.0, 3.0)]);
+            .line(Series::new("zero", BLUE).adorning(), [(0.0, 0.0), (2.0, 0.0)])
+            .line(Series::new("*y*", BLUE).unlabelled().thinned_from(full), [(0.0, 1.0), (2.0, 3.0)]);
         assert_eq!(Figure::new(&chart, "").table().csv(), "series,time_s,y_mm\ny,0,1\ny,1,2\ny,2,3\n");
     }
 }

@@ -129,9 +129,9 @@ mod tests {
         let points = [(0.0, 1.0, None), (1.0, 2.0, None)];
         let long = "Power spectral density of what is measured (m²/s)";
         Chart::new("c", "", Axis::linear("Time (s)"), Axis::linear(long))
-            .scatter(Series::circles("*y*"), &points)
-            .scatter(Series::triangles("a long name of a series"), &points)
-            .scatter(Series::spots("another long name of a series", VERMILION), &points)
+            .scatter(Series::circles("*y*"), points)
+            .scatter(Series::triangles("a long name of a series"), points)
+            .scatter(Series::spots("another long name of a series", VERMILION), points)
     }
 
     #[test]

@@ -78,8 +78,8 @@ fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
             if !band.is_empty() {
                 chart = chart.band(Series::new(&label, colour).unlabelled(), &band);
             }
-            let line: Vec<_> = curve().map(|row| (row.at, row.value)).collect();
-            chart = chart.line(Series { dash, ..Series::new(&label, colour) }.width(1.3), &line);
+            let series = Series { dash, ..Series::new(&label, colour) }.width(1.3);
+            chart = chart.line(series, curve().map(|row| (row.at, row.value)));
         }
     }
     let bands = if with_errors { " The bands are ± one standard error of the mean." } else { "" };

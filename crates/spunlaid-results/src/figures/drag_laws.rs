@@ -38,7 +38,7 @@ fn across() -> Chart {
         Axis::logarithmic("Reynolds number *Re* (–)").tight(),
         Axis::logarithmic("Coefficient *C*_{n} (–)"),
     )
-    .line(Series::new("Marheineke & Wegener", BLUE), &law((-1.5, 4.5), |re| general.coefficient(re, 50e-6)));
+    .line(Series::new("Marheineke & Wegener", BLUE), law((-1.5, 4.5), |re| general.coefficient(re, 50e-6)));
     for (diameter, colour) in [(20e-6, GREEN), (50e-6, ORANGE), (150e-6, PURPLE)] {
         let label = format!("Ju & Shambaugh, {:.0} µm", diameter * 1e6);
         let fitted = law((-1.5, 3.0), |re| NormalLaw::JuShambaugh.coefficient(re, diameter));

@@ -118,12 +118,12 @@ fn chart(case: &Case, placed: &PlacedField, plane: &Plane) -> Chart {
     let chart = chart
         .arrow(INK, [(0.0, 0.0), (0.3 * length, 0.0)], &format!("*x*, gravity: {along} of the field"))
         .arrow(INK, [(0.0, 0.0), (0.0, head)], &format!("{direction}: {aside} of the field"))
-        .scatter(Series::spots(root, ORANGE).drawn_only(), &[(0.0, 0.0, None)]);
+        .scatter(Series::spots(root, ORANGE).drawn_only(), [(0.0, 0.0, None)]);
     if case.line.is_none() {
         return chart;
     }
     let belt = Series::new("belt", INK).drawn_only().width(4.0);
-    chart.path(belt, &[(length, across.0 * MM), (length, across.1 * MM)])
+    chart.path(belt, [(length, across.0 * MM), (length, across.1 * MM)])
 }
 
 /// The fibres of a run where they were at its end; without one the straight way.
@@ -131,7 +131,7 @@ fn with_fibres(chart: Chart, plane: &Plane, case: &Case, results: Option<&Result
     let Some(results) = results else {
         let end = (case.along().x * MM, 0.0);
         let series = Series::new("straight fibre", VERMILION).drawn_only().dashed(&[6.0, 4.0]);
-        return chart.path(series, &[(0.0, 0.0), end]);
+        return chart.path(series, [(0.0, 0.0), end]);
     };
     results.trajectories.iter().enumerate().fold(chart, |chart, (i, trajectory)| {
         let end = trajectory.shapes.last().unwrap_or_default().position;

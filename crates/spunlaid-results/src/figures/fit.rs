@@ -29,16 +29,13 @@ fn drawn(place: f64, number: &FittedNumber, scale: f64) -> CurveRow {
 }
 
 fn curves(chart: Chart, drawn: &[CurveRow]) -> Chart {
-    let line = |value: fn(&CurveRow) -> f64| -> Vec<(f64, f64)> {
-        drawn.iter().map(|one| (one.0, value(one))).collect()
-    };
-    let band: Vec<(f64, f64, f64)> = drawn.iter().map(|one| (one.0, one.4[0], one.4[1])).collect();
-    let scan: Vec<(f64, f64, Option<f64>)> = drawn.iter().map(|one| (one.0, one.1, None)).collect();
+    let line = |value: fn(&CurveRow) -> f64| drawn.iter().map(move |one| (one.0, value(one)));
+    let band = drawn.iter().map(|one| (one.0, one.4[0], one.4[1]));
     chart
-        .band(Series::new("95 of 100 simulated webs", VERMILION), &band)
-        .line(Series::new("start", GREY).dashed(&[6.0, 4.0]), &line(|one| one.2))
-        .line(Series::new("fit, mean of the simulated webs", VERMILION).width(1.8), &line(|one| one.3))
-        .scatter(Series::spots("scan", BLUE), &scan)
+        .band(Series::new("95 of 100 simulated webs", VERMILION), band)
+        .line(Series::reference("start"), line(|one| one.2))
+        .line(Series::new("fit, mean of the simulated webs", VERMILION).width(1.8), line(|one| one.3))
+        .scatter(Series::spots("scan", BLUE), drawn.iter().map(|one| (one.0, one.1, None)))
 }
 
 /// CV over the size of the patches.
@@ -92,22 +89,18 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
 
 /// How far the scan is from the fit.
 fn residuals(fit: &Fit) -> Figure {
-    let points = |wanted: fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
+    let points = |wanted: &dyn Fn(&Texture) -> Option<f64>| -> Vec<(f64, f64, Option<f64>)> {
         let point = |number: &FittedNumber| Some((wanted(&number.texture)? * MM, number.residual(), None));
         fit.numbers.iter().filter_map(point).collect()
     };
-    let patches = points(|texture| match texture {
-        Texture::Patch(side) => Some(*side),
-        Texture::Band { .. } => None,
-    });
-    let across = points(|texture| match texture {
-        Texture::Band { direction: 0, waves } => Some((waves[0] * waves[1]).sqrt()),
-        _ => None,
-    });
-    let along = points(|texture| match texture {
-        Texture::Band { direction: 1, waves } => Some((waves[0] * waves[1]).sqrt()),
-        _ => None,
-    });
+    let middle = |wanted: usize| {
+        points(&|texture| match texture {
+            Texture::Band { direction, waves } if *direction == wanted => Some((waves[0] * waves[1]).sqrt()),
+            _ => None,
+        })
+    };
+    let patches = points(&|texture| if let Texture::Patch(side) = texture { Some(*side) } else { None });
+    let (across, along) = (middle(0), middle(1));
     let ends = [&patches, &across, &along].into_iter().flatten().map(|point| point.0);
     let (from, to) = ends.fold((f64::INFINITY, 0.0_f64), |(from, to), at| (from.min(at), to.max(at)));
     let level = |height: f64| [(from, height), (to, height)];
@@ -117,8 +110,8 @@ fn residuals(fit: &Fit) -> Figure {
         Axis::logarithmic("Side of a patch, or wavelength (mm)").in_column("size_mm"),
         Axis::linear("Scan less fit (standard deviations of a web)").in_column("residual"),
     )
-    .band(Series::new("95 of 100 webs", GREY), &[(from, -NORMAL_95, NORMAL_95), (to, -NORMAL_95, NORMAL_95)])
-    .line(Series::new("", INK).unlabelled().adorning().width(1.0), &level(0.0))
+    .band(Series::new("95 of 100 webs", GREY), [(from, -NORMAL_95, NORMAL_95), (to, -NORMAL_95, NORMAL_95)])
+    .line(Series::new("", INK).unlabelled().adorning().width(1.0), level(0.0))
     .scatter(Series::spots("CV over patches", BLUE), &patches);
     if !across.is_empty() {
         chart = chart
@@ -149,9 +142,7 @@ fn axis(key: &FittedKey) -> (String, f64) {
 /// The least misfit for each value of a key.
 fn profile(key: &FittedKey) -> Figure {
     let (title, factor) = axis(key);
-    let points: Vec<(f64, f64, Option<f64>)> =
-        key.profile.iter().map(|(value, misfit)| (value * factor, *misfit, None)).collect();
-    let line: Vec<(f64, f64)> = points.iter().map(|point| (point.0, point.1)).collect();
+    let points = || key.profile.iter().map(|(value, misfit)| (value * factor, *misfit));
     let name = format!("fit_profile_{}", key.parameter.key.replace('.', "_"));
     let mut chart = Chart::new(
         &name,
@@ -163,8 +154,8 @@ fn profile(key: &FittedKey) -> Figure {
         chart = chart.stretch(Series::new("95 % interval", VERMILION), low * factor, high * factor);
     }
     let chart = chart
-        .line(Series::new("", BLUE).unlabelled().adorning().width(1.2), &line)
-        .scatter(Series::spots("simulated", BLUE), &points)
+        .line(Series::new("", BLUE).unlabelled().adorning().width(1.2), points())
+        .scatter(Series::spots("simulated", BLUE), points().map(|(x, y)| (x, y, None)))
         .vertical(Series::new("fit", INK), key.value * factor);
     Figure::new(
         &chart,

@@ -22,6 +22,8 @@ mod study;
 mod tests;
 mod web;
 
+use spunlaid_charts::{Chart, Series};
+
 pub use compare::{CurvePoint, Curves, MOST as MOST_COMPARED, overlaid_figures};
 pub use field::field_figure;
 pub use fit::fit_figures;
@@ -35,6 +37,12 @@ pub use web::{
     ComparedPatch, ComparedSpectrum, SEEN, effects_figure, overlaid_spectra, overlaid_webs, scan_figures,
     web_figures,
 };
+
+/// Markers with bars, joined by a thin line.
+fn joined(chart: Chart, series: Series, spots: &[(f64, f64, Option<f64>)]) -> Chart {
+    let line = series.clone().adorning().unmarked().width(1.0);
+    chart.line(line, spots.iter().map(|(x, y, _)| (*x, *y))).scatter(series, spots)
+}
 
 /// Label of an axis: `Length laid (m)`.
 fn with_unit(label: &str, unit: &str) -> String {

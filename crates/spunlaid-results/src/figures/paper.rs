@@ -1,5 +1,6 @@
 //! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
 
+use crate::numbers::capitalised;
 use spunlaid::ground::Vec3;
 use spunlaid::input::paper::{LateralEstimates, Parameter, TrendPoint};
 use spunlaid::simulation::{Place, SpectrumPoint};
@@ -19,8 +20,8 @@ pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
     )
     .line(Series::new("velocity along x in one eddy", BLUE).width(1.0), record)
     .line(
-        Series::reference("mean").dashed(&[6.0, 4.0]),
-        &[(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
+        Series::reference("mean"),
+        [(record.first().map_or(0.0, |r| r.0), mean), (record.last().map_or(1.0, |r| r.0), mean)],
     );
     Figure::new(
         &chart,
@@ -32,17 +33,16 @@ pub fn velocity_history(record: &[(f64, f64)], mean: f64) -> Figure {
 
 /// Figure 3: the energy spectrum of the velocity.
 pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
-    let synthesised: Vec<(f64, f64)> = points.iter().map(|p| (p.frequency, p.synthesised)).collect();
-    let model: Vec<(f64, f64)> =
-        points.iter().filter(|p| p.wanted > 0.0).map(|p| (p.frequency, p.wanted)).collect();
+    let synthesised = points.iter().map(|p| (p.frequency, p.synthesised));
+    let model = points.iter().filter(|p| p.wanted > 0.0).map(|p| (p.frequency, p.wanted));
     let chart = Chart::new(
         "figure_3",
         "Energy spectrum of the air velocity",
         Axis::logarithmic("Frequency *f* (Hz)").tight(),
         Axis::logarithmic("Energy *E* ((m/s)^{2}/Hz)").decades(6),
     )
-    .line(Series::new("synthesised", BLUE).width(1.3), &synthesised)
-    .line(Series::reference("flat model").dashed(&[6.0, 4.0]).width(1.6), &model);
+    .line(Series::new("synthesised", BLUE).width(1.3), synthesised)
+    .line(Series::reference("flat model").width(1.6), model);
     Figure::new(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
@@ -54,29 +54,24 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
 
 /// Figure 8a: the fibre at the end, magnified across.
 pub fn final_shape(shape: &[Vec3<f64>]) -> Figure {
-    let along = |coordinate: fn(&Vec3<f64>) -> f64| -> Vec<(f64, f64)> {
-        shape.iter().map(|p| (p.x * MM, coordinate(p) * MM)).collect()
-    };
+    let along = |coordinate: fn(&Vec3<f64>) -> f64| shape.iter().map(move |p| (p.x * MM, coordinate(p) * MM));
+    let spots = |coordinate| along(coordinate).map(|(x, y)| (x, y, None));
     let chart = Chart::new(
         "figure_8a",
         "The fibre at the end of the run",
         Axis::linear("*x* (mm)"),
         Axis::linear("*y*, *z* (mm)"),
     )
-    .line(Series::circles("y"), &along(|p| p.y))
-    .line(Series::triangles("z"), &along(|p| p.z))
-    .scatter(Series::circles("y").adorning(), &with_no_error(&along(|p| p.y)))
-    .scatter(Series::triangles("z").adorning(), &with_no_error(&along(|p| p.z)));
+    .line(Series::circles("y"), along(|p| p.y))
+    .line(Series::triangles("z"), along(|p| p.z))
+    .scatter(Series::circles("y").adorning(), spots(|p| p.y))
+    .scatter(Series::triangles("z").adorning(), spots(|p| p.z));
     Figure::new(
         &chart,
         "Figure 8a. The first replicate after one second, seen from two sides; the axes across are magnified. \
          Markers are the nodes."
             .to_owned(),
     )
-}
-
-fn with_no_error(points: &[(f64, f64)]) -> Vec<(f64, f64, Option<f64>)> {
-    points.iter().map(|&(x, y)| (x, y, None)).collect()
 }
 
 /// Figure 8b: the work check over time for several time steps [s].
@@ -90,16 +85,13 @@ pub fn step_errors(runs: &[(f64, Vec<Place>)]) -> Figure {
     .sized(640.0, 380.0);
     for ((step, errors), colour) in runs.iter().zip([BLUE, GREEN, VERMILION]) {
         let each = errors.len().div_ceil(250).max(1);
-        let means: Vec<(f64, f64)> = errors
-            .chunks(each)
-            .map(|some| {
-                let known: Vec<f64> = some.iter().map(|e| e.mean).filter(|e| e.is_finite()).collect();
-                (some[some.len() / 2].at, known.iter().sum::<f64>() / known.len() as f64)
-            })
-            .collect();
+        let means = errors.chunks(each).map(|some| {
+            let known: Vec<f64> = some.iter().map(|e| e.mean).filter(|e| e.is_finite()).collect();
+            (some[some.len() / 2].at, known.iter().sum::<f64>() / known.len() as f64)
+        });
         let all = errors.iter().map(|e| (e.at, e.mean, None)).collect();
         let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
-        chart = chart.line(series.thinned_from(all), &means);
+        chart = chart.line(series.thinned_from(all), means);
     }
     Figure::new(
         &chart,
@@ -135,9 +127,7 @@ fn chart(
     let (symbol, unit, to_unit) = parameter.unit();
     let symbol = symbol.replace("L_T", "L_{T}");
     let words = parameter.name();
-    let mut first = words.chars();
-    let words_up =
-        first.next().map_or_else(String::new, |c| c.to_uppercase().collect::<String>() + first.as_str());
+    let words_up = capitalised(words);
     let title = format!("{what} over the {words}");
     let mut chart = Chart::new(
         name,
@@ -146,14 +136,11 @@ fn chart(
         Axis::linear(label).zero_based(),
     );
     for (i, series) in [Series::circles("y"), Series::triangles("z")].into_iter().enumerate() {
-        let spots: Vec<(f64, f64, Option<f64>)> = points
-            .iter()
-            .map(|p| {
-                let (mean, error) = quantity(p)[i];
-                (p.value * to_unit, mean * scale, error.map(|e| e * scale))
-            })
-            .collect();
-        chart = chart.scatter(series, &spots);
+        let spot = |p: &TrendPoint| {
+            let (mean, error) = quantity(p)[i];
+            (p.value * to_unit, mean * scale, error.map(|e| e * scale))
+        };
+        chart = chart.scatter(series, points.iter().map(spot));
     }
     let n = points.iter().map(|p| p.n).min().unwrap_or(0);
     let paper = name.trim_start_matches("figure_");

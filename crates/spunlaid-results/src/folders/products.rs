@@ -13,9 +13,10 @@ use crate::output::kept_input::Input;
 use crate::output::origin::ORIGIN;
 use crate::output::sources::{self, OPENFOAM, VTK, write_openfoam};
 use crate::output::spinline::{self, STATIONS, SpinResults, remarks, write_stations};
+use crate::output::summary::Performance;
 use crate::output::table::TABLES;
 use crate::output::versioned_json;
-use crate::output::web::{Performance, summary_of_scan, write_scan};
+use crate::output::web::{summary_of_scan, write_scan};
 use crate::report::{
     air_report, analysis_report, paper_report, scan_report, sources_report, spinline_report,
 };

@@ -252,8 +252,9 @@ pub fn performance(case: &Case, results: &Results, computing: RunControl<'_>, wa
     Performance {
         wall_s,
         threads,
-        element_steps,
-        ns_per_element_step: wall_s * threads as f64 / element_steps as f64 * 1e9,
+        element_steps: Some(element_steps),
+        ns_per_element_step: Some(wall_s * threads as f64 / element_steps as f64 * 1e9),
         instruction_set: computing.isa.name(),
+        ..Performance::default()
     }
 }

@@ -48,28 +48,21 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
     let at = |i: usize| errors.get(i).map(percent).unwrap_or_default();
     let is_limit = check.refined == Refinement::TimeStep && check.is_resolved;
     let most = if check.refined == Refinement::TimeStep && !check.is_resolved { "at most " } else { "" };
+    let with = compared_with(check, case);
     match (check.error_over(change), &change.from_quarter) {
-        (Some(_), _) if is_limit => {
-            let with = compared_with(check, case);
-            format!("{label} differs by {} from {}", at(0), with.trim_end_matches(','))
-        }
-        (Some(_), _) => format!("{label} is off by {most}{}", at(0)),
+        (Some(_), _) if !is_limit => format!("{label} is off by {most}{}", at(0)),
         (None, Some((length, _))) => format!(
-            "{label} differs by {} from {} and by {} from those of {}, which does not show how far it is from very \
+            "{label} differs by {} from {with} and by {} from those of {}, which does not show how far it is from very \
             fine elements",
             at(0),
-            compared_with(check, case),
             at(1),
             Dimension::Length.pretty_to(*length, 3)
         ),
-        (None, None) => {
-            let with = compared_with(check, case);
-            format!("{label} differs by {} from {}", at(0), with.trim_end_matches(','))
-        }
+        _ => format!("{label} differs by {} from {}", at(0), with.trim_end_matches(',')),
     }
 }
 
-/// With what a run is compared: `half of it`.
+/// With what a run is compared: `half the step`.
 pub(super) fn compared_with(check: &FinerCheck, case: &Case) -> String {
     match check.refined {
         Refinement::TimeStep => shorter(check, case),
@@ -91,7 +84,7 @@ fn shorter(check: &FinerCheck, case: &Case) -> String {
     match check.is_resolved {
         true if check.scheme == case.run.scheme => format!("steps of {step}, which resolve axial waves,"),
         true => format!("{} at {step}, which resolves axial waves,", check.scheme.name()),
-        false => "half of it".to_owned(),
+        false => "half the step".to_owned(),
     }
 }
 

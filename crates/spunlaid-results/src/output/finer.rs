@@ -1,11 +1,11 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
-use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, unchecked};
-use crate::numbers::significant;
+use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, told, unchecked};
+use crate::numbers::{capitalised, significant};
 use spunlaid::air::EddyModel;
 use spunlaid::fibre::Case;
 use spunlaid::ground::{Dimension, Estimate};
-use spunlaid::simulation::{Change, FinerCheck, FinerChecks, Refinement, Results};
+use spunlaid::simulation::{FinerCheck, FinerChecks, Refinement, Results};
 
 /// A check: what is compared, and what it says, in sentences.
 pub type CheckWords = (String, Vec<String>);
@@ -29,30 +29,15 @@ fn words_of_check(check: &FinerCheck, case: &Case, results: &Results) -> CheckWo
         significant(100.0 * check.share_of_run, 2)
     );
     let path = check.path.iter();
-    let mut differences: Vec<String> = path
-        .map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)))
-        .collect();
-    differences.extend(check.changes.iter().map(|change| {
-        let Change { statistic, estimate, from_quarter, .. } = change;
-        let label = statistic.label;
-        let quarter = from_quarter.as_ref().map_or(String::new(), |(length, estimate)| {
-            let length = Dimension::Length.pretty_to(*length, 3);
-            format!(", and by {} from elements of {length}", percent(estimate))
-        });
-        let is_mesh = check.refined == Refinement::Elements;
-        let error = check.error_over(change).filter(|_| is_mesh).map_or(String::new(), |_| {
-            let error = errors(check, change).first().map(percent).unwrap_or_default();
-            format!("; the error of the mesh is about {error}")
-        });
-        format!("{label} differs by {}{quarter}{error}", percent(estimate))
-    }));
-    if check.is_of_a_part(&case.run) {
-        differences.push(format!(
+    let path = path.map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)));
+    let found = check.changes.iter().map(|change| capitalised(&told(check, change, case)));
+    let part = check.is_of_a_part(&case.run).then(|| {
+        format!(
             "This is so in the first {} of {} s; the whole run may differ by more or less",
             significant(check.duration, 2),
             significant(case.run.duration(), 3)
-        ));
-    }
+        )
+    });
     let with = compared_with(check, case);
     let (what, advice) = match check.refined {
         Refinement::TimeStep => ("Time step", step_advice(check, results)),
@@ -60,9 +45,9 @@ fn words_of_check(check: &FinerCheck, case: &Case, results: &Results) -> CheckWo
     };
     let meaning = meaning(check);
     let end = [meaning.to_owned(), format!("Compared: {extent}."), format!("{advice}.")];
-    let differences = differences.into_iter().map(|difference| format!("{difference}."));
+    let found = path.chain(found).chain(part).map(|words| format!("{words}."));
     let name = format!("{what}, compared with {with} in the same turbulence");
-    (name, differences.chain(end).collect())
+    (name, found.chain(end).collect())
 }
 
 /// How the error follows from what differs.
@@ -172,7 +157,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
 mod tests {
     use super::*;
     use spunlaid::fibre::chain::schemes::Scheme;
-    use spunlaid::simulation::Statistic;
+    use spunlaid::simulation::{Change, Statistic};
 
     fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
         let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };

@@ -40,13 +40,6 @@ pub fn run_report<'a>(
     let whole =
         |one: &Number| doubt::with_error_of_checks(one.estimate.clone(), one.measure.name, checks, case);
     let methods = methods("run", of_case(case), "case.toml of the results");
-    let cost = format!(
-        "computed in {} on {} with {} instructions, {} per element and step",
-        words::time(performance.wall_s),
-        count(performance.threads as u64, "thread"),
-        performance.instruction_set,
-        words::quantity(performance.ns_per_element_step, "ns"),
-    );
     let load = load_of_spinline(case, &results.way());
     let loads: Vec<_> = load.iter().map(|load| (None, load)).collect();
     let file = Section::new("case", "The case")
@@ -66,7 +59,7 @@ pub fn run_report<'a>(
         .with(energy(case, results))
         .with(methods)
         .with(file)
-        .costing(cost))
+        .costing(words::cost(performance)))
 }
 
 /// The moving fibre.

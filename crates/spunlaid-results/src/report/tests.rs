@@ -14,9 +14,11 @@ use spunlaid::simulation::{FinerChecks, Results, Unchecked};
 const PERFORMANCE: Performance = Performance {
     wall_s: 1.0,
     threads: 2,
-    element_steps: 370_000_000,
-    ns_per_element_step: 5.4,
+    element_steps: Some(370_000_000),
+    ns_per_element_step: Some(5.4),
     instruction_set: "AVX-512",
+    flights_s: None,
+    flights_in_parallel_s: None,
 };
 
 /// Largest size of a page [bytes].

@@ -1,8 +1,7 @@
 //! How uneven a web is, in the words that the reports of laid and of scanned webs share.
 
-use super::words::{count, millimetres, time};
+use super::words::millimetres;
 use crate::numbers::{THIN, plus_minus, significant};
-use crate::output::web::Performance;
 use spunlaid::web::Clouds;
 use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Findings, nearest_to_seen};
@@ -30,10 +29,6 @@ pub(super) fn grams_with_error((weight, error): (f64, Option<f64>)) -> String {
 /// The patch nearest to what the eye judges first.
 pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
     nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch))
-}
-
-pub(super) fn cost(performance: Performance) -> String {
-    format!("computed in {} on {}", time(performance.wall_s), count(performance.threads as u64, "thread"))
 }
 
 /// * `weight` – mean basis weight and its standard error, if they are known [kg/m²]

@@ -12,14 +12,15 @@ use super::scale::Judged;
 use super::spinline::{LayerSpinline, sections_of_web};
 use super::table::{Row, Table};
 use super::unevenness::{
-    CV_OF_PATCHES, cost, grams, grams_with_error, headline, headline_patch, largest_clouds, per_cent,
+    CV_OF_PATCHES, grams, grams_with_error, headline, headline_patch, largest_clouds, per_cent,
 };
 use super::view::View;
-use super::words::{count, metres, millimetres};
+use super::words::{cost, count, metres, millimetres};
 use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::numbers::{THIN, number, significant};
-use crate::output::web::{Layer, Performance};
+use crate::output::summary::Performance;
+use crate::output::web::Layer;
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;

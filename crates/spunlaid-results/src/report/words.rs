@@ -2,10 +2,11 @@
 
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
 use crate::output::doubt;
+use crate::output::summary::Performance;
 use spunlaid::air::EddyModel;
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Root};
-use spunlaid::ground::Estimate;
+use spunlaid::ground::{Dimension, Estimate};
 use spunlaid::simulation::{FinerChecks, Results};
 
 /// A result with its standard error, `factor` converts the unit.
@@ -23,23 +24,25 @@ pub(super) fn unbroken(text: &str) -> String {
     text.replace(" %", &format!("{HARD}%"))
 }
 
-/// A length in the unit that suits it.
-pub(super) fn length(metres: f64) -> String {
-    match metres.abs() {
-        m if m >= 1.0 || m == 0.0 => quantity(metres, "m"),
-        m if m >= 1e-3 => quantity(metres * 1e3, "mm"),
-        _ => quantity(metres * 1e6, "µm"),
-    }
+/// A quantity in the unit that suits it.
+fn pretty(dimension: Dimension, value: f64) -> String {
+    dimension.pretty_to(value, 3).replace(' ', &THIN.to_string()).replace('-', "−")
 }
 
-/// A time in the unit that suits it.
+pub(super) fn length(metres: f64) -> String {
+    pretty(Dimension::Length, metres)
+}
+
 pub(super) fn time(seconds: f64) -> String {
-    match seconds.abs() {
-        s if s >= 1.0 || s == 0.0 => quantity(seconds, "s"),
-        s if s >= 1e-3 => quantity(seconds * 1e3, "ms"),
-        s if s >= 1e-6 => quantity(seconds * 1e6, "µs"),
-        _ => quantity(seconds * 1e9, "ns"),
-    }
+    pretty(Dimension::Time, seconds)
+}
+
+/// What a computation took.
+pub(super) fn cost(of: Performance) -> String {
+    let run = of.ns_per_element_step.map_or_else(String::new, |each| {
+        format!(" with {} instructions, {} per element and step", of.instruction_set, quantity(each, "ns"))
+    });
+    format!("computed in {} on {}{run}", time(of.wall_s), count(of.threads as u64, "thread"))
 }
 
 /// `1 replicate`, `10 replicates`.

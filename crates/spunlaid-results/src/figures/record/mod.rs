@@ -114,13 +114,12 @@ fn histogram(record: &Record, analysis: &Analysis) -> Figure {
         }
         let height = |n: u64| n as f64 / (samples.values.len() as f64 * width * unit);
         let edge = |k: usize| place + (k as f64 * width - reach) * unit;
-        let steps: Vec<_> = (classes.iter().enumerate())
-            .flat_map(|(k, n)| [(edge(k), height(*n)), (edge(k + 1), height(*n))])
-            .collect();
+        let steps = (classes.iter().enumerate())
+            .flat_map(|(k, n)| [(edge(k), height(*n)), (edge(k + 1), height(*n))]);
         let middles =
             classes.iter().enumerate().map(|(k, n)| (0.5 * (edge(k) + edge(k + 1)), height(*n), None));
         let line = series(&component.name, i).width(1.4).thinned_from(middles.collect());
-        chart = chart.path(line, &steps);
+        chart = chart.path(line, steps);
         if i == 0 {
             let bell = |z: f64| (-0.5 * z * z).exp() / ((2.0 * std::f64::consts::PI).sqrt() * unit);
             gaussian = (-100..=100)
@@ -151,20 +150,17 @@ fn autocorrelation(analysis: &Analysis) -> Figure {
     .stretch(Series::new("integrated", GREY), 0.0, limit);
     for (i, component) in analysis.components.iter().enumerate() {
         let coefficients = component.autocorrelation.coefficients.iter().enumerate();
-        let line: Vec<_> = coefficients
-            .map(|(k, c)| (k as f64 * analysis.interval * 1e3, *c))
-            .take_while(|(lag, _)| *lag <= shown)
-            .collect();
-        chart = chart.line(series(&component.name, i).width(1.5), &line);
+        let line = coefficients.map(|(k, c)| (k as f64 * analysis.interval * 1e3, *c));
+        let line = line.take_while(|(lag, _)| *lag <= shown);
+        chart = chart.line(series(&component.name, i).width(1.5), line);
     }
     let omega = 2.0 * std::f64::consts::PI * analysis.cutoff_frequency.value * 1e-3;
     let sinc = |lag: f64| if lag == 0.0 { 1.0 } else { (omega * lag).sin() / (omega * lag) };
     let end = (along.coefficients.len().saturating_sub(1) as f64 * analysis.interval * 1e3).min(shown);
-    let flat: Vec<_> = (0..=300).map(|k| f64::from(k) * end / 300.0).map(|lag| (lag, sinc(lag))).collect();
-    let zero = [(0.0, 0.0), (end, 0.0)];
+    let flat = (0..=300).map(|k| f64::from(k) * end / 300.0).map(|lag| (lag, sinc(lag)));
     let chart = chart
-        .line(Series::new("", GREY).adorning().width(0.8), &zero)
-        .line(Series::reference("of the flat spectrum"), &flat)
+        .line(Series::new("", GREY).adorning().width(0.8), [(0.0, 0.0), (end, 0.0)])
+        .line(Series::reference("of the flat spectrum"), flat)
         .vertical(Series::new("limit of the integral", GREY).dashed(&[2.0, 3.0]).width(1.2), limit);
     let caption = format!(
         "Mean product of two fluctuations one lag apart, over the variance. The integral over the shaded part, {}, is \
@@ -196,25 +192,22 @@ fn density(analysis: &Analysis) -> Figure {
         let points = thinned(&component.spectrum);
         if i == 0 {
             let per_frequency = spectrum.effective_duration * spectrum.step;
-            let band: Vec<_> = points
-                .iter()
-                .map(|&(f, p, n)| {
-                    let factor = (1.96 / (n as f64 * per_frequency).sqrt()).exp();
-                    (f, p / factor, p * factor)
-                })
-                .collect();
+            let band = points.iter().map(|&(f, p, n)| {
+                let factor = (1.96 / (n as f64 * per_frequency).sqrt()).exp();
+                (f, p / factor, p * factor)
+            });
             chart = chart
-                .band(series("", i).unlabelled().named(&format!("{} 95 % interval", component.name)), &band);
+                .band(series("", i).unlabelled().named(&format!("{} 95 % interval", component.name)), band);
         }
-        let line: Vec<_> = points.iter().map(|&(f, p, _)| (f, p)).collect();
+        let line = points.iter().map(|&(f, p, _)| (f, p));
         let density = component.spectrum.density.iter().enumerate();
         let all = density.map(|(k, p)| (component.spectrum.frequency(k), *p, None)).collect();
-        chart = chart.line(series(&component.name, i).width(1.5).thinned_from(all), &line);
+        chart = chart.line(series(&component.name, i).width(1.5).thinned_from(all), line);
     }
     let (level, cutoff) = (flat.density.value, flat.cutoff.value);
     let bottom = spectrum.density.iter().copied().filter(|p| *p > 0.0).fold(level, f64::min);
     let model = [(flat.from, level), (cutoff, level), (cutoff, bottom)];
-    let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed(&[6.0, 4.0]), &model);
+    let chart = chart.path(Series::new("flat, same plateau and variance", INK).dashed(&[6.0, 4.0]), model);
     let caption = format!(
         "Power spectral density by Welch’s method with {} segments of {} samples, {} window, {} % overlap; \
         the shaded band is its 95 % interval. The plateau is the mean over the orange range. The dashed line \

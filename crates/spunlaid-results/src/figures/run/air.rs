@@ -17,9 +17,8 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     let share = |i: usize| i as f64 / (PLACES - 1) as f64;
     let places: Vec<(f64, LocalAir)> =
         (0..PLACES).map(|i| (length * share(i) * MM, case.air.local(along * share(i), &mut hint))).collect();
-    let mean: Vec<_> = places.iter().map(|(s, air)| (*s, air.velocity.x)).collect();
-    let band: Vec<_> =
-        places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms)).collect();
+    let mean = places.iter().map(|(s, air)| (*s, air.velocity.x));
+    let band = places.iter().map(|(s, air)| (*s, air.velocity.x - air.rms, air.velocity.x + air.rms));
     let (title, from, straight) = match case.line {
         None => ("Air along the fibre", "root", "The air where the straight fibre would lie"),
         Some(_) => (
@@ -34,8 +33,8 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
         Axis::linear(&format!("Distance from the {from} (mm)")).tight(),
         Axis::linear("Velocity along *x* (m/s)"),
     )
-    .band(Series::new("± rms of the fluctuation", GREEN), &band)
-    .line(Series::new("mean", GREEN), &mean);
+    .band(Series::new("± rms of the fluctuation", GREEN), band)
+    .line(Series::new("mean", GREEN), mean);
     let between = |quantity: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
         let values = || places.iter().map(|(_, air)| quantity(air) * scale);
         let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));

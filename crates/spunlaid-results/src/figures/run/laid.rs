@@ -172,9 +172,9 @@ fn footprint(case: &Case, results: &Results) -> Figure {
         label: "%/cm^{2}".to_owned(),
         shades: Shades::Amount,
     };
-    let ellipse = |times: f64| -> Vec<(f64, f64)> {
+    let ellipse = |times: f64| {
         let at = |k: u32| TAU * f64::from(k) / 180.0;
-        (0..=180).map(|k| (times * md * at(k).cos(), times * cd * at(k).sin())).collect()
+        (0..=180).map(move |k| (times * md * at(k).cos(), times * cd * at(k).sin()))
     };
     let within = |times: f64| {
         let inside = points.iter().filter(|(x, y)| (x / md).hypot(y / cd) <= times).count();
@@ -182,8 +182,8 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     };
     let chart = chart
         .map(map)
-        .path(Series::new("1 *σ*", VERMILION).width(1.8), &ellipse(1.0))
-        .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed(&[7.0, 4.0]), &ellipse(2.0));
+        .path(Series::new("1 *σ*", VERMILION).width(1.8), ellipse(1.0))
+        .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed(&[7.0, 4.0]), ellipse(2.0));
     let caption = format!(
         "Share of the fibre per square centimetre of belt, about the straight trace, which a fibre would leave \
          that came down at one place; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: \

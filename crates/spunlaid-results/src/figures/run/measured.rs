@@ -46,8 +46,7 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
             Kind::Lag => correlation(chart, i, curve, &places),
             Kind::Series => series(chart, i, curve, &places, results.replicates()),
             Kind::Number | Kind::Spectrum | Kind::Direction => {
-                let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
-                chart.line(styled(i, curve.measure.series), &points)
+                chart.line(styled(i, curve.measure.series), places.iter().map(|place| (place.at, place.mean)))
             }
         };
         if first.kind == Kind::Spectrum {
@@ -114,29 +113,28 @@ fn scaled(curve: &Curve, per_si: f64) -> Vec<Place> {
 /// A thin line with markers and error bars at so many of the places.
 fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place], marked: usize) -> Chart {
     let point = |place: &Place| (place.at, place.mean, place.standard_error);
-    let line: Vec<_> = even(places.len(), LINED).iter().map(|&k| (places[k].at, places[k].mean)).collect();
-    let marked: Vec<_> = even(places.len(), marked).iter().map(|&k| point(&places[k])).collect();
+    let line = even(places.len(), LINED).into_iter().map(|k| (places[k].at, places[k].mean));
+    let marked = even(places.len(), marked).into_iter().map(|k| point(&places[k]));
     let all = places.iter().map(point).collect();
     let named = curve.measure.series;
     let series = styled(i, named).thinned_from(all);
     // The only curve of a figure has no name of its own.
     let series = if named.is_empty() { series.unlabelled() } else { series };
-    chart.line(styled(i, "").adorning().unmarked().width(0.8), &line).scatter(series, &marked)
+    chart.line(styled(i, "").adorning().unmarked().width(0.8), line).scatter(series, marked)
 }
 
 /// A line with a band of one standard error to both sides. What was fitted to a measured curve has its colour, dashed.
 fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart {
     let colour = if i.is_multiple_of(2) { BLUE } else { VERMILION };
-    let points: Vec<_> = places.iter().map(|place| (place.at, place.mean)).collect();
+    let points = places.iter().map(|place| (place.at, place.mean));
     let full = places.iter().map(|place| (place.at, place.mean, place.standard_error)).collect();
     let series = Series::new(curve.measure.series, colour).thinned_from(full);
     if i >= MEASURED {
-        return chart.line(series.dashed(&[7.0, 4.0]).width(1.4), &points);
+        return chart.line(series.dashed(&[7.0, 4.0]).width(1.4), points);
     }
     let error = |place: &Place| place.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0);
-    let band: Vec<_> =
-        places.iter().map(|place| (place.at, place.mean - error(place), place.mean + error(place))).collect();
-    chart.band(Series::new("", colour).adorning(), &band).line(series.width(1.8), &points)
+    let band = places.iter().map(|place| (place.at, place.mean - error(place), place.mean + error(place)));
+    chart.band(Series::new("", colour).adorning(), band).line(series.width(1.8), points)
 }
 
 /// Curves of a correlation that are measured, the first ones; the others are fitted to them.
@@ -176,7 +174,6 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
         (some[some.len() / 2].at, mean, largest)
     };
     let band: Vec<_> = places.chunks(each).map(together).collect();
-    let mean: Vec<_> = band.iter().map(|&(time, mean, _)| (time, mean)).collect();
     let all = |value: fn(&Place) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
@@ -184,7 +181,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: u
     // Other colours than those of y and z.
     let column = if several { format!("{name} mean") } else { name.to_owned() };
     let line = styled(i + 2, &label).named(&column).width(1.2).thinned_from(all(|place| place.mean));
-    let chart = chart.line(line, &mean);
+    let chart = chart.line(line, band.iter().map(|&(time, mean, _)| (time, mean)));
     if !several {
         return chart;
     }

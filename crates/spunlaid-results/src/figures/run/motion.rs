@@ -72,7 +72,7 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     let from = swings(results, PATH).map_or(0.0, |part| end - part).max(spin_up);
     let drawn: Vec<&EndPoint> = path.last().filter(|(time, _)| *time >= from).collect();
     let points: Vec<_> = drawn.iter().map(|(_, end)| (end.y * MM, end.z * MM)).collect();
-    let spot = |p: Option<&(f64, f64)>| -> Vec<_> { p.map(|&(y, z)| (y, z, None)).into_iter().collect() };
+    let spot = |place: Option<&(f64, f64)>| place.map(|&(y, z)| (y, z, None));
     let chart = Chart::new(
         "end_node_path",
         "Path of the free end across the flow",
@@ -82,8 +82,8 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
     .sized(520.0, 500.0)
     .equal()
     .path(Series::new("path of the free end", GREEN).width(1.0), &points)
-    .scatter(Series::spots("first", INK), &spot(points.first()))
-    .scatter(Series::spots("last", ORANGE), &spot(points.last()));
+    .scatter(Series::spots("first", INK), spot(points.first()))
+    .scatter(Series::spots("last", ORANGE), spot(points.last()));
     let mut caption =
         "The path of the free end across the mean flow in the first replicate, with the same scale in both \
                        directions."

@@ -11,8 +11,7 @@ use spunlaid_charts::{Axis, Chart, Figure, Series};
 pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
     let air = &case.air;
     let cutoff = air.cutoff_frequency;
-    let shown: Vec<_> = turbulence.iter().filter(|p| p.frequency <= 2.0 * cutoff).collect();
-    let synthesised: Vec<_> = shown.iter().map(|p| (p.frequency, p.synthesised)).collect();
+    let shown = || turbulence.iter().filter(|p| p.frequency <= 2.0 * cutoff);
     let chart = Chart::new(
         "turbulence_spectrum",
         "Spectrum of the turbulence",
@@ -24,7 +23,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         })
         .zero_based(),
     )
-    .line(Series::new("realised", GREEN), &synthesised);
+    .line(Series::new("realised", GREEN), shown().map(|p| (p.frequency, p.synthesised)));
     let what =
         "Spectrum of the simulated turbulence, averaged over components, eddies and up to eight replicates";
     let rms = if air.is_uniform() {
@@ -42,7 +41,7 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
             let level = air.rms().powi(2) / cutoff;
             vec![(0.0, level), (cutoff, level), (cutoff, 0.0), (2.0 * cutoff, 0.0)]
         }
-        _ => shown.iter().map(|p| (p.frequency, p.wanted)).collect(),
+        _ => shown().map(|p| (p.frequency, p.wanted)).collect(),
     };
     let shape = match air.spectrum {
         SpectrumShape::Flat => "flat",

@@ -45,9 +45,8 @@ struct ThreadRow<'a> {
 }
 
 impl ThreadRow<'_> {
-    fn points(&self, quantity: Quantity) -> Vec<(f64, f64)> {
-        let stations = self.solution.stations.iter();
-        stations.map(|station| (station.distance * MM, quantity(station))).collect()
+    fn points(&self, quantity: Quantity) -> impl Iterator<Item = (f64, f64)> {
+        self.solution.stations.iter().map(move |station| (station.distance * MM, quantity(station)))
     }
 
     /// `thread`, or `thread, last row`.
@@ -90,19 +89,23 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
 ///
 /// * `is_keyed` – whether the chart has a legend
 fn with_rows(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
-    let points: Vec<_> = rows.iter().map(|row| row.points(quantity)).collect();
-    with_points(chart, rows, &points, is_keyed)
+    with_points(chart, rows, |row| row.points(quantity), is_keyed)
 }
 
 /// The same with points for each row.
-fn with_points(chart: Chart, rows: &[ThreadRow<'_>], points: &[Vec<(f64, f64)>], is_keyed: bool) -> Chart {
-    rows.iter().zip(points).enumerate().fold(chart, |chart, (i, (row, points))| {
+fn with_points<'a, P: Iterator<Item = (f64, f64)>>(
+    chart: Chart,
+    rows: &'a [ThreadRow<'a>],
+    points: impl Fn(&'a ThreadRow<'a>) -> P,
+    is_keyed: bool,
+) -> Chart {
+    rows.iter().enumerate().fold(chart, |chart, (i, row)| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
         let line = Series::new(&row.label("thread"), row.colour).width(2.0);
         let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
         let frozen = row.solution.freezing.distance * MM;
         chart
-            .line(keyed(line, is_keyed), points)
+            .line(keyed(line, is_keyed), points(row))
             .vertical(keyed(freezing.dashed(&[5.0, 4.0]).width(1.2), is_keyed && i == 0), frozen)
     })
 }
@@ -140,7 +143,7 @@ fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
     let dashes = [&[][..], &[2.0, 3.0]];
     rows.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
-        chart.line(series, &row.points(quantity))
+        chart.line(series, row.points(quantity))
     })
 }
 
@@ -180,13 +183,17 @@ fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
     let title = "Strain rate of the thread";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
-    let rates = |row: &ThreadRow<'_>| {
-        let frozen = row.solution.freezing.distance * MM;
-        let points = row.points(|station| station.strain_rate).into_iter();
-        points.filter(|(distance, _)| *distance <= frozen).chain([(frozen, 0.0), (until * MM, 0.0)]).collect()
-    };
-    let points: Vec<_> = rows.iter().map(rates).collect();
-    let chart = with_points(chart, rows, &points, true);
+    let chart = with_points(
+        chart,
+        rows,
+        |row| {
+            let frozen = row.solution.freezing.distance * MM;
+            let points = row.points(|station| station.strain_rate);
+            let points = points.filter(move |(distance, _)| *distance <= frozen);
+            points.chain([(frozen, 0.0), (until * MM, 0.0)])
+        },
+        true,
+    );
     let caption = format!(
         "How fast the thread is stretched, up to a little below the freezing point. {}",
         about_freezing(rows)
@@ -210,28 +217,21 @@ fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
 /// Diameter and freezing point of each row.
 fn curtain_figure(prefix: &str, rows: &[Solution]) -> Figure {
     let title = "Rows of the curtain";
-    let along = || Axis::linear("Row, from the side of the quench").in_column("row");
-    let points = |value: fn(&Solution) -> f64| -> Vec<_> {
-        rows.iter().enumerate().map(|(i, row)| ((i + 1) as f64, value(row), None)).collect()
+    let chart = |name: &str, up: &str, value: fn(&Solution) -> f64| {
+        let along = Axis::linear("Row, from the side of the quench").in_column("row");
+        Chart::new(&format!("{prefix}_rows_{name}"), title, along, Axis::linear(up))
+            .sized(640.0, 300.0)
+            .scatter(
+                Series::circles("filament").unlabelled(),
+                rows.iter().enumerate().map(|(i, row)| ((i + 1) as f64, value(row), None)),
+            )
     };
-    let diameter = Chart::new(
-        &format!("{prefix}_rows_diameter"),
-        title,
-        along(),
-        Axis::linear("Diameter *d*, cold (µm)"),
-    )
-    .scatter(Series::circles("filament").unlabelled(), &points(|row| row.final_diameter * MICROMETRES));
-    let freezing = Chart::new(
-        &format!("{prefix}_rows_freezing"),
-        title,
-        along(),
-        Axis::linear("Freezing point, below the die (mm)"),
-    )
-    .scatter(Series::circles("filament").unlabelled(), &points(|row| row.freezing.distance * MM));
+    let diameter = chart("diameter", "Diameter *d*, cold (µm)", |row| row.final_diameter * MICROMETRES);
+    let freezing = chart("freezing", "Freezing point, below the die (mm)", |row| row.freezing.distance * MM);
     Figure::stacked(
         &format!("{prefix}_rows"),
         title,
-        &[&diameter.sized(640.0, 300.0), &freezing.sized(640.0, 300.0)],
+        &[&diameter, &freezing],
         "Each row meets the air that the rows before it have warmed and dragged along. The air does not mix \
         between the rows in this model.",
     )

@@ -2,11 +2,11 @@
 
 use super::quantity::{FactorAxis, Group, name_of_key};
 use super::{FAMILY, file_name};
+use crate::figures::compare::COLOURS;
+use crate::figures::joined;
 use spunlaid::experiment::{PointResults, Study};
-use spunlaid_charts::palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION};
+use spunlaid_charts::palette::GREEN;
 use spunlaid_charts::{Chart, Figure, Marker, Series};
-
-const COLOURS: [Colour; FAMILY] = [BLUE, VERMILION, GREEN, ORANGE, PURPLE, INK];
 
 /// Dashes of the lines, so that curves can be distinguished without their colours.
 const DASHES: [&[f32]; FAMILY] =
@@ -73,7 +73,7 @@ fn over_factor(
         let shift = along.aside(position, group.members.len());
         let spots = spots(study, results, group, *measure, (factor, &along, shift), points);
         let series = series(group, position);
-        chart = if along.is_joined() { drawn(chart, series, &spots) } else { chart.scatter(series, &spots) };
+        chart = if along.is_joined() { joined(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
     let caption = format!("{} {words}{}", group.title, means(study));
     Figure::new(&chart, caption)
@@ -110,11 +110,11 @@ pub(super) fn family(
                 chart = chart.scatter(series, &spots);
                 continue;
             }
-            let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
+            let line = spots.iter().map(|(x, y, _)| (*x, *y));
             // The legend shows the line of the first result; the table has the points with their errors.
-            let joined = series.clone().drawn_only().unmarked().width(1.6);
-            let joined = if position == 0 { joined } else { joined.unlabelled() };
-            chart = chart.line(joined, &line).scatter(series.unlabelled(), &spots);
+            let thin = series.clone().drawn_only().unmarked().width(1.6);
+            let thin = if position == 0 { thin } else { thin.unlabelled() };
+            chart = chart.line(thin, line).scatter(series.unlabelled(), &spots);
         }
     }
     let signs = match group.members.as_slice() {
@@ -149,10 +149,4 @@ fn spots(
     let mut spots: Vec<Spot> = points.iter().map(spot).collect();
     spots.sort_by(|a, b| a.0.total_cmp(&b.0));
     spots
-}
-
-/// Markers with bars, joined by a thin line.
-pub(super) fn drawn(chart: Chart, series: Series, spots: &[Spot]) -> Chart {
-    let line: Vec<(f64, f64)> = spots.iter().map(|(x, y, _)| (*x, *y)).collect();
-    chart.line(series.clone().adorning().unmarked().width(1.0), &line).scatter(series, spots)
 }

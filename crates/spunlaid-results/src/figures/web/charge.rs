@@ -21,15 +21,13 @@ pub(super) fn figure(laid: &LaidWeb) -> Option<Figure> {
     for ((layer, curtain), colour) in charged.iter().zip(COLOURS.into_iter().cycle()) {
         let heights =
             || curtain.heights.iter().map(|height| (height.x * MM, height.places.map(|at| at * MM)));
-        let between = |low: usize, high: usize| -> Vec<_> {
-            heights().map(|(x, places)| (x, places[low], places[high])).collect()
-        };
+        let between =
+            |low: usize, high: usize| heights().map(move |(x, places)| (x, places[low], places[high]));
         let of = if charged.len() > 1 { format!(" of layer {}", layer + 1) } else { String::new() };
-        let middle: Vec<_> = heights().map(|(x, places)| (x, places[2])).collect();
         chart = chart
-            .band(Series::new(&format!("95 % of the filament{of}"), colour), &between(0, 4))
-            .band(Series::new(&format!("half of it{of}"), colour), &between(1, 3))
-            .line(Series::new(&format!("middle{of}"), colour), &middle);
+            .band(Series::new(&format!("95 % of the filament{of}"), colour), between(0, 4))
+            .band(Series::new(&format!("half of it{of}"), colour), between(1, 3))
+            .line(Series::new(&format!("middle{of}"), colour), heights().map(|(x, places)| (x, places[2])));
     }
     Some(Figure::new(
         &chart,

@@ -1,6 +1,7 @@
 //! Sizes of the clouds: their variance by wavelength, spectra and autocorrelation.
 
 use super::{MM, PER_CENT};
+use crate::figures::joined;
 use crate::numbers::significant;
 use spunlaid::web::Clouds;
 use spunlaid_charts::palette::{BLUE, VERMILION};
@@ -29,15 +30,13 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
             )
         })
         .collect();
-    let line: Vec<(f64, f64)> = points.iter().map(|(x, y, _)| (*x, *y)).collect();
     let chart = Chart::new(
         "web_clouds",
         "Which clouds make the web uneven",
         Axis::logarithmic("Wavelength (mm), an octave each").in_column("wavelength_mm"),
         Axis::linear("Part of CV^{2} (%^{2})").zero_based().in_column("part_of_cv_squared_percent2"),
-    )
-    .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
-    .scatter(Series::spots("octaves", BLUE).unlabelled(), &points);
+    );
+    let chart = joined(chart, Series::spots("octaves", BLUE).unlabelled(), &points);
     let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
     let caption = format!(
         "The variance of the basis weight over its mean, split by the wavelength of the clouds: each point \
@@ -64,16 +63,15 @@ pub(super) fn empty_spectrum() -> Chart {
 }
 
 /// Wavelength and density in cross (0) or machine direction (1), from short waves to long [mm].
-pub(super) fn density(clouds: &Clouds, direction: usize) -> Vec<(f64, f64)> {
-    let spectrum = clouds.spectrum(direction).into_iter().rev();
-    spectrum.map(|(wave, density)| (wave * MM, density * MM)).collect()
+pub(super) fn density(clouds: &Clouds, direction: usize) -> impl Iterator<Item = (f64, f64)> {
+    clouds.spectrum(direction).into_iter().rev().map(|(wave, density)| (wave * MM, density * MM))
 }
 
 /// The power spectrum in both directions.
 fn spectrum(clouds: &Clouds) -> Figure {
     let chart = empty_spectrum()
-        .line(Series::new("machine direction", BLUE).width(1.5), &density(clouds, 1))
-        .line(Series::new("cross direction", VERMILION).width(1.5), &density(clouds, 0));
+        .line(Series::new("machine direction", BLUE).width(1.5), density(clouds, 1))
+        .line(Series::new("cross direction", VERMILION).width(1.5), density(clouds, 0));
     Figure::new(
         &chart,
         "One-sided power spectral density of the basis weight over its mean, by wave number along each \
@@ -84,8 +82,8 @@ fn spectrum(clouds: &Clouds) -> Figure {
 
 /// The autocorrelation in both directions.
 fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
-    let points = |direction: usize| -> Vec<(f64, f64)> {
-        coefficients[direction].iter().enumerate().map(|(lag, c)| (lag as f64 * cell * MM, *c)).collect()
+    let points = |direction: usize| {
+        coefficients[direction].iter().enumerate().map(|(lag, c)| (lag as f64 * cell * MM, *c))
     };
     let chart = Chart::new(
         "web_autocorrelation",
@@ -93,8 +91,8 @@ fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
         Axis::linear("Distance (mm)").tight(),
         Axis::linear("Autocorrelation coefficient").including(0.0).in_column("coefficient"),
     )
-    .line(Series::new("machine direction", BLUE).width(1.5), &points(1))
-    .line(Series::new("cross direction", VERMILION).width(1.5), &points(0));
+    .line(Series::new("machine direction", BLUE).width(1.5), points(1))
+    .line(Series::new("cross direction", VERMILION).width(1.5), points(0));
     Figure::new(
         &chart,
         "How alike the basis weights of two cells are that lie some distance apart. What stays in machine \

@@ -1,6 +1,7 @@
 //! How filaments that hang side by side in one air come down together.
 
 use super::MM;
+use crate::figures::joined;
 use spunlaid::web::{Correlation, LayerFlown, NeighbourCorrelation};
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
@@ -34,11 +35,7 @@ pub(super) fn figure(layers: &[LayerFlown]) -> Option<Figure> {
                 (neighbour.distance * MM, value, standard_error)
             };
             let points: Vec<_> = flown.neighbours.iter().map(point).collect();
-            let line: Vec<(f64, f64)> =
-                points.iter().map(|(distance, value, _)| (*distance, *value)).collect();
-            chart = chart
-                .line(Series::new("", colour).unlabelled().adorning().width(1.0), &line)
-                .scatter(Series { colour, ..sign(&name) }, &points);
+            chart = joined(chart, Series { colour, ..sign(&name) }, &points);
         }
     }
     Some(Figure::new(

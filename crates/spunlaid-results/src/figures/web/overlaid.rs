@@ -48,23 +48,22 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
             }
             for (side, low, high) in band {
                 let bar = Series::new("", colour).adorning().width(1.2);
-                chart = chart.path(bar, &[(side, low), (side, high)]);
+                chart = chart.path(bar, [(side, low), (side, high)]);
             }
         }
-        let line: Vec<_> = patches.iter().map(|patch| (patch.side * MM, patch.cv * PER_CENT)).collect();
-        chart = chart.line(Series::new("", colour).adorning().width(1.0), &line);
-        let points = |known: bool, with_errors: bool| -> Vec<_> {
-            let shown = patches.iter().filter(|patch| patch.interval.is_some() == known);
-            let error = |patch: &ComparedPatch| patch.standard_error.filter(|_| with_errors);
-            shown
-                .map(|patch| {
-                    (patch.side * MM, patch.cv * PER_CENT, error(patch).map(|error| error * PER_CENT))
-                })
-                .collect()
+        let line = patches.iter().map(|patch| (patch.side * MM, patch.cv * PER_CENT));
+        let points = |known: bool, with_errors: bool| {
+            let shown = patches.iter().filter(move |patch| patch.interval.is_some() == known);
+            shown.map(move |patch| {
+                let error = patch.standard_error.filter(|_| with_errors);
+                (patch.side * MM, patch.cv * PER_CENT, error.map(|error| error * PER_CENT))
+            })
         };
+        let spots = Series::spots(name, colour).thinned_from(points(true, true).collect());
         chart = chart
-            .scatter(Series::spots(name, colour).thinned_from(points(true, true)), &points(true, false))
-            .scatter(Series { colour, ..Series::circles(name) }.unlabelled(), &points(false, false));
+            .line(Series::new("", colour).adorning().width(1.0), line)
+            .scatter(spots, points(true, false))
+            .scatter(Series { colour, ..Series::circles(name) }.unlabelled(), points(false, false));
     }
     Figure::new(
         &chart,
@@ -91,7 +90,7 @@ pub fn overlaid_spectra(webs: &[ComparedSpectrum], cell: f64) -> Option<Figure> 
         let directions = [(1, "machine direction", &[][..]), (0, "cross direction", &[6.0, 4.0])];
         for (direction, words, dash) in directions {
             let series = Series::new(&format!("{}, {words}", web.name), colour);
-            chart = chart.line(Series { dash, ..series }.width(1.5), &density(&web.clouds, direction));
+            chart = chart.line(Series { dash, ..series }.width(1.5), density(&web.clouds, direction));
         }
     }
     let about_blur = blurred.map_or_else(String::new, |(web, wave)| {

@@ -78,7 +78,7 @@ fn profiles(map: &Map, weights: Weights, streaks: &str, across: &SheetPosition) 
     let chart = |name: &str, x: Axis, points: &[(f64, f64)], line: Series| {
         let ends = [points.first(), points.last()].map(|end| (end.map_or(0.0, |end| end.0), mean));
         Chart::new(name, "", x, Axis::linear(weights.axis))
-            .line(Series::new("", GREY).unlabelled().adorning().width(1.0), &ends)
+            .line(Series::new("", GREY).unlabelled().adorning().width(1.0), ends)
             .line(line.unlabelled().width(1.4), points)
     };
     let width = map.columns as f64 * map.cell;

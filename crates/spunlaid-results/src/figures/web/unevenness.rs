@@ -1,11 +1,12 @@
 //! How uneven the web is: over patches, and cell by cell.
 
 use super::{MM, PER_CENT, Weights};
+use crate::figures::joined;
 use crate::numbers::significant;
 use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Findings, straight_fibres};
 use spunlaid::web::{Edges, Map, Web, scan};
-use spunlaid_charts::palette::{BLUE, GREY, VERMILION};
+use spunlaid_charts::palette::{BLUE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
 
 pub(super) fn empty_chart() -> Chart {
@@ -25,13 +26,9 @@ fn point(unevenness: &Unevenness) -> (f64, f64, Option<f64>) {
 /// The coefficient of variation of a scanned web over the size of the patches.
 pub(super) fn scanned(findings: &scan::Findings) -> Figure {
     let found: Vec<_> = findings.patches.iter().map(|patch| point(&patch.unevenness)).collect();
-    let line: Vec<(f64, f64)> = found.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
-    let noise: Vec<(f64, f64)> =
-        findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT)).collect();
-    let chart = empty_chart()
-        .line(Series::new("noise of the pixels", GREY).dashed(&[6.0, 4.0]), &noise)
-        .line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line)
-        .scatter(Series::spots("this scan", BLUE), &found);
+    let noise = findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT));
+    let chart = empty_chart().line(Series::reference("noise of the pixels"), noise);
+    let chart = joined(chart, Series::spots("this scan", BLUE), &found);
     Figure::new(
         &chart,
         "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by \
@@ -48,31 +45,22 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
         Some((side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error)))
     });
     let map: Vec<_> = map.collect();
-    let line: Vec<(f64, f64)> = map.iter().map(|(patch, cv, _)| (*patch, *cv)).collect();
-    let single = findings
-        .patches
-        .iter()
-        .filter_map(|patch| Some((patch.map.patch * MM, patch.single_fibres?.0 * PER_CENT)));
+    let patches = || findings.patches.iter();
+    let single =
+        patches().filter_map(|patch| Some((patch.map.patch * MM, patch.single_fibres?.0 * PER_CENT)));
     let single: Vec<(f64, f64)> = single.collect();
-    let straight: Vec<(f64, f64)> = findings
-        .patches
-        .iter()
-        .map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT))
-        .collect();
-    let mut chart =
-        empty_chart().line(Series::new("straight fibres at random", GREY).dashed(&[6.0, 4.0]), &straight);
+    let straight = patches().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT));
+    let mut chart = empty_chart().line(Series::reference("straight fibres at random"), straight);
     let is_shared = !findings.laid.flown.is_empty();
     let of_single =
         if is_shared { "the same filaments in airs of their own" } else { "expected, from single fibres" };
     if !single.is_empty() {
         chart = chart.line(Series::new(of_single, VERMILION).width(1.8), &single);
     }
-    if is_shared {
-        chart = chart.line(Series::new("", BLUE).unlabelled().adorning().width(1.0), &line);
-    }
     let of_few = findings.patches.iter().any(|patch| patch.few.is_some());
     let spots = if of_few { "the web of all filaments, from the flown ones" } else { "this map" };
-    let chart = chart.scatter(Series::spots(spots, BLUE), &map);
+    let spots = Series::spots(spots, BLUE);
+    let chart = if is_shared { joined(chart, spots, &map) } else { chart.scatter(spots, &map) };
     let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
     let places = if rows { "in their rows" } else { "at random places" };
     if is_shared {
@@ -140,7 +128,6 @@ pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
             (-0.5 * ((at - mean) / deviation).powi(2)).exp() / (deviation * std::f64::consts::TAU.sqrt());
         (at, PER_CENT * height)
     };
-    let normal: Vec<(f64, f64)> = (0..=200).map(normal).collect();
     let chart = Chart::new(
         "web_histogram",
         "Basis weight, cell by cell",
@@ -148,7 +135,7 @@ pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
         Axis::linear(&format!("Share of the cells (% per {})", weights.unit.replace('²', "^{2}")))
             .zero_based(),
     )
-    .path(Series::new("normal distribution", GREY).dashed(&[6.0, 4.0]).adorning(), &normal)
+    .path(Series::reference("normal distribution").adorning(), (0..=200).map(normal))
     .path(Series::new("web", BLUE).unlabelled().width(1.8), &steps);
     let caption = format!(
         "Cells of {} mm: mean {} {unit}, standard deviation {} {unit}. Dashed: the normal distribution with both.",

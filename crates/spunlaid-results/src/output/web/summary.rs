@@ -3,20 +3,18 @@
 use super::{effects, fabric};
 use crate::figures::SEEN;
 use crate::output::measured::{joined, json, known, mean, values, with_errors};
+use crate::output::summary::Performance;
 use crate::output::{load, versioned_json};
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::Load;
+use spunlaid::ground::Estimate;
 use spunlaid::ground::statistics::interval_of_deviation;
-use spunlaid::ground::{Estimate, Isa};
 use spunlaid::simulation::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
 use spunlaid::web::map::Findings;
 use spunlaid::web::scan::{self, Doubt};
-use spunlaid::web::{
-    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, TimeSpent, Web,
-};
-use std::time::{Duration, Instant};
+use spunlaid::web::{ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, Web};
 
 /// What a layer was laid from.
 #[derive(Clone, Debug, Serialize)]
@@ -53,45 +51,6 @@ pub struct Layer {
     /// The spinline from which its filaments come, if its case has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spinline: Option<Json>,
-}
-
-/// The speed of the work. This is the only part that differs when it is repeated.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
-pub struct Performance {
-    /// Wall-clock time [s].
-    pub wall_s: f64,
-    /// Number of threads.
-    pub threads: usize,
-    /// Name of the instruction set.
-    pub instruction_set: &'static str,
-    /// Time that the flights of filaments in one air took [s].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flights_s: Option<f64>,
-    /// The part of it that is shared among the threads [s].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub flights_in_parallel_s: Option<f64>,
-}
-
-impl Performance {
-    /// The time since an instant, on so many threads.
-    pub fn measure(started: Instant, threads: usize, isa: Isa) -> Self {
-        let wall_s = started.elapsed().as_secs_f64();
-        Self { wall_s, threads, instruction_set: isa.name(), ..Self::default() }
-    }
-
-    /// With the times of flights in one air, if there were some.
-    #[must_use]
-    pub fn with_flights(self, findings: &Findings) -> Self {
-        let flown = Some(&findings.laid.flown).filter(|flown| !flown.is_empty());
-        let sum = |of: fn(&TimeSpent) -> Duration| {
-            flown.map(|flown| flown.iter().map(|layer| of(&layer.spent)).sum::<Duration>().as_secs_f64())
-        };
-        Self {
-            flights_s: sum(|spent| spent.whole),
-            flights_in_parallel_s: sum(|spent| spent.in_parallel),
-            ..self
-        }
-    }
 }
 
 fn curtain<S: Serializer>(curtain: &Option<Load>, serializer: S) -> Result<S::Ok, S::Error> {
