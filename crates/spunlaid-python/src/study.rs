@@ -225,15 +225,15 @@ impl Study {
         let (all, study) = (PyList::empty(py), &self.file.study);
         for (index, input) in study.inputs().enumerate() {
             let dict = PyDict::new(py);
-            dict.set_item("key", input.key)?;
+            dict.set_item("key", &input.name)?;
             dict.set_item("column", input.column())?;
-            dict.set_item("unit", udunits(input.dimension.si_unit()))?;
+            dict.set_item("unit", udunits(input.dimension().si_unit()))?;
             let is_factor = index < study.factors.len();
             dict.set_item("factor", is_factor)?;
             dict.set_item("scale", is_factor.then(|| scale(Scale::from_factor(study, index))))?;
             let values =
                 study.points.iter().map(|point| point.values.get(index).copied().unwrap_or(f64::NAN));
-            if input.words.is_empty() {
+            if input.words().is_empty() {
                 dict.set_item("values", PyArray1::from_vec(py, values.collect()))?;
             } else {
                 let words: Vec<&str> = values.map(|value| input.word(value).unwrap_or("")).collect();
@@ -305,7 +305,7 @@ impl Study {
             let measure = &study.quantities[ranking.measure].column;
             for effect in &ranking.effects {
                 let (of, by) = (&effect.of, &effect.difference);
-                let (factor, half_width) = (&study.factors[of.factor].key, by.known_half_width());
+                let (factor, half_width) = (&study.factors[of.factor].key.name, by.known_half_width());
                 let error = half_width.map(|_| by.standard_error);
                 let row = (measure, factor, of.from, of.to, by.value, error, half_width, ranking.explained);
                 all.push(row.into_pyobject(py)?);

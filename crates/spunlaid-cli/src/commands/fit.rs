@@ -87,7 +87,7 @@ fn search(
     let flyer = Flyer::new(by.threads, by.stop, &follow);
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
         let values = file.parameters.iter().zip(values);
-        let values = values.map(|(key, value)| format!("{} = {}", key.key, pretty(key, *value)));
+        let values = values.map(|(key, value)| format!("{} = {}", key.key.name, pretty(key, *value)));
         bar.set_length(webs);
         bar.set_position(web - 1);
         let words = format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", "));

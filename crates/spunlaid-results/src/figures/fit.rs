@@ -129,11 +129,11 @@ fn residuals(fit: &Fit) -> Figure {
 /// A value of a key in a unit that suits all values that are drawn, as axis title and factor.
 fn axis(key: &FittedKey) -> (String, f64) {
     let parameter = &key.parameter;
-    let name = &parameter.key;
-    if parameter.dimension == Dimension::Ratio {
+    let name = &parameter.key.name;
+    if parameter.key.dimension() == Dimension::Ratio {
         return (name.clone(), 1.0);
     }
-    let pretty = parameter.dimension.pretty_to(key.value, 17);
+    let pretty = parameter.key.dimension().pretty_to(key.value, 17);
     let (number, unit) = pretty.split_once(' ').unwrap_or((&pretty, ""));
     let factor = number.parse::<f64>().map_or(1.0, |number| number / key.value);
     (format!("{name} ({unit})"), if factor.is_finite() { factor } else { 1.0 })
@@ -143,10 +143,10 @@ fn axis(key: &FittedKey) -> (String, f64) {
 fn profile(key: &FittedKey) -> Figure {
     let (title, factor) = axis(key);
     let points = || key.profile.iter().map(|(value, misfit)| (value * factor, *misfit));
-    let name = format!("fit_profile_{}", key.parameter.key.replace('.', "_"));
+    let name = format!("fit_profile_{}", key.parameter.key.name.replace('.', "_"));
     let mut chart = Chart::new(
         &name,
-        &format!("Misfit over {}", key.parameter.key),
+        &format!("Misfit over {}", key.parameter.key.name),
         Axis::linear(&title),
         Axis::linear("Least misfit").zero_based(),
     );
@@ -163,7 +163,7 @@ fn profile(key: &FittedKey) -> Figure {
             "The smallest misfit for other values of {} than the fitted one, {}. Webs were laid with each of \
             these values, and with the values of the other keys that suit it best. A flat curve means that \
             the scan does not determine this key.",
-            key.parameter.key,
+            key.parameter.key.name,
             significant(key.value * factor, 4)
         ),
     )

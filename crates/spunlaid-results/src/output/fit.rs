@@ -19,8 +19,8 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
         let profile: Vec<Json> =
             key.profile.iter().map(|(value, misfit)| json!({"value": value, "misfit": misfit})).collect();
         json!({
-            "key": parameter.key,
-            "unit": parameter.dimension.si_unit(),
+            "key": parameter.key.name,
+            "unit": parameter.key.dimension().si_unit(),
             "start": parameter.start,
             "range": parameter.range,
             "value": key.value,
@@ -47,7 +47,7 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
         entry
     };
     let alike = fit.alike.iter().map(|pair| {
-        let keys = pair.keys.map(|key| fit.keys[key].parameter.key.as_str());
+        let keys = pair.keys.map(|key| fit.keys[key].parameter.key.name.as_str());
         json!({"keys": keys, "correlation": pair.correlation, "per_first": pair.per_first})
     });
     let refused = fit.refused.iter().map(|(values, reason)| json!({"values": values, "reason": reason}));
@@ -81,7 +81,8 @@ pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[Str
 /// # Errors
 /// If it cannot be written.
 pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
-    let key = |key: &FittedKey| number(key.parameter.key.clone() + &key.parameter.dimension.suffix());
+    let key =
+        |key: &FittedKey| number(key.parameter.key.name.clone() + &key.parameter.key.dimension().suffix());
     let columns = [whole("trial")].into_iter().chain(fit.keys.iter().map(key)).chain([number("misfit")]);
     let mut table = staging.table("trials", &["csv"], &columns.collect::<Vec<_>>())?;
     for (trial, found) in (1..).zip(&fit.trials) {
@@ -111,7 +112,11 @@ const fn name_of_end(end: IntervalEnd) -> &'static str {
 
 /// A value of a key for people.
 pub fn pretty(parameter: &Parameter, value: f64) -> String {
-    if parameter.whole { format!("{value:.0}") } else { parameter.dimension.pretty_to(value, 3) }
+    if parameter.key.is_whole() {
+        format!("{value:.0}")
+    } else {
+        parameter.key.dimension().pretty_to(value, 3)
+    }
 }
 
 /// The value of a key, and its interval, for people.
@@ -162,7 +167,7 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
         )
     });
     for key in &fit.keys {
-        let name = &key.parameter.key;
+        let name = &key.parameter.key.name;
         if let Some(found) = key.doubt {
             let advice = match found {
                 KeyDoubt::NoEffect => "do not seek it",
@@ -204,8 +209,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
         all.push(format!(
             "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure \
             one of them in another way, write its value in the file, and do not seek it.",
-            one.key,
-            other.key,
+            one.key.name,
+            other.key.name,
             significant(pair.correlation, 2)
         ));
     }

@@ -44,7 +44,7 @@ pub fn fit_report<'a>(
 /// The values, and what they are worth.
 fn values(fit: &Fit) -> Section<'static> {
     let table = Table::new(["Key", "Start", "Fit", "95\u{202f}% interval"]).sentences(["Remark"]);
-    let name = |key: &FittedKey| key.parameter.key.clone();
+    let name = |key: &FittedKey| key.parameter.key.name.clone();
     let heads = std::iter::once("Correlation of the errors".to_owned()).chain(fit.keys.iter().map(name));
     let correlations = fit.keys.iter().zip(&fit.correlations).filter(|_| fit.keys.len() > 1);
     let rows =
@@ -84,7 +84,7 @@ fn title(fit: &Fit) -> String {
         .iter()
         .map(|key| {
             let [value, interval] = value_and_interval(key);
-            let name = &key.parameter.key;
+            let name = &key.parameter.key.name;
             match (key.doubt, &key.interval) {
                 (Some(KeyDoubt::Unknown | KeyDoubt::NoEffect), _) => format!("{name} is not determined"),
                 (_, Ok(_)) => format!("{name} = {value} ({interval})"),
@@ -103,7 +103,7 @@ fn row(key: &FittedKey) -> Row {
     let [low, high] = parameter.range.map(pretty);
     let remark =
         key.doubt.map_or_else(|| format!("sought from {low} to {high}"), |found| doubt(found).to_owned());
-    Row::new(&parameter.key, [pretty(parameter.start), value, interval, remark])
+    Row::new(&parameter.key.name, [pretty(parameter.start), value, interval, remark])
 }
 
 fn number(number: &FittedNumber) -> Row {

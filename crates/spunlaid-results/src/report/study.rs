@@ -69,7 +69,7 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
             false => format!("{from} to {to}"),
             true => format!("{to} instead of {from}"),
         };
-        Row::new(name_of_key(&study.factors[effect.of.factor].key), cells).detail(range)
+        Row::new(name_of_key(&study.factors[effect.of.factor].key.name), cells).detail(range)
     };
     let heads = quantities.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(["Factor".to_owned()].into_iter().chain(heads))
@@ -109,7 +109,7 @@ fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> 
         let quantity = &study.quantities[*quantity];
         if quantity.figure.name == "cv" { quantity.series.clone() } else { shown::head(quantity) }
     });
-    let inputs = study.inputs().map(|input| input.key.rsplit('.').next().unwrap_or(input.key).to_owned());
+    let inputs = study.inputs().map(|input| input.name.rsplit('.').next().unwrap_or(&input.name).to_owned());
     let heads = ["Point".to_owned()].into_iter().chain(inputs).chain(heads).chain(["n".to_owned()]);
     let rows = point_rows(study, results, &shown).take(POINTS);
     let section = Section::new("", title).table(Table::of_numbers(heads).rows(rows)).on_terminal();
@@ -132,7 +132,7 @@ fn point_rows(study: &Study, results: &[PointResults], shown: &[usize]) -> impl 
 /// The points with their results.
 fn points(study: &Study, results: &[PointResults]) -> Section<'static> {
     let shown = quantities_with_values(study, results);
-    let heads = ["Point".to_owned()].into_iter().chain(study.inputs().map(|input| input.key.to_owned()));
+    let heads = ["Point".to_owned()].into_iter().chain(study.inputs().map(|input| input.name.clone()));
     let quantities = shown.iter().map(|quantity| shown::head(&study.quantities[*quantity]));
     let table = Table::new(heads.chain(quantities).chain(["n".to_owned()]))
         .laid_out(Layout::Scrolled("all points and columns"))
@@ -175,7 +175,7 @@ fn cited(study: &Study) -> Vec<Reference> {
 }
 
 fn question(study: &Study) -> String {
-    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key)).collect();
+    let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key.name)).collect();
     let what = match study.points.first().map(|point| &point.experiment) {
         Some(Experiment::Web(_)) => "evenness of the web",
         Some(Experiment::Spinline(_)) => "filament",
@@ -207,7 +207,7 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
         let all_known = effects.iter().all(|effect| effect.difference.known_half_width().is_some());
         return all_known.then(|| format!("{label} does not change beyond chance"));
     };
-    let name = name_of_key(&study.factors[effect.of.factor].key);
+    let name = name_of_key(&study.factors[effect.of.factor].key.name);
     let [from, to] = ends(study, effect.of);
     let sign = if effect.difference.value > 0.0 { "+" } else { "" };
     let change = change(result, &effect.difference);
@@ -227,11 +227,11 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
 
 /// The values of a factor between which it changes.
 fn ends(study: &Study, Contrast { factor, from, to }: Contrast) -> [String; 2] {
-    [from, to].map(|value| study.factors[factor].input().pretty(value))
+    [from, to].map(|value| study.factors[factor].key.pretty(value))
 }
 
 fn is_of_words(study: &Study, contrast: Contrast) -> bool {
-    !study.factors[contrast.factor].words.is_empty()
+    !study.factors[contrast.factor].key.words().is_empty()
 }
 
 /// The change of a result, ± one standard error.
@@ -261,8 +261,8 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
         count(fibres, study.noun())
     );
     for link in &study.links {
-        let (name, formula) = (name_of_key(&link.key), link.expression.text());
-        text += &format!(" The {name} follows from the others: {} = {formula}.", link.key);
+        let (name, formula) = (name_of_key(&link.key.name), link.expression.text());
+        text += &format!(" The {name} follows from the others: {} = {formula}.", link.key.name);
     }
     text += &most_even(study, results).unwrap_or_default();
     let lost: u64 = results.iter().map(|point| point.lost).sum();
@@ -296,7 +296,7 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let words = |point: usize| {
         let values = study.inputs().zip(&study.points[point].values);
         let values =
-            values.map(|(factor, value)| format!("{} {}", name_of_key(factor.key), factor.pretty(*value)));
+            values.map(|(factor, value)| format!("{} {}", name_of_key(&factor.name), factor.pretty(*value)));
         let cv = shown::cell(study, &results[point], quantity);
         format!("{} (CV {cv} %)", values.collect::<Vec<_>>().join(", "))
     };

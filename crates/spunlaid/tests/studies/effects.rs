@@ -245,7 +245,7 @@ fn effects_of_words(
     let mut study = words(design, replicates, seed);
     study.quantities.truncate(1);
     let [matsui, sakiadis, glauert] = ["matsui", "sakiadis", "glauert-lighthill"]
-        .map(|word| study.factors[0].words.iter().position(|one| *one == word).unwrap() as f64);
+        .map(|word| study.factors[0].key.words().iter().position(|one| *one == word).unwrap() as f64);
     let mut normal = Normal(ChaCha8Rng::seed_from_u64(seed));
     let common: Vec<f64> = (0..replicates).map(|_| normal.next()).collect();
     let mut journal = Journal::in_memory();

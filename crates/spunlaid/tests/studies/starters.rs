@@ -23,7 +23,7 @@ fn every_case_web_and_spinline_has_a_study_to_start_from() {
         assert_eq!(study.points.len(), 3usize.pow(study.factors.len() as u32), "{}", path.display());
         assert_eq!(study.factors.len(), 2, "{}: {text}", path.display());
         // The middle point is the file itself.
-        let base = |key: &str| study.factors.iter().position(|factor| factor.key == key);
+        let base = |key: &str| study.factors.iter().position(|factor| factor.key.name == key);
         if let (Some(factor), "table1.toml") =
             (base("air.velocity"), &*path.file_name().unwrap().to_string_lossy())
         {

@@ -221,7 +221,7 @@ fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
     let (by_number, by_name) = (study("2"), study("M"));
     assert_eq!(by_number.study.identity(), by_name.study.identity());
     assert_eq!(by_number.text, by_name.text);
-    assert_eq!(by_number.study.factors[0].key, "layer.2.line.filaments_per_metre");
+    assert_eq!(by_number.study.factors[0].key.name, "layer.2.line.filaments_per_metre");
     for (point, wanted) in by_number.study.points.iter().zip([100.0, 300.0]) {
         let [first, second] = &point.experiment.web().unwrap().layers[..] else { panic!("two layers") };
         assert_eq!(first.filaments, Filaments::AtRandom { per_metre: 5000.0 });

@@ -32,7 +32,7 @@ pub(super) fn study(check: &Check) -> Result<(), Failure> {
 /// A line for each point: the values that vary, and the numbers of the line of a web.
 fn points(study: &Study) -> String {
     let mut heads = vec!["point".to_owned()];
-    heads.extend(study.inputs().map(|input| input.key.to_owned()));
+    heads.extend(study.inputs().map(|input| input.name.clone()));
     if study.noun() == "web" {
         heads.extend(["basis weight", "belt", "from each metre"].map(str::to_owned));
     }

@@ -36,10 +36,18 @@ fn series(group: &Group, position: usize) -> Series {
 /// Results over the first factor at all points, joined by a line.
 pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
     let all: Vec<usize> = (0..results.len()).collect();
-    let others: Vec<String> = study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key)).collect();
+    let others: Vec<String> =
+        study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key.name)).collect();
     let with =
         if others.is_empty() { String::new() } else { format!(", {} along with it", others.join(" and ")) };
-    over_factor(study, results, group, 0, &all, &format!("over {}{with}", name_of_key(&study.factors[0].key)))
+    over_factor(
+        study,
+        results,
+        group,
+        0,
+        &all,
+        &format!("over {}{with}", name_of_key(&study.factors[0].key.name)),
+    )
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
@@ -52,7 +60,7 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
     let points: Vec<usize> = (0..results.len()).filter(is_alone).collect();
     let words = format!(
         "over {} alone, everything else as in the base case",
-        name_of_key(&study.factors[factor].key)
+        name_of_key(&study.factors[factor].key.name)
     );
     over_factor(study, results, group, factor, &points, &words)
 }
@@ -67,7 +75,7 @@ fn over_factor(
 ) -> Figure {
     let along = FactorAxis::from_study(study, factor);
     let title = format!("{} {}", group.title, words.split(',').next().unwrap_or(words));
-    let name = file_name(group, &study.factors[factor].key);
+    let name = file_name(group, &study.factors[factor].key.name);
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.members.iter().enumerate() {
         let shift = along.aside(position, group.members.len());
@@ -87,9 +95,9 @@ pub(super) fn family(
     along: usize,
     family: usize,
 ) -> Figure {
-    let (parameter, key) = (&study.factors[family], &*study.factors[along].key);
+    let (parameter, key) = (&study.factors[family], &*study.factors[along].key.name);
     let place = FactorAxis::from_study(study, along);
-    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key));
+    let title = format!("{} over {} and {}", group.title, name_of_key(key), name_of_key(&parameter.key.name));
     let mut chart = Chart::new(&file_name(group, key), &title, place.axis.clone(), group.axis());
     let levels = parameter.levels();
     for (index, ((level, colour), dash)) in levels.iter().copied().zip(COLOURS).zip(DASHES).enumerate() {
@@ -97,7 +105,7 @@ pub(super) fn family(
             (0..results.len()).filter(|point| study.points[*point].values[family] == level).collect();
         for (position, (measure, called)) in group.members.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
-            let label = parameter.input().pretty(level);
+            let label = parameter.key.pretty(level);
             // Markers without lines have shapes of their own, as long as the shape does not tell the results apart.
             let dash = if place.is_joined() || group.members.len() > 1 { dash } else { &[] };
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
@@ -128,7 +136,7 @@ pub(super) fn family(
         "{} over {}, {distinction} for each value of the {}{}{signs}",
         group.title,
         name_of_key(key),
-        name_of_key(&parameter.key),
+        name_of_key(&parameter.key.name),
         means(study),
     );
     Figure::new(&chart, caption)

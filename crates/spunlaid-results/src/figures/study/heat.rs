@@ -48,7 +48,7 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let called = label.replace('*', "");
     let which =
         if group.members.len() == 2 { format!("{} in {called}", group.title) } else { group.title.clone() };
-    let names = [0, 1].map(|i| name_of_key(&study.factors[i].key));
+    let names = [0, 1].map(|i| name_of_key(&study.factors[i].key.name));
     let title = format!("{which} over {} and {}", names[1], names[0]);
     let [of_up, of_along] = [0, 1].map(|i| FactorAxis::from_study(study, i));
     let labels = |axis: &FactorAxis, values: &[f64]| -> Vec<String> {
@@ -69,8 +69,8 @@ fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, l
     let caption = format!(
         "{which}, mean over the replicates, over {} (horizontal) and {} (vertical). The values and their standard \
          errors are in results.csv.",
-        spunlaid_charts::label::plain(&label_of_key(&study.factors[1].key)),
-        spunlaid_charts::label::plain(&label_of_key(&study.factors[0].key)),
+        spunlaid_charts::label::plain(&label_of_key(&study.factors[1].key.name)),
+        spunlaid_charts::label::plain(&label_of_key(&study.factors[0].key.name)),
     );
     let axis =
         if group.members.len() == 2 { format!("_{}", called.replace(' ', "_")) } else { String::new() };

@@ -21,8 +21,8 @@ pub(super) fn figure(
 ) -> Figure {
     let varied = &study.factors[factor];
     let along = FactorAxis::from_study(study, factor);
-    let title = format!("{} over {}", group.title, name_of_key(&varied.key));
-    let mut chart = Chart::new(&file_name(group, &varied.key), &title, along.axis.clone(), group.axis());
+    let title = format!("{} over {}", group.title, name_of_key(&varied.key.name));
+    let mut chart = Chart::new(&file_name(group, &varied.key.name), &title, along.axis.clone(), group.axis());
     let (mut is_adjusted, mut left_out) = (false, false);
     for (position, (measure, label)) in group.members.iter().enumerate() {
         let series = if position == 0 { Series::circles(label) } else { Series::triangles(label) };
@@ -58,7 +58,7 @@ pub(super) fn figure(
     let drawn =
         if left_out { format!(" {DRAWN} of {} points are drawn.", results.len()) } else { String::new() };
     let bars = if study.noun() == "spinline" { String::new() } else { format!(" {BARS}") };
-    let caption = format!("{} over {}: {how}{bars}{drawn}", group.title, name_of_key(&varied.key));
+    let caption = format!("{} over {}: {how}{bars}{drawn}", group.title, name_of_key(&varied.key.name));
     Figure::new(&chart, caption)
 }
 
@@ -66,7 +66,7 @@ pub(super) fn figure(
 fn line(factor: &Factor, rankings: &[Ranking], measure: usize, index: usize) -> Option<Vec<(f64, f64)>> {
     let ranking = rankings.iter().find(|ranking| ranking.measure == measure)?;
     let effect = ranking.effects.iter().find(|effect| effect.of.factor == index)?;
-    if !factor.words.is_empty() {
+    if !factor.key.words().is_empty() {
         return None;
     }
     let (least, greatest) = factor.ends();

@@ -34,7 +34,7 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
         (Design::Grid, 2) => {
             let counts = [0, 1].map(|i| study.factors[i].values().len());
             // Numbers are on the axis rather than words, and the factor with more values rather than the other.
-            let rank = |i: usize| (study.factors[i].words.is_empty(), counts[i]);
+            let rank = |i: usize| (study.factors[i].key.words().is_empty(), counts[i]);
             let (along, family) = if rank(0) > rank(1) { (0, 1) } else { (1, 0) };
             for group in &groups {
                 if counts[family] <= FAMILY {

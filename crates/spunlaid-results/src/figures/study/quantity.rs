@@ -123,26 +123,26 @@ pub struct FactorAxis {
 impl FactorAxis {
     /// * `base` – a word that comes before those of the factor
     pub(super) fn new(factor: &Factor, base: Option<f64>) -> Self {
-        let mut words = if factor.words.is_empty() { Vec::new() } else { factor.levels() };
+        let mut words = if factor.key.words().is_empty() { Vec::new() } else { factor.levels() };
         if let Some(base) = base.filter(|base| !words.is_empty() && !words.contains(base)) {
             words.insert(0, base);
         }
         if !words.is_empty() {
-            let names = words.iter().map(|word| factor.input().pretty(*word));
-            let axis = Axis::from_words(&label_of_key(&factor.key), names);
+            let names = words.iter().map(|word| factor.key.pretty(*word));
+            let axis = Axis::from_words(&label_of_key(&factor.key.name), names);
             return Self { axis, zero: 0.0, scale: 1.0, unit: "", words };
         }
         let (least, greatest) = factor.ends();
         let wide = least > 0.0 && greatest / least >= 30.0;
         let is_logarithmic = factor.spacing() == study::Spacing::Logarithmic || wide;
-        let (zero, scale, unit) = match factor.dimension {
+        let (zero, scale, unit) = match factor.key.dimension() {
             Dimension::Temperature if !is_logarithmic => (ZERO_CELSIUS, 1.0, "°C"),
             dimension => {
                 let (scale, unit) = handy(dimension, greatest.abs().max(least.abs()));
                 (0.0, scale, unit)
             }
         };
-        let label = with_unit(&label_of_key(&factor.key), unit);
+        let label = with_unit(&label_of_key(&factor.key.name), unit);
         let axis = if is_logarithmic { Axis::logarithmic(&label) } else { Axis::linear(&label) };
         Self { axis, zero, scale, unit, words }
     }

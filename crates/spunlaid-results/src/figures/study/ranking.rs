@@ -11,11 +11,11 @@ use spunlaid_charts::{Axis, Figure, Table};
 /// What is compared: `5 to 30 m/s`, `sakiadis instead of matsui`.
 fn change_of(study: &Study, Contrast { factor, from, to }: Contrast) -> String {
     let factor = &study.factors[factor];
-    if factor.words.is_empty() {
+    if factor.key.words().is_empty() {
         let place = FactorAxis::new(factor, None);
         return format!("{} {}", range(place.place(from), place.place(to)), place.unit).trim_end().to_owned();
     }
-    format!("{} instead of {}", factor.input().pretty(to), factor.input().pretty(from))
+    format!("{} instead of {}", factor.key.pretty(to), factor.key.pretty(from))
 }
 
 /// The effects of all factors on a group of results.
@@ -24,7 +24,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     let members = group.members.iter().take(2);
     let shown: Vec<(&Ranking, &str)> =
         members.filter_map(|(measure, label)| Some((of_measure(*measure)?, label.as_str()))).collect();
-    let with_words = study.factors.iter().any(|factor| !factor.words.is_empty());
+    let with_words = study.factors.iter().any(|factor| !factor.key.words().is_empty());
     // With words, the change is given below each factor.
     let change = if with_words { "" } else { " from the least to the greatest value" };
     let row = |main: &Effect<Contrast>| {
@@ -32,7 +32,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
             ranking.of(main.of).map(|effect| in_unit(&effect.difference, group.unit.per_si))
         };
         Row {
-            name: label_of_key(&study.factors[main.of.factor].key),
+            name: label_of_key(&study.factors[main.of.factor].key.name),
             detail: change_of(study, main.of),
             effects: shown.iter().map(effect).collect(),
         }
@@ -79,12 +79,12 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         for effect in &ranking.effects {
             let half = effect.difference.known_half_width().unwrap_or(f64::NAN) * group.unit.per_si;
             let factor = &study.factors[effect.of.factor];
-            let words = if factor.words.is_empty() {
+            let words = if factor.key.words().is_empty() {
                 String::new()
             } else {
                 format!(": {}", change_of(study, effect.of))
             };
-            let series = format!("{} over {}{words}", label.replace('*', ""), factor.key);
+            let series = format!("{} over {}{words}", label.replace('*', ""), factor.key.name);
             table.add(&series, [[effect.difference.value * group.unit.per_si, half]]);
         }
     }

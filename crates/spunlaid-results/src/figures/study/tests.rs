@@ -3,6 +3,7 @@
 use super::super::sample;
 use super::*;
 use spunlaid::experiment::{Contrast, Factor, Levels, Point, Replicates, Spacing};
+use spunlaid::fibre::case::keys::{Kind, Sign, VariedKey};
 use spunlaid::ground::{Difference, Dimension, Effect};
 use spunlaid::simulation::MEASURES;
 use spunlaid_charts::png;
@@ -19,7 +20,7 @@ fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {
             let spacing = if key == "fibre.diameter" { Spacing::Logarithmic } else { Spacing::Linear };
             let steps = (!design.draws()).then_some(steps as u64);
             let levels = Levels::Range { from: 1e-3, to: 1e-1, steps, spacing };
-            Factor { key: key.to_owned(), dimension, whole: false, words: Vec::new(), levels }
+            Factor { key: VariedKey::new(key, Kind::Quantity(dimension, Sign::Any)), levels }
         })
         .collect();
     let rows = design.rows(&factors, &vec![1e-3; factors.len()], 1);

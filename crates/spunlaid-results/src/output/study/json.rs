@@ -71,10 +71,10 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Json {
 fn effect_of(study: &Study, effect: &Effect<Contrast>) -> Json {
     let Contrast { factor, from, to } = effect.of;
     let factor = &study.factors[factor];
-    let end = |value: f64| factor.input().word(value).map_or_else(|| value.into(), Json::from);
+    let end = |value: f64| factor.key.word(value).map_or_else(|| value.into(), Json::from);
     let half_width = effect.difference.known_half_width();
     json!({
-        "factor": factor.key,
+        "factor": factor.key.name,
         "from": end(from),
         "to": end(to),
         "change": effect.difference.value,

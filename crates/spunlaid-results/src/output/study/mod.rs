@@ -73,7 +73,7 @@ fn replicate_row(study: &Study, index: usize, record: &Record) -> Vec<Value> {
 /// The input columns: the key and its SI unit, `air.velocity_m_s`.
 fn inputs(study: &Study) -> impl Iterator<Item = Column> {
     study.inputs().map(|input| Column {
-        holds: if input.words.is_empty() { ColumnValues::Optional } else { ColumnValues::Text },
+        holds: if input.words().is_empty() { ColumnValues::Optional } else { ColumnValues::Text },
         name: input.column(),
     })
 }

@@ -97,7 +97,7 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
     sum.update(&target.checksum().to_le_bytes());
     sum.update(&webs.to_le_bytes());
     for Parameter { key, start, range, .. } in parameters {
-        sum.update(key.as_bytes());
+        sum.update(key.name.as_bytes());
         [*start, range[0], range[1]].iter().for_each(|number| sum.update(&number.to_le_bytes()));
     }
     sum.finalize()

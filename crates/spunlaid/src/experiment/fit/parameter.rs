@@ -1,6 +1,6 @@
 //! A key whose value is sought.
 
-use crate::ground::Dimension;
+use crate::fibre::case::keys::VariedKey;
 
 /// A key whose value is sought, with the range in which it may lie.
 ///
@@ -8,12 +8,8 @@ use crate::ground::Dimension;
 /// is above zero in all of its range, otherwise the value over half of its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Full name of the key, `layer.1.line.depth`.
-    pub key: String,
-    /// Physical dimension of its values.
-    pub dimension: Dimension,
-    /// Whether its values are whole numbers.
-    pub whole: bool,
+    /// The key.
+    pub key: VariedKey,
     /// The value from which the search starts [SI].
     pub start: f64,
     /// Least and greatest value [SI].
@@ -38,20 +34,24 @@ impl Parameter {
     pub(super) fn value(&self, coordinate: f64) -> f64 {
         let value =
             if self.is_logarithmic() { libm::exp(coordinate) } else { coordinate * self.half_range() };
-        let value = if self.whole { value.round() } else { value };
+        let value = if self.key.is_whole() { value.round() } else { value };
         value.clamp(self.range[0], self.range[1])
     }
 
     /// The coordinate of the value at a coordinate: another one where the value is a whole number, or beyond the range.
     pub(super) fn taken(&self, coordinate: f64) -> f64 {
         let [low, high] = self.ends();
-        if self.whole { self.coordinate(self.value(coordinate)) } else { coordinate.clamp(low, high) }
+        if self.key.is_whole() {
+            self.coordinate(self.value(coordinate))
+        } else {
+            coordinate.clamp(low, high)
+        }
     }
 
     /// The shortest step that changes the value at a coordinate.
     pub(super) fn shortest_step(&self, coordinate: f64) -> f64 {
         let value = self.value(coordinate);
-        if self.whole { self.coordinate(value + 1.0) - self.coordinate(value) } else { 0.0 }
+        if self.key.is_whole() { self.coordinate(value + 1.0) - self.coordinate(value) } else { 0.0 }
     }
 
     /// The ends of the range as coordinates.

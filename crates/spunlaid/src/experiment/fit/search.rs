@@ -175,7 +175,7 @@ fn slopes(webs: &mut Webs<'_>, trial: usize, steps: &[f64], both: bool) -> Resul
             [one] => (one, trial),
             _ => {
                 let refusal = refusal.and_then(|tried| webs.refusal(&tried));
-                return Err(refusal.unwrap_or_else(|| no_other_value(&webs.parameters[key].key)));
+                return Err(refusal.unwrap_or_else(|| no_other_value(&webs.parameters[key].key.name)));
             }
         };
         let length = webs.trials[one].coordinates[key] - webs.trials[other].coordinates[key];

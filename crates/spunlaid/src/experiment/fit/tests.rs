@@ -8,6 +8,7 @@ use super::webs::Webs;
 use super::weights::Matrix;
 use super::{Fit, IntervalEnd, KeyDoubt, find};
 use crate::experiment::study::Journal;
+use crate::fibre::case::keys::{Kind, Sign, VariedKey};
 use crate::ground::{Dimension, Error};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -84,7 +85,12 @@ impl Simulator for Drawn {
 }
 
 fn parameter(key: &str, start: f64, range: [f64; 2]) -> Parameter {
-    Parameter { key: key.to_owned(), dimension: Dimension::Ratio, whole: false, start, range }
+    let kind = Kind::Quantity(Dimension::Ratio, Sign::Any);
+    Parameter { key: VariedKey::new(key, kind), start, range }
+}
+
+fn whole(of: Parameter) -> Parameter {
+    Parameter { key: VariedKey { kind: Kind::Whole(0, u64::MAX), ..of.key }, ..of }
 }
 
 /// How many intervals of so many loops lie below the truth, hold it, lie above it; by key.
@@ -133,8 +139,8 @@ fn drawn() -> Drawn {
 /// Few whole numbers lie within a standard error, and a step of a slope must reach the next one.
 #[test]
 fn a_whole_number_is_found_among_few() {
-    let whole = |start: f64| Parameter { whole: true, ..parameter("filaments", start, [2.0, 40.0]) };
-    let parameters = [parameter("noise", 16.0, [15.0, 17.0]), whole(3.0)];
+    let filaments = |start: f64| whole(parameter("filaments", start, [2.0, 40.0]));
+    let parameters = [parameter("noise", 16.0, [15.0, 17.0]), filaments(3.0)];
     let fit = fitted(&parameters, &[16.0, 12.0], &mut drawn()).unwrap();
     let key = &fit.keys[1];
     let [low, high] = key.interval.clone().unwrap();
@@ -202,7 +208,7 @@ fn a_narrow_range_is_searched_and_its_ends_are_told() {
     let fit = fitted(&parameters, &[16.0, 350.0], &mut simulator).unwrap();
     assert_eq!(fit.keys[0].ends, [IntervalEnd::OfRange; 2], "{fit:?}");
     assert_eq!(fit.keys[0].doubt, Some(KeyDoubt::Unknown));
-    let parameters = [Parameter { whole: true, ..parameter("filaments", 3.0, [2.8, 3.2]) }];
+    let parameters = [whole(parameter("filaments", 3.0, [2.8, 3.2]))];
     let error = fitted(&parameters, &[16.0, 3.0], &mut OneKey(drawn())).unwrap_err().to_string();
     assert!(error.contains("filaments has no second value in its range"), "{error}");
 }

@@ -109,8 +109,9 @@ fn matters(
     let [more, less] = told.map(|(_, effect)| effect);
     let error = more.standard_error.hypot(times * less.standard_error);
     let distance = (more.value.abs() - times * less.value.abs()) / error;
-    let words = told
-        .map(|(factor, effect)| format!("{} over {}", in_words(quantity, effect), study.factors[factor].key));
+    let words = told.map(|(factor, effect)| {
+        format!("{} over {}", in_words(quantity, effect), study.factors[factor].key.name)
+    });
     let verdict = match error {
         0.0 => Verdict::of(more.value.abs() > times * less.value.abs()),
         error if error.is_finite() => Verdict::of_difference(distance),
@@ -203,8 +204,7 @@ fn follows(
     journal: &mut Journal,
 ) -> Result<(String, Verdict), Error> {
     let (last, quantity) = (of.points.len() - 1, &of.study.quantities[of.quantity]);
-    let place =
-        |i: usize| of.study.factors[factor].input().pretty(of.study.points[of.points[i]].values[factor]);
+    let place = |i: usize| of.study.factors[factor].key.pretty(of.study.points[of.points[i]].values[factor]);
     let ends = of.between(0, last, journal)?;
     let overall = significance(ends);
     let mut steps = Vec::with_capacity(last);

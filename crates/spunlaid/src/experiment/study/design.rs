@@ -1,21 +1,15 @@
 //! Designs: how the values of the factors are combined into points.
 
-use super::{Input, RandomUse, stream};
-use crate::ground::Dimension;
+use super::{RandomUse, stream};
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::random::uniform;
 use rand_chacha::rand_core::Rng;
 
 /// A key that varies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
-    /// Full key, `air.velocity`.
-    pub key: String,
-    /// Physical dimension of its values.
-    pub dimension: Dimension,
-    /// Whether it takes whole numbers only.
-    pub whole: bool,
-    /// The words of a key that takes words; its values are then indices into them. Empty for numbers.
-    pub words: Vec<&'static str>,
+    /// The key.
+    pub key: VariedKey,
     /// The values it takes.
     pub levels: Levels,
 }
@@ -184,7 +178,7 @@ impl Factor {
     }
 
     fn rounded(&self, value: f64) -> f64 {
-        if self.whole { value.round() } else { value }
+        if self.key.is_whole() { value.round() } else { value }
     }
 
     /// Least and greatest value.
@@ -196,11 +190,6 @@ impl Factor {
             Levels::List(values) => ends(values),
             Levels::Range { from, to, .. } => ends(&[*from, *to]),
         }
-    }
-
-    /// Its key with dimension and words.
-    pub fn input(&self) -> Input<'_> {
-        Input { key: &self.key, dimension: self.dimension, words: &self.words }
     }
 
     /// Its values without repetitions, in the order of the file.
@@ -261,15 +250,12 @@ impl Levels {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fibre::case::keys::{Kind, Sign};
+    use crate::ground::Dimension;
 
     fn factor(levels: Levels) -> Factor {
-        Factor {
-            key: "air.velocity".to_owned(),
-            dimension: Dimension::Velocity,
-            whole: false,
-            words: Vec::new(),
-            levels,
-        }
+        let kind = Kind::Quantity(Dimension::Velocity, Sign::Any);
+        Factor { key: VariedKey::new("air.velocity", kind), levels }
     }
 
     fn range(from: f64, to: f64, steps: u64, spacing: Spacing) -> Factor {

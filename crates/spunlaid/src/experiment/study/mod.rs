@@ -39,7 +39,8 @@ pub use run::{Progress, fly_bundle, run};
 pub(crate) use webs::seed_of_web;
 
 use crate::fibre::Case;
-use crate::ground::{Dimension, Expression};
+use crate::fibre::case::keys::VariedKey;
+use crate::ground::Expression;
 use crate::simulation::WebSpec;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
@@ -70,51 +71,10 @@ pub struct Study {
 /// A key that follows from other keys by a formula.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Full key, `air.cutoff_frequency`.
-    pub key: String,
-    /// Physical dimension of its values.
-    pub dimension: Dimension,
+    /// The key.
+    pub key: VariedKey,
     /// The formula.
     pub expression: Expression,
-}
-
-impl Link {
-    /// Its key with its dimension.
-    pub(crate) fn input(&self) -> Input<'_> {
-        Input { key: &self.key, dimension: self.dimension, words: &[] }
-    }
-}
-
-/// A key of the case that differs between points: a factor, or the target of a link.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Input<'a> {
-    /// Full key, `air.velocity`; of a layer of a web with its number, `layer.2.line.filaments_per_metre`.
-    pub key: &'a str,
-    /// Physical dimension of its values.
-    pub dimension: Dimension,
-    /// The words of a key that takes words; its values are then indices into them. Empty for numbers.
-    pub words: &'a [&'static str],
-}
-
-impl Input<'_> {
-    /// The word that a value stands for; none for numbers.
-    pub fn word(&self, value: f64) -> Option<&'static str> {
-        self.words.get(value as usize).copied()
-    }
-
-    /// A value for people: a quantity with its unit, or a word.
-    pub fn pretty(&self, value: f64) -> String {
-        self.word(value).map_or_else(|| self.dimension.pretty(value), str::to_owned)
-    }
-
-    /// Name of its column in a table: the key and the SI unit of a quantity.
-    pub fn column(&self) -> String {
-        if self.words.is_empty() {
-            format!("{}{}", self.key, self.dimension.suffix())
-        } else {
-            self.key.to_owned()
-        }
-    }
 }
 
 /// A point of a study: a complete experiment.
@@ -191,8 +151,9 @@ impl Study {
     }
 
     /// The keys of the points' values, in the same order.
-    pub fn inputs(&self) -> impl Iterator<Item = Input<'_>> {
-        self.factors.iter().map(Factor::input).chain(self.links.iter().map(Link::input))
+    pub fn inputs(&self) -> impl Iterator<Item = &VariedKey> {
+        let linked = self.links.iter().map(|link| &link.key);
+        self.factors.iter().map(|factor| &factor.key).chain(linked)
     }
 
     /// Largest number of replicates of all points.

@@ -5,9 +5,9 @@ use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, Resources, values_of_case};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, VariedKey, advice, level};
+use super::{Base, ExperimentWithNotes, advice};
 use crate::experiment::{Experiment, Point, Quantity, Study};
-use crate::fibre::case::keys::{self, Value};
+use crate::fibre::case::keys::{self, Value, VariedKey};
 use crate::fibre::{Note, Remark, SpinSpec, Spinline};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault, FileKind, Problem};
@@ -55,7 +55,7 @@ impl Base for CaseBase {
                 "a study of a spinline varies keys of [spinline], [spinline.material] and [drag]".to_owned()
             );
         }
-        Ok(VariedKey::new(name.to_owned(), &key.kind))
+        Ok(VariedKey::new(name, key.kind))
     }
 
     fn value(&self, key: &VariedKey) -> f64 {
@@ -63,7 +63,7 @@ impl Base for CaseBase {
             if key.words().is_empty() {
                 self.open.number(found)
             } else {
-                level(key.kind, &found.get(&self.open.case)?)
+                key.number(&found.get(&self.open.case)?)
             }
         });
         value.unwrap_or(f64::NAN)
@@ -102,8 +102,8 @@ impl Base for CaseBase {
         let varied: Vec<&str> = values.iter().map(|(key, _)| &*key.name).collect();
         keys::CASE.replaced_by(&varied).into_iter().for_each(|other| drop(key_values.remove(other)));
         for (key, value) in values {
-            let shown = Some(key.pretty(*value));
-            match value_of(key, *value) {
+            let shown = Some(key.shown(*value));
+            match key.value(*value) {
                 Ok(value) => {
                     key_values
                         .set(key.name.clone(), WrittenValue { place: at.clone(), shown, value: Some(value) });
@@ -190,12 +190,4 @@ fn no_flights(at: &Place) -> Vec<Problem> {
     );
     let (key, value) = ("spinline.end_tension".to_owned(), Some("\"flown\"".to_owned()));
     vec![Problem { place: at.clone(), key, value, what }]
-}
-
-/// A number as the value of a key: a quantity, a whole number, or the place of a word among the words of the key.
-fn value_of(key: &VariedKey, value: f64) -> Result<Value, Fault> {
-    match key.kind.words().get(value as usize) {
-        Some(word) => Ok((*word).into()),
-        None => key.kind.accept(Value::Number(value)),
-    }
 }

@@ -2,10 +2,11 @@
 
 use super::super::web::Guess;
 use super::super::{Overrides, Resources, file};
+use super::Base;
 use super::line::{OpenWeb, changes_of_line};
 use super::web::WebBase;
-use super::{Base, VariedKey};
 use crate::experiment::Change;
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Error, FileKind, Setting};
 use std::path::Path;
 
@@ -68,7 +69,7 @@ fn with_guess(web: &OpenWeb<'_>, name: &str, guess: &Guess, factor: f64) -> Opti
     let value = factor * guess.value;
     let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
     let mut values: Vec<(VariedKey, f64)> =
-        guess.keys.iter().map(|key| (VariedKey::new(key.clone(), guess.kind), to)).collect();
+        guess.keys.iter().map(|key| (VariedKey::new(key, guess.kind), to)).collect();
     let key = web.changed_key(&values.first()?.0, [guess.value, to]);
     if OF_EDDIES.contains(&name)
         && factor < 1.0

@@ -2,12 +2,12 @@
 
 use super::super::document::Named;
 use super::super::entry::{Entry, kind};
-use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, VariedKey, level, not_varied, not_written};
+use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, not_varied, not_written};
 use crate::experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
     Way,
 };
-use crate::fibre::case::keys::Value;
+use crate::fibre::case::keys::{Value, VariedKey};
 use crate::ground::error::nearest_word;
 use crate::ground::{Fault, Finding};
 use toml::de::{DeTable, DeValue};
@@ -55,10 +55,10 @@ impl<'a> Reader<'a> {
     pub(super) fn factors(&mut self, design: Design, base: &dyn Base) -> Vec<Factor> {
         let mut factors: Vec<Factor> = Vec::new();
         for named in self.named("vary") {
-            let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key).collect();
+            let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key.name).collect();
             let Some(varied) = self.varied(base, &named, &keys) else { continue };
             if let Some(levels) = self.levels(&varied, named, design) {
-                factors.push(varied.factor(levels));
+                factors.push(Factor { key: varied, levels });
             }
         }
         factors
@@ -73,16 +73,16 @@ impl<'a> Reader<'a> {
             for factor in factors.iter().filter(|factor| factor.levels.count() != wanted) {
                 let found = factor.levels.count();
                 let fault = Fault::new(
-                    format!("has {found} values, but \"{}\" has {wanted}", first.key),
+                    format!("has {found} values, but \"{}\" has {wanted}", first.key.name),
                     "paired lists must have the same length",
                 );
-                self.key_values.reject(&factor.key, fault);
+                self.key_values.reject(&factor.key.name, fault);
             }
         }
         if design == Design::OneAtATime {
             for (factor, base) in factors.iter().zip(base) {
                 if base.is_nan() {
-                    self.key_values.reject(&factor.key, not_written("vary it around this value"));
+                    self.key_values.reject(&factor.key.name, not_written("vary it around this value"));
                 }
             }
         }
@@ -174,9 +174,9 @@ impl<'a> Reader<'a> {
             (None, Some(other)) if !words.is_empty() => {
                 Err(Fault::not_one_of(nearest_word(other, words.iter().copied()), &words))
             }
-            _ => self.as_kind(varied.kind, entry).and_then(|value| match value {
+            _ => self.as_kind(&varied.kind, entry).and_then(|value| match value {
                 Value::Whole(number) if number > LARGEST_WHOLE => Err(Fault::out_of_range(1, LARGEST_WHOLE)),
-                value => level(varied.kind, &value).ok_or_else(|| Fault::not_one_of(None, &words)),
+                value => varied.number(&value).ok_or_else(|| Fault::not_one_of(None, &words)),
             }),
         };
         read.map_err(|fault| self.reject(name, entry, fault)).ok()
@@ -310,12 +310,12 @@ fn read(text: &str, factors: &[Factor], quantities: &[Quantity]) -> Result<(Stri
     if !quantities.iter().any(|quantity| quantity.name == result) {
         return Err(unknown("is not the name of a result", "the results are", result, &names_of(quantities)));
     }
-    let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key).collect();
+    let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key.name).collect();
     let factor = |key: &str| {
         let found = keys.iter().position(|name| *name == key.trim());
         let unknown = || unknown("names a key that does not vary here", "the keys are", key.trim(), &keys);
         let index = found.ok_or_else(unknown)?;
-        match factors[index].words.is_empty() {
+        match factors[index].key.words().is_empty() {
             true => Ok(index),
             false => Err(Fault::new("names a key of words, which have no order", "name a key of numbers")),
         }

@@ -2,10 +2,10 @@
 
 use super::super::web::WebFile;
 use super::super::{Overrides, Resources, file};
+use super::Base;
 use super::web::WebBase;
-use super::{Base, VariedKey};
 use crate::experiment::{Parameter, USUAL_FACTOR};
-use crate::fibre::case::keys::{Kind, Sign};
+use crate::fibre::case::keys::{Kind, Sign, VariedKey};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault, FileKind, Finding, Problem};
 use std::path::Path;
@@ -13,7 +13,6 @@ use std::path::Path;
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
     base: WebBase,
-    keys: Vec<VariedKey>,
     /// The web before anything is sought.
     pub start: WebFile,
     /// The keys that are sought, with the values of the file and their ranges.
@@ -51,8 +50,7 @@ pub fn parse_fit(
     let own = Resources::default();
     let resources = set.resources.unwrap_or(&own);
     let base = WebBase::new(text, name.to_owned(), [Overrides::new(&[], set.word), set], resources)?;
-    let (mut keys, mut parameters, mut problems) =
-        (Vec::<VariedKey>::new(), Vec::new(), Vec::<Problem>::new());
+    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Problem>::new());
     for item in vary {
         let (key, range) =
             item.split_once('=').map_or((item.trim(), None), |(key, range)| (key.trim(), Some(range.trim())));
@@ -64,15 +62,11 @@ pub fn parse_fit(
         };
         let found = base.varied(key).map_err(|remedy| Fault::new("cannot be sought", remedy));
         let found = found.and_then(|found| {
-            let is_twice = keys.iter().any(|other| other.name == found.name);
+            let is_twice = parameters.iter().any(|other| other.key == found);
             if is_twice { Err(Fault::new("is named twice", "name it once")) } else { Ok(found) }
         });
-        let parameter = found.and_then(|found| Ok((parameter(&base, &found, range)?, found)));
-        match parameter {
-            Ok((parameter, found)) => {
-                parameters.push(parameter);
-                keys.push(found);
-            }
+        match found.and_then(|found| parameter(&base, found, range)) {
+            Ok(parameter) => parameters.push(parameter),
             Err(fault) => problems.push(problem(range, fault)),
         }
     }
@@ -80,7 +74,7 @@ pub fn parse_fit(
         return Err(problems.into());
     }
     let start = base.file(&[], None, resources)?;
-    Ok(FitFile { base, keys, start, parameters })
+    Ok(FitFile { base, start, parameters })
 }
 
 impl FitFile {
@@ -89,7 +83,8 @@ impl FitFile {
     /// # Errors
     /// Every problem with it.
     pub fn web(&self, values: &[f64], resources: &Resources) -> Result<WebFile, Error> {
-        let values: Vec<(VariedKey, f64)> = self.keys.iter().cloned().zip(values.iter().copied()).collect();
+        let keys = self.parameters.iter().map(|parameter| parameter.key.clone());
+        let values: Vec<(VariedKey, f64)> = keys.zip(values.iter().copied()).collect();
         self.base.file(&values, None, resources)
     }
 }
@@ -98,7 +93,7 @@ impl FitFile {
 const COMPUTATION: [&str; 3] = ["web.", "run.", "fibre.element_length"];
 
 /// A key that is sought, with its range.
-fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Parameter, Fault> {
+fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Parameter, Fault> {
     if COMPUTATION.iter().any(|start| key.name.starts_with(start)) {
         let remedy = "seek a key of the line: of its air, fibres, lay-down or rows";
         return Err(Fault::new(
@@ -107,7 +102,7 @@ fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Par
         ));
     }
     let is_share = match key.kind {
-        Kind::Quantity(_, sign) => *sign == Sign::Share,
+        Kind::Quantity(_, sign) => sign == Sign::Share,
         Kind::Whole(..) => false,
         _ => {
             return Err(Fault::new(
@@ -116,8 +111,7 @@ fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Par
             ));
         }
     };
-    let (dimension, whole) = (key.dimension(), key.is_whole());
-    let value = base.value(key);
+    let (dimension, value) = (key.dimension(), base.value(&key));
     let range = match range {
         Some(range) => {
             let ends = range
@@ -147,13 +141,12 @@ fn parameter(base: &WebBase, key: &VariedKey, range: Option<&str>) -> Result<Par
         }
     };
     if value < range[0] || value > range[1] {
-        let pretty = |value: f64| if whole { format!("{value}") } else { dimension.pretty(value) };
         return Err(Fault::new(
-            format!("has {} in the file, which lies outside its range", pretty(value)),
+            format!("has {} in the file, which lies outside its range", key.pretty(value)),
             format!("write a range that holds it, or another start with --set {}=VALUE", key.name),
         ));
     }
     let middle = if range[0] > 0.0 { (range[0] * range[1]).sqrt() } else { 0.5 * (range[0] + range[1]) };
     let start = if value.is_nan() { middle } else { value };
-    Ok(Parameter { key: key.name.clone(), dimension, whole, start, range })
+    Ok(Parameter { key, start, range })
 }

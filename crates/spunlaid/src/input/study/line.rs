@@ -4,11 +4,12 @@ use super::super::Resources;
 use super::super::entry::Entry;
 use super::super::influence::{Step, changed_key};
 use super::super::web::{WebFile, replaces};
+use super::Base;
 use super::web::WebBase;
-use super::{Base, VariedKey};
 use crate::air::{Air, Flow};
 use crate::experiment::plausible::leads_outside;
 use crate::experiment::{Change, ChangedWeb};
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Dimension, Error, Setting};
 use crate::simulation::layers::web_key;
 use crate::simulation::{LayerSpec, WebSpec};
@@ -217,8 +218,8 @@ impl Line<'_> {
             let to = match *power {
                 0.0 if self.is_held(key) => *from,
                 0.0 => rounded(dimension, *from, HELD),
-                1.0 if key.is_whole() || dimension == Dimension::Temperature => step.apply(key.kind, *from),
-                1.0 => rounded(dimension, step.apply(key.kind, *from), CHANGED),
+                1.0 if key.is_whole() || dimension == Dimension::Temperature => step.apply(&key.kind, *from),
+                1.0 => rounded(dimension, step.apply(&key.kind, *from), CHANGED),
                 // A row stays as wide as its web, to the last digit.
                 _ => from * factor.powf(*power),
             };
@@ -291,14 +292,12 @@ impl OpenWeb<'_> {
 
     /// What has changed of a key, with the name that it has in the file.
     pub(super) fn changed_key(&self, key: &VariedKey, ends: [f64; 2]) -> ChangedKey {
-        changed_key(self.base.short_name(&key.name).to_owned(), key.kind, ends)
+        changed_key(self.base.short_name(&key.name).to_owned(), &key.kind, ends)
     }
 
     /// A value of a key as it is set in the file.
     pub(super) fn setting(&self, (key, value): &(VariedKey, f64)) -> (String, String) {
-        let word = key.words().get(*value as usize).map(|word| (*word).to_owned());
-        let number = || if key.is_whole() { format!("{value:.0}") } else { key.dimension().written(*value) };
-        (self.base.short_name(&key.name).to_owned(), word.unwrap_or_else(number))
+        (self.base.short_name(&key.name).to_owned(), key.written(*value))
     }
 
     /// A change that makes a web of this one.

@@ -2,8 +2,9 @@
 
 use super::super::document::Named;
 use super::super::entry::Entry;
-use super::{Base, Reader, VariedKey, not_written};
+use super::{Base, Reader, not_written};
 use crate::experiment::{Factor, Link};
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::units::unknown_name;
 use crate::ground::{Expression, Fault, Finding, Powers};
 
@@ -17,16 +18,16 @@ impl Reader<'_> {
     pub(super) fn links(&mut self, factors: &[Factor], base: &dyn Base) -> Vec<Link> {
         let (mut links, mut entries): (Vec<Link>, Vec<Entry<'_>>) = (Vec::new(), Vec::new());
         for named in self.named("link") {
-            let others: Vec<&str> = links.iter().map(|link| &*link.key).collect();
+            let others: Vec<&str> = links.iter().map(|link| &*link.key.name).collect();
             let Some(linked) = self.varied(base, &named, &others) else { continue };
             let Named { row, name, entry } = named;
             let link = if !linked.words().is_empty() {
                 Err(Fault::new("takes words, and a formula gives a number", "list the words under [vary]"))
-            } else if factors.iter().any(|factor| factor.key == linked.name) {
+            } else if factors.iter().any(|factor| factor.key == linked) {
                 Err(Fault::new("is both varied and linked", "keep one"))
             } else {
                 self.as_kind(&row.kind, &entry)
-                    .and_then(|_| read(base, &linked, entry.value.as_str().unwrap_or_default()))
+                    .and_then(|_| read(base, linked, entry.value.as_str().unwrap_or_default()))
             };
             match link {
                 Ok(link) => {
@@ -36,8 +37,8 @@ impl Reader<'_> {
                 Err(fault) => self.reject(&name, &entry, fault),
             }
         }
-        let keys = factors.iter().map(|factor| &*factor.key).chain(links.iter().map(|link| &*link.key));
-        let keys: Vec<&str> = keys.collect();
+        let keys = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
+        let keys: Vec<&str> = keys.map(|key| &*key.name).collect();
         for (link, entry) in links.iter().zip(&entries) {
             if let Some(name) = unwritten(link, &keys, base) {
                 let (place, key) = (entry.place.clone(), name.to_owned());
@@ -46,14 +47,14 @@ impl Reader<'_> {
             }
         }
         if let Err((link, fault)) = order(&links) {
-            self.reject(&links[link].key, &entries[link], fault);
+            self.reject(&links[link].key.name, &entries[link], fault);
         }
         links
     }
 }
 
 /// Reads the formula of a key.
-pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link, Fault> {
+fn read(base: &dyn Base, key: VariedKey, text: &str) -> Result<Link, Fault> {
     let text = text.trim();
     let text = text.strip_prefix('=').unwrap_or(text).trim();
     let named = READY_MADE.iter().find(|(name, owner, _)| *name == text && *owner == key.name);
@@ -72,7 +73,7 @@ pub(super) fn read(base: &dyn Base, key: &VariedKey, text: &str) -> Result<Link,
         let message = format!("gives a value in {found}, but {name} in {wanted} is needed");
         return Err(Fault::new(message, "check the formula"));
     }
-    Ok(Link { key: key.name.clone(), dimension: key.dimension(), expression })
+    Ok(Link { key, expression })
 }
 
 /// An order in which every link comes after the links it depends on.
@@ -86,7 +87,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
             let names = links[i].expression.names();
             names
                 .into_iter()
-                .filter_map(|name| links.iter().position(|link| link.key == name))
+                .filter_map(|name| links.iter().position(|link| link.key.name == name))
                 .find(|other| !order.contains(other))
         };
         let ready = (0..links.len()).filter(|i| !order.contains(i)).find(|i| waits_for(*i).is_none());
@@ -104,7 +105,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
                     way.push(next);
                 };
                 let circle = way.iter().skip_while(|i| **i != last).chain([&last]);
-                let circle: Vec<&str> = circle.map(|i| &*links[*i].key).collect();
+                let circle: Vec<&str> = circle.map(|i| &*links[*i].key.name).collect();
                 let message = format!("depends on itself: {}", circle.join(" ← "));
                 return Err((last, Fault::new(message, "remove one of these links")));
             }
@@ -133,13 +134,12 @@ pub(super) fn values(
     let mut values: Vec<Option<f64>> = vec![None; links.len()];
     for &i in order {
         let known = |name: &str| {
-            let linked = links.iter().position(|link| link.key == name);
+            let linked = links.iter().position(|link| link.key.name == name);
             let value = linked.map_or_else(|| known(name), |other| values[other])?;
             Some((value, Powers::from_dimension(base.numeric(name).ok()?.dimension())))
         };
         let value = links[i].expression.value(&known).map_or(f64::NAN, |(value, _)| value);
-        let whole = base.numeric(&links[i].key).is_ok_and(|key| key.is_whole());
-        values[i] = Some(if whole { value.round() } else { value });
+        values[i] = Some(if links[i].key.is_whole() { value.round() } else { value });
     }
     values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
 }

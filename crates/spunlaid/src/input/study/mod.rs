@@ -19,11 +19,11 @@ pub use write::{differences, starter_study};
 use super::document::{self, Document};
 use super::written_values::sorted;
 use super::{Overrides, Resources, file};
-use crate::experiment::{Experiment, Factor, Levels, Quantity, Replicates, STUDY, Study};
-use crate::fibre::case::keys::{self, Kind, Value};
+use crate::experiment::{Experiment, Quantity, Replicates, STUDY, Study};
+use crate::fibre::case::keys::{self, VariedKey};
 use crate::fibre::{Note, Remark};
 use crate::ground::error::Place;
-use crate::ground::{Dimension, Error, Fault, FileKind, Finding, Position, Removed};
+use crate::ground::{Error, Fault, FileKind, Finding, Position, Removed};
 use plan::Plan;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -234,70 +234,6 @@ trait Base {
 
 /// An experiment, and the remarks on it.
 type ExperimentWithNotes = Result<(Experiment, Vec<Note>), Error>;
-
-/// What a study needs to know of a key that it varies, of a case or of a web.
-#[derive(Clone)]
-struct VariedKey {
-    /// Its full name, `layer.2.line.filaments_per_metre`.
-    name: String,
-    kind: &'static Kind,
-}
-
-impl VariedKey {
-    const fn new(name: String, kind: &'static Kind) -> Self {
-        Self { name, kind }
-    }
-
-    fn is_whole(&self) -> bool {
-        matches!(self.kind, Kind::Whole(..))
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        self.kind.words()
-    }
-
-    /// Physical dimension of its values.
-    fn dimension(&self) -> Dimension {
-        self.kind.dimension().unwrap_or(Dimension::Ratio)
-    }
-
-    /// A value that is a word, as a file has it.
-    fn word(&self, value: f64) -> Option<String> {
-        let word = *self.words().get(value as usize)?;
-        Some(if matches!(self.kind, Kind::Switch) { word.to_owned() } else { format!("\"{word}\"") })
-    }
-
-    /// A value in the form of a study file, without rounding.
-    fn exact(&self, value: f64) -> String {
-        match self.word(value) {
-            Some(word) => word,
-            None if self.is_whole() => format!("{value:.0}"),
-            None => format!("\"{}\"", self.dimension().exact(value)),
-        }
-    }
-
-    /// A value for people, as a case would show it.
-    fn pretty(&self, value: f64) -> String {
-        match self.word(value) {
-            Some(word) => word,
-            None if self.is_whole() => format!("{value:.0}"),
-            None => self.dimension().pretty(value),
-        }
-    }
-
-    fn factor(self, levels: Levels) -> Factor {
-        let (dimension, whole, words) = (self.dimension(), self.is_whole(), self.words());
-        Factor { key: self.name, dimension, whole, words, levels }
-    }
-}
-
-/// The value of a key as a number: of a word, its place among the words of the key.
-fn level(kind: &Kind, value: &Value) -> Option<f64> {
-    match value {
-        Value::Text(word) => kind.words().iter().position(|one| one == word).map(|i| i as f64),
-        value => value.number(),
-    }
-}
 
 /// A study file, and the problems found in it so far.
 type Reader<'a> = Document<'a, Study>;

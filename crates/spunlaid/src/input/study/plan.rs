@@ -94,8 +94,9 @@ impl Reader<'_> {
         let set: Vec<String> = set.iter().map(|(name, _)| full(name)).collect();
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
         for key in varied {
-            if let Some(other) = set.iter().find(|set| *set == key || are_alternatives(set, key)) {
-                self.key_values.reject(key, set_twice(key, other));
+            if let Some(other) = set.iter().find(|set| **set == key.name || are_alternatives(set, &key.name))
+            {
+                self.key_values.reject(&key.name, set_twice(&key.name, other));
             }
         }
     }
@@ -132,7 +133,7 @@ impl Reader<'_> {
             return None;
         }
         let order = links::order(&links).ok()?;
-        let values: Vec<f64> = factors.iter().map(|factor| base_value(base, factor)).collect();
+        let values: Vec<f64> = factors.iter().map(|factor| base.value(&factor.key)).collect();
         self.combination(design, &factors, &values);
         if self.problems() == 0 {
             self.size(design.count(&factors, &values), changes.points, replicates.at_most);
@@ -149,9 +150,4 @@ impl Reader<'_> {
             claims,
         })
     }
-}
-
-/// The value of a factor before anything varies; NaN if it has none.
-pub(super) fn base_value(base: &dyn Base, factor: &Factor) -> f64 {
-    base.varied(&factor.key).map_or(f64::NAN, |key| base.value(&key))
 }

@@ -1,11 +1,12 @@
 //! Makes a checked experiment of every point of a study.
 
 use super::super::Resources;
-use super::plan::{Plan, base_value};
-use super::{Base, VariedKey, links};
+use super::plan::Plan;
+use super::{Base, links};
 use crate::experiment::Point;
 use crate::experiment::study::seed_of_point;
 use crate::fibre::Note;
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::Error;
 use crate::ground::error::Place;
 use std::fmt;
@@ -52,7 +53,7 @@ impl Resolver<'_> {
     /// All points, or the problems of all of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
-        let base: Vec<f64> = factors.iter().map(|factor| base_value(self.base, factor)).collect();
+        let base: Vec<f64> = factors.iter().map(|factor| self.base.value(&factor.key)).collect();
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
         let (mut points, mut problems, mut notes) =
@@ -72,16 +73,15 @@ impl Resolver<'_> {
 
     fn point(&self, index: u64, mut values: Vec<f64>) -> Result<(Point, Vec<Note>), Error> {
         let Plan { factors, links, order, seed, common_phases, .. } = self.plan;
-        let known = |name: &str| match factors.iter().position(|factor| factor.key == name) {
+        let known = |name: &str| match factors.iter().position(|factor| factor.key.name == name) {
             Some(i) => values.get(i).copied(),
             None => Some(self.base.value(&self.base.numeric(name).ok()?)),
         };
         let linked = links::values(self.base, links, order, &known);
         values.extend(linked);
-        let names = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
-        let keys = names.filter_map(|name| self.base.varied(name).ok());
-        let set: Vec<(VariedKey, f64)> = keys.zip(values.iter().copied()).collect();
-        let shown = |(key, value): &(VariedKey, f64)| format!("{} = {}", key.name, key.pretty(*value));
+        let keys = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
+        let set: Vec<(VariedKey, f64)> = keys.cloned().zip(values.iter().copied()).collect();
+        let shown = |(key, value): &(VariedKey, f64)| format!("{} = {}", key.name, key.shown(*value));
         let (study, number) = (self.study.to_owned(), index + 1);
         let at = Place::Point { study, number, values: set.iter().map(shown).collect::<Vec<_>>().join(", ") };
         let seed = (!*common_phases).then(|| seed_of_point(*seed, index));

@@ -4,9 +4,9 @@ use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, wr
 use super::super::written_values::WrittenValues;
 use super::super::{Overrides, Resources, document};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, VariedKey, level};
+use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER};
 use crate::experiment::{Experiment, Point, Quantity, Study};
-use crate::fibre::case::keys::{self, Value};
+use crate::fibre::case::keys::{self, Value, VariedKey};
 use crate::ground::Error;
 use crate::ground::error::{Place, nearest_word};
 use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
@@ -118,12 +118,12 @@ impl Base for WebBase {
                 (true, false) => {
                     Err("the flights of all points have the same; write it under [set]".to_owned())
                 }
-                (true, true) => Ok(VariedKey::new(name.to_owned(), &key.kind)),
+                (true, true) => Ok(VariedKey::new(name, key.kind)),
             };
         }
         let full = full_name(&self.spec, name)?;
         match web_key(&full) {
-            Some(key) if key.varies => Ok(VariedKey::new(full, &key.kind)),
+            Some(key) if key.varies => Ok(VariedKey::new(full, key.kind)),
             Some(_) => Err(TAKE_A_NUMBER.to_owned()),
             None => {
                 let of_layer = without_numbers(&full);
@@ -142,7 +142,7 @@ impl Base for WebBase {
         } else {
             value(&self.spec, &key.name)
         };
-        found.and_then(|value| level(key.kind, &value)).unwrap_or(f64::NAN)
+        found.and_then(|value| key.number(&value)).unwrap_or(f64::NAN)
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {

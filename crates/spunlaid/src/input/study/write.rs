@@ -3,8 +3,9 @@
 use super::super::source::fit;
 use super::super::write::{in_lines, lines, quoted};
 use super::super::{FORMAT_VERSION, Resources, file, kind_of, read_case, read_spinline, read_web};
-use super::{Base, VariedKey, open_base, parse_study};
+use super::{Base, open_base, parse_study};
 use crate::experiment::{Factor, Levels, Replicates, STUDY, Study};
+use crate::fibre::case::keys::VariedKey;
 use crate::ground::units::shortest;
 use crate::ground::{Error, Fault, FileKind};
 use std::collections::BTreeSet;
@@ -32,7 +33,7 @@ pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
     if !study.links.is_empty() {
         text.push_str("\n[link]\n");
         for link in &study.links {
-            let _ = writeln!(text, "\"{}\" = \"{}\"", link.key, link.expression.text());
+            let _ = writeln!(text, "\"{}\" = \"{}\"", link.key.name, link.expression.text());
         }
     }
     if !study.claims.is_empty() {
@@ -54,11 +55,11 @@ fn write_values(text: &mut String, set: &[(String, String)], factors: &[Factor])
     }
     text.push_str("\n[vary]\n");
     for factor in factors {
-        let exact = |value: f64| exact(factor, value);
+        let exact = |value: f64| exact(&factor.key, value);
         let _ = match &factor.levels {
             Levels::List(values) => {
                 let values: Vec<String> = values.iter().map(|value| exact(*value)).collect();
-                writeln!(text, "\"{}\" = [{}]", factor.key, values.join(", "))
+                writeln!(text, "\"{}\" = [{}]", factor.key.name, values.join(", "))
             }
             Levels::Range { from, to, steps, spacing } => {
                 let steps = steps.map_or_else(String::new, |steps| format!(", steps = {steps}"));
@@ -66,7 +67,7 @@ fn write_values(text: &mut String, set: &[(String, String)], factors: &[Factor])
                 writeln!(
                     text,
                     "\"{}\" = {{ from = {from}, to = {to}{steps}, spacing = \"{spacing}\" }}",
-                    factor.key
+                    factor.key.name
                 )
             }
         };
@@ -74,12 +75,8 @@ fn write_values(text: &mut String, set: &[(String, String)], factors: &[Factor])
 }
 
 /// A value in the form of a study file, without rounding.
-fn exact(factor: &Factor, value: f64) -> String {
-    match factor.input().word(value) {
-        Some(word) => format!("\"{word}\""),
-        None if factor.whole => format!("{value:.0}"),
-        None => format!("\"{}\"", factor.dimension.exact(value)),
-    }
+fn exact(key: &VariedKey, value: f64) -> String {
+    key.word(value).map_or_else(|| key.exact(value), quoted)
 }
 
 /// Keys to begin with, the first ones that fit.

@@ -18,7 +18,7 @@ pub(crate) struct Guess {
     /// The full names of its keys: of a key that every layer has, those of all layers.
     pub(crate) keys: Vec<String>,
     /// What kind of number it is.
-    pub(crate) kind: &'static Kind,
+    pub(crate) kind: Kind,
     /// Its value [SI].
     pub(crate) value: f64,
 }
@@ -40,17 +40,17 @@ impl Guess {
             Some(key) if cases().any(|case| key.is_derived(case)) => return Err(given_by_flow(name)),
             Some(key) => {
                 let values = cases().map(|case| key.get(case).and_then(|value| value.number())).collect();
-                (vec![name.to_owned()], &key.kind, key.varies, values)
+                (vec![name.to_owned()], key.kind, key.varies, values)
             }
             None => {
                 let (keys, key) = keys_of_web(web, name)?;
                 let number = |full: &String| value(web, full).and_then(|value| value.number());
                 let values: Vec<Option<f64>> = keys.iter().map(number).collect();
-                (keys, &key.kind, key.varies, values)
+                (keys, key.kind, key.varies, values)
             }
         };
         let is_halved = match kind {
-            Kind::Quantity(dimension, _) => *dimension != Dimension::Temperature,
+            Kind::Quantity(dimension, _) => dimension != Dimension::Temperature,
             Kind::Whole(..) => true,
             _ => false,
         };

@@ -96,10 +96,10 @@ impl<'a> Fit<'a> {
                 continue;
             };
             if least == last {
-                return Err(Refusal::OneValue { key: study.factors[factor].key.clone() });
+                return Err(Refusal::OneValue { key: study.factors[factor].key.name.clone() });
             }
             let alone = study.design == Design::OneAtATime;
-            if study.factors[factor].words.is_empty() {
+            if study.factors[factor].key.words().is_empty() {
                 terms.push(Term::Line(factor));
                 spans.push((factor, if alone { (least, last) } else { study.factors[factor].ends() }));
             } else {
@@ -198,7 +198,7 @@ impl<'a> Fit<'a> {
         let nearest = others.max_by(|a, b| correlation(*a).abs().total_cmp(&correlation(*b).abs()));
         let key = |column: usize| match self.terms[column.max(1) - 1] {
             Term::Line(j) | Term::Square(j) | Term::Product(j, _) | Term::Word(j, ..) => {
-                self.study.factors[j].key.clone()
+                self.study.factors[j].key.name.clone()
             }
         };
         match nearest.filter(|k| correlation(*k).abs() > 0.9) {

@@ -13,11 +13,13 @@ mod relations;
 pub(crate) mod row;
 mod table;
 mod value;
+mod varied;
 
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
 pub use value::{Content, FileKind, Kind, Sign, Value};
+pub use varied::VariedKey;
 
 use super::Case;
 use crate::ground::error::Place;

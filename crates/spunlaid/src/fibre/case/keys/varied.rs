@@ -1,0 +1,103 @@
+//! A key that has several values: in a study, in a fit, among trials.
+
+use super::{Kind, Value};
+use crate::ground::{Dimension, Fault};
+
+/// A key that has several values, of a case or of a web. They are numbers in SI units, or the places of words
+/// among those of the key.
+#[derive(Clone, Debug)]
+pub struct VariedKey {
+    /// Full name, `air.velocity`; of a layer of a web with its number, `layer.2.line.filaments_per_metre`.
+    pub name: String,
+    /// Which values it takes.
+    pub kind: Kind,
+}
+
+impl PartialEq for VariedKey {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl VariedKey {
+    /// A key by its full name.
+    pub fn new(name: impl Into<String>, kind: Kind) -> Self {
+        Self { name: name.into(), kind }
+    }
+
+    /// Whether its values are whole numbers.
+    pub const fn is_whole(&self) -> bool {
+        matches!(self.kind, Kind::Whole(..))
+    }
+
+    /// The words that it takes; none if its values are numbers.
+    pub fn words(&self) -> Vec<&'static str> {
+        self.kind.words()
+    }
+
+    /// Physical dimension of its values.
+    pub fn dimension(&self) -> Dimension {
+        self.kind.dimension().unwrap_or(Dimension::Ratio)
+    }
+
+    /// The word that a value stands for; none for numbers.
+    pub fn word(&self, value: f64) -> Option<&'static str> {
+        self.words().get(value as usize).copied()
+    }
+
+    /// A value for people: a word, or a number with its unit.
+    pub fn pretty(&self, value: f64) -> String {
+        self.number_or_word(value, |dimension| dimension.pretty(value))
+    }
+
+    /// A value for people who write it in a file.
+    pub(crate) fn written(&self, value: f64) -> String {
+        self.number_or_word(value, |dimension| dimension.written(value))
+    }
+
+    fn number_or_word(&self, value: f64, number: impl FnOnce(Dimension) -> String) -> String {
+        match self.word(value) {
+            Some(word) => word.to_owned(),
+            None if self.is_whole() => format!("{value:.0}"),
+            None => number(self.dimension()),
+        }
+    }
+
+    /// A value as a case would show it.
+    pub(crate) fn shown(&self, value: f64) -> String {
+        match self.word(value) {
+            Some(word) => self.kind.pretty(&word.into()),
+            None => self.pretty(value),
+        }
+    }
+
+    /// A value in the form of a file, without rounding.
+    pub(crate) fn exact(&self, value: f64) -> String {
+        match self.words()[..] {
+            [] if !self.is_whole() => format!("\"{}\"", self.dimension().exact(value)),
+            _ => self.shown(value),
+        }
+    }
+
+    /// Name of its column in a table: the key and the SI unit of a quantity.
+    pub fn column(&self) -> String {
+        let unit = if self.words().is_empty() { self.dimension().suffix() } else { String::new() };
+        format!("{}{unit}", self.name)
+    }
+
+    /// A value as a number: of a word, its place among the words of the key.
+    pub(crate) fn number(&self, value: &Value) -> Option<f64> {
+        match value {
+            Value::Text(word) => self.words().iter().position(|one| one == word).map(|i| i as f64),
+            value => value.number(),
+        }
+    }
+
+    /// A number as a value of the key.
+    ///
+    /// # Errors
+    /// If the key does not take it.
+    pub(crate) fn value(&self, number: f64) -> Result<Value, Fault> {
+        self.word(number).map_or_else(|| self.kind.accept(Value::Number(number)), |word| Ok(word.into()))
+    }
+}
