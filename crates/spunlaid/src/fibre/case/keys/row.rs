@@ -207,20 +207,32 @@ pub(crate) struct NewKey {
     name: &'static str,
     kind: Kind,
     varies: bool,
+    usual: Option<(f64, f64)>,
 }
 
 pub(crate) const fn key(name: &'static str, kind: Kind) -> NewKey {
-    NewKey { name, kind, varies: false }
+    NewKey { name, kind, varies: false, usual: None }
 }
 
-/// A quantity, which a study may vary.
-pub(crate) const fn quantity(name: &'static str, dimension: Dimension, sign: Sign) -> NewKey {
-    NewKey { name, kind: Kind::Quantity(dimension, sign), varies: true }
+/// A quantity of any size, which a study may vary.
+pub(crate) const fn of_any_size(name: &'static str, dimension: Dimension, sign: Sign) -> NewKey {
+    NewKey { varies: true, ..key(name, Kind::Quantity(dimension, sign)) }
+}
+
+/// A quantity, which a study may vary. Outside of `usual`, in SI units and of the magnitude, a value is most likely a
+/// slip, unless it is zero.
+pub(crate) const fn quantity(
+    name: &'static str,
+    dimension: Dimension,
+    sign: Sign,
+    usual: (f64, f64),
+) -> NewKey {
+    NewKey { usual: Some(usual), ..of_any_size(name, dimension, sign) }
 }
 
 /// One of a few words, which a study may vary.
 pub(crate) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>) -> NewKey {
-    NewKey { name, kind: Kind::Choice(names), varies: true }
+    NewKey { varies: true, ..key(name, Kind::Choice(names)) }
 }
 
 pub(super) const fn file(name: &'static str, kind: FileKind) -> NewKey {
@@ -230,7 +242,7 @@ pub(super) const fn file(name: &'static str, kind: FileKind) -> NewKey {
 impl NewKey {
     /// Where its value is.
     pub(crate) const fn access<T>(self, access: AccessTo<T>) -> Key<T> {
-        let (Self { name, kind, varies }, AccessTo { get, set }) = (self, access);
+        let (Self { name, kind, varies, usual }, AccessTo { get, set }) = (self, access);
         Key {
             name,
             kind,
@@ -241,7 +253,7 @@ impl NewKey {
             varies,
             in_flight: false,
             slider: None,
-            usual: None,
+            usual,
             read_last: false,
             words: &[],
             relations: Relations::NONE,

@@ -25,7 +25,7 @@ macro_rules! of_friction {
 }
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("belt.distance", Dimension::Length, Positive)
+    quantity("belt.distance", Dimension::Length, Positive, (0.001, 10.0))
         .access(Access {
             get: |case| Some(Value::Number(case.line?.distance)),
             set: |case, value| {
@@ -42,16 +42,14 @@ pub(super) const KEYS: &[Key] = &[
         })
         .needed_if(FED, "0.5 m")
         .follows("a fibre of fixed length")
-        .usual(0.001, 10.0)
         .meaning("Distance from the inlet to the belt, along x. The belt lies across x.")
         .synonyms(&["DCD", "die-to-collector distance"])
         .label("Distance to the belt *H*")
         .slider(0.1, 2.0),
-    quantity("belt.speed", Dimension::Velocity, NotNegative)
+    quantity("belt.speed", Dimension::Velocity, NotNegative, (0.0001, 50.0))
         .access(at!(fed, line, belt_speed))
         .needed_if(FED, "3 m/s")
         .follows("a fibre of fixed length")
-        .usual(0.0001, 50.0)
         .meaning("Speed of the belt, along y, the machine direction.")
         .synonyms(&["line speed", "conveyor speed"])
         .label("Belt speed *v*_{b}")
@@ -61,28 +59,25 @@ pub(super) const KEYS: &[Key] = &[
         .value("stick")
         .meaning("Whether the fibre sticks where it touches down, or slides against friction.")
         .label("Contact with the belt"),
-    quantity("belt.friction", Dimension::Ratio, NotNegative)
+    quantity("belt.friction", Dimension::Ratio, NotNegative, (0.001, 3.0))
         .access(of_friction!(coefficient))
         .value("0.3")
-        .usual(0.001, 3.0)
         .meaning("Coefficient of the friction between fibre and belt.")
         .label("Friction on the belt *μ*")
         .slider(0.0, 1.0),
-    quantity("belt.suction", Dimension::Pressure, NotNegative)
+    // Up to an atmosphere.
+    quantity("belt.suction", Dimension::Pressure, NotNegative, (0.1, 1e5))
         .access(of_friction!(suction))
         .value("200 Pa")
-        // Up to an atmosphere.
-        .usual(0.1, 1e5)
         .meaning(
             "Pressure difference that pulls the fibre on to the belt; times the diameter, a force per \
              length of fibre.",
         )
         .label("Suction")
         .slider(0.0, 2000.0),
-    quantity("belt.kept_length", Dimension::Length, Positive)
+    quantity("belt.kept_length", Dimension::Length, Positive, (1e-7, 2.0))
         .access(at!(fed, line, kept_length))
         .follows("a quarter of the distance to the belt")
-        .usual(1e-7, 2.0)
         .meaning(
             "Length of fibre behind the newest touch-down that still moves. The rest is laid; arches \
              in the air stay where they are.",
@@ -91,7 +86,8 @@ pub(super) const KEYS: &[Key] = &[
         .slider(5e-3, 0.2),
 ];
 
-pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Positive)
+// From coiling threads to the fastest spinning.
+pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Positive, (1e-3, 200.0))
     .access(Access {
         get: |case| Some(Value::Number(case.line?.feed_speed)),
         set: |case, value| {
@@ -103,8 +99,6 @@ pub(super) const FEED: &[Key] = &[quantity("feed.speed", Dimension::Velocity, Po
     .derived(|case| case.spinline.is_some())
     .needed_if(FED, "50 m/s")
     .follows("a fibre of fixed length")
-    // From coiling threads to the fastest spinning.
-    .usual(1e-3, 200.0)
     .meaning(
         "Speed at which the fibre is fed at the inlet, the spinning speed. The fibre is then laid on a belt.",
     )

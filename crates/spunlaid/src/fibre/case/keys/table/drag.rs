@@ -25,7 +25,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Law of the drag across the fibre")
         .in_flight(),
-    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative)
+    quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, (0.01, 10.0))
         .access(within!(
             |case| &case.drag.along,
             &mut case.drag.along,
@@ -33,7 +33,6 @@ pub(super) const KEYS: &[Key] = &[
             Fault::needs("drag.along = \"matsui\"", "remove it, this law has its own")
         ))
         .value("0.9")
-        .usual(0.01, 10.0)
         .meaning(
             "Factor of Matsui's friction law. Values from 0.37 to 0.9 are in use; two sources support 0.9.",
         )

@@ -26,7 +26,7 @@ macro_rules! from_spinline {
 named_fields!(Root);
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("fibre.length", Dimension::Length, Positive)
+    quantity("fibre.length", Dimension::Length, Positive, (0.001, 30.0))
         .access(Access {
             get: |case| case.line.is_none().then_some(Value::Number(case.fibre.length)),
             set: |case, value| {
@@ -43,31 +43,28 @@ pub(super) const KEYS: &[Key] = &[
         })
         .derived(|case| case.line.is_some())
         .required("1 m")
-        .usual(0.001, 30.0)
         .meaning("Length of the fibre from its root to its free end. A fed fibre has none.")
         .label("Fibre length *L*")
         .slider(0.1, 2.0),
-    quantity("fibre.diameter", Dimension::Length, Positive)
+    // From nanofibres to thick threads.
+    quantity("fibre.diameter", Dimension::Length, Positive, (1e-7, 2e-3))
         .access(from_spinline!(diameter))
         .derived(|case| case.spinline.is_some())
         .required("50 µm")
-        // From nanofibres to thick threads.
-        .usual(1e-7, 2e-3)
         .meaning("Diameter of the round fibre.")
         .label("Fibre diameter *d*")
         .slider(5e-6, 2e-4)
         .in_flight(),
-    quantity("fibre.density", Dimension::Density, Positive)
+    // From foams to the heaviest metals.
+    quantity("fibre.density", Dimension::Density, Positive, (100.0, 2.5e4))
         .access(from_spinline!(density))
         .derived(|case| case.spinline.is_some())
         .required("950 kg/m³")
-        // From foams to the heaviest metals.
-        .usual(100.0, 25_000.0)
         .meaning("Density of the polymer.")
         .label("Fibre density")
         .slider(800.0, 1500.0)
         .in_flight(),
-    quantity("fibre.linear_density", Dimension::LinearDensity, Positive)
+    quantity("fibre.linear_density", Dimension::LinearDensity, Positive, (1e-11, 0.03))
         .access(Access {
             get: |_| None,
             set: |case, value| {
@@ -79,12 +76,12 @@ pub(super) const KEYS: &[Key] = &[
         .alternative_to(&["fibre.diameter"], "either gives the other; write one of the two")
         .in_other_words(|case| Some(case.linear_density().into()))
         .follows("diameter and density give it")
-        .usual(1e-11, 0.03)
         .meaning("Mass per length, in place of `fibre.diameter`, which follows with the density.")
         .synonyms(&["titre", "titer", "denier", "count of the yarn", "fineness"])
         .label("Linear density")
         .slider(1e-8, 2e-5),
-    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive)
+    // From rubber to the stiffest carbon fibres.
+    quantity("fibre.youngs_modulus", Dimension::Pressure, Positive, (1e7, 9e11))
         .access(Access {
             get: |case| Some(Value::Number(case.fibre.youngs_modulus)),
             set: |case, value| {
@@ -97,17 +94,14 @@ pub(super) const KEYS: &[Key] = &[
         })
         .derived(|case| case.spinline.as_ref().is_some_and(|line| line.gives_modulus))
         .required("2 GPa")
-        // From rubber to the stiffest carbon fibres.
-        .usual(1e7, 9e11)
         .meaning("Young's modulus of the polymer along the fibre, which is elastic.")
         .synonyms(&["stiffness", "E modulus"])
         .label("Young’s modulus *E*")
         .slider(1e7, 1e10)
         .in_flight(),
-    quantity("fibre.bending_viscosity_time", Dimension::Time, NotNegative)
+    quantity("fibre.bending_viscosity_time", Dimension::Time, NotNegative, (1e-7, 0.1))
         .access(at!(fibre.bending_viscosity_time))
         .value("0 s")
-        .usual(1e-7, 0.1)
         .meaning(
             "Time constant τ of the bending viscosity, which damps the bending of a soft polymer: the \
              bending moment is EI (κ + τ dκ/dt), with the curvature κ.",
@@ -115,7 +109,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Bending viscosity *τ*")
         .slider(0.0, 1e-3)
         .in_flight(),
-    quantity("fibre.element_length", Dimension::Length, Positive)
+    quantity("fibre.element_length", Dimension::Length, Positive, (1e-6, 1.0))
         .access(Access {
             get: |case| {
                 let length = case.fibre.rest_length();
@@ -131,7 +125,6 @@ pub(super) const KEYS: &[Key] = &[
             "the length of an eddy, or a little less so that a whole number of elements fits; of a fed \
              fibre, 1/125 of the distance to the belt",
         )
-        .usual(1e-6, 1.0)
         .meaning("Length of the elements of the fibre. Shorter ones resolve shorter waves and take longer.")
         .label("Element length *l*")
         .slider(2e-3, 0.1)

@@ -11,15 +11,14 @@ use crate::ground::Dimension;
 named_fields!(Checks, Scheme);
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("run.duration", Dimension::Time, Positive)
+    quantity("run.duration", Dimension::Time, Positive, (1e-5, 3600.0))
         .access(steps!(steps, duration, 1))
         .required("1 s")
-        .usual(1e-5, 3600.0)
         .meaning("Time that is simulated, the spin-up included.")
         .label("Simulated time")
         .slider(0.1, 10.0)
         .read_last(),
-    quantity("run.time_step", Dimension::Time, Positive)
+    quantity("run.time_step", Dimension::Time, Positive, (1e-10, 0.1))
         .access(Access {
             get: |case| Some(Value::Number(case.run.time_step)),
             set: |case, value| {
@@ -32,12 +31,11 @@ pub(super) const KEYS: &[Key] = &[
              stability limit; of a fed fibre, a whole part of the time in which an element is fed, at most \
              half of it",
         )
-        .usual(1e-10, 0.1)
         .meaning("Length of a time step, below the stability limit, which a message gives.")
         .label("Time step *h*")
         .slider(1e-7, 1e-3)
         .read_last(),
-    quantity("run.error_tolerance", Dimension::Ratio, Positive)
+    quantity("run.error_tolerance", Dimension::Ratio, Positive, (1e-7, 0.1))
         .access(Access {
             get: |_| None,
             set: |case, value| {
@@ -47,7 +45,6 @@ pub(super) const KEYS: &[Key] = &[
             },
         })
         .value("0.003")
-        .usual(1e-7, 0.1)
         .meaning(
             "Largest error of the free end's path by the time step, over its amplitude. It chooses \
              the time step if `run.time_step` is left out.",
@@ -76,19 +73,17 @@ pub(super) const KEYS: &[Key] = &[
              `implicit-tension` allows long steps.",
         )
         .label("Scheme"),
-    quantity("run.gravity", Dimension::Acceleration, Any)
+    // From a thousandth of the earth's to thirty times it.
+    quantity("run.gravity", Dimension::Acceleration, Any, (0.01, 300.0))
         .access(at!(run.gravity))
         .value("9.81 m/s²")
-        // From a thousandth of the earth's to thirty times it.
-        .usual(0.01, 300.0)
         .meaning("Acceleration of gravity, along x.")
         .label("Gravity *g*")
         .slider(0.0, 20.0)
         .in_flight(),
-    quantity("run.spin_up", Dimension::Time, NotNegative)
+    quantity("run.spin_up", Dimension::Time, NotNegative, (1e-9, 3600.0))
         .access(steps!(spin_up_steps, spin_up, 0))
         .value("0 s")
-        .usual(1e-9, 3600.0)
         .meaning(
             "Time at the start that the statistics of the motion leave out; the energy errors and the \
              time outside the flow include it. Of a fed fibre the default is four times distance / \
@@ -97,10 +92,9 @@ pub(super) const KEYS: &[Key] = &[
         .label("Spin-up")
         .slider(0.0, 1.0)
         .read_last(),
-    quantity("run.output_interval", Dimension::Time, Positive)
+    quantity("run.output_interval", Dimension::Time, Positive, (1e-7, 10.0))
         .access(steps!(output_steps, output_interval, 1))
         .value("1 ms")
-        .usual(1e-7, 10.0)
         .meaning("Time from one recorded instant to the next.")
         .label("Output interval")
         .slider(1e-4, 1e-2)
@@ -121,10 +115,9 @@ pub(super) const KEYS: &[Key] = &[
              `none`: no checks.",
         )
         .label("Checks"),
-    quantity("run.damping", Dimension::Rate, NotNegative)
+    quantity("run.damping", Dimension::Rate, NotNegative, (0.001, 1e5))
         .access(at!(run.damping))
         .value("0 1/s")
-        .usual(0.001, 100000.0)
         .meaning("Rate at which the velocity of every node decays, in addition to the drag of the air.")
         .label("Damping")
         .slider(0.0, 100.0)

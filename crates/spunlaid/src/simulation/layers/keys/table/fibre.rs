@@ -2,14 +2,14 @@
 
 use super::super::access::{Access, WebKey, diameter, flown, is_flown, layer, layer_mut, of_surrogate};
 use super::{EITHER, positive};
-use crate::fibre::case::keys::row::{at, key, number};
-use crate::fibre::case::keys::{Condition, Kind, Value};
+use crate::fibre::case::keys::row::{at, key, number, of_any_size};
+use crate::fibre::case::keys::{Condition, Kind, Sign, Value};
 use crate::ground::Dimension;
 use crate::simulation::layers::{LaydownSource, WebSpec};
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    positive("fibre.diameter", Dimension::Length)
+    of_any_size("fibre.diameter", Dimension::Length, Sign::Positive)
         .access(Access {
             get: |web| layer(web).filter(|layer| layer.titre.is_none()).map(|layer| layer.diameter.into()),
             set: |web, value| {
@@ -22,13 +22,13 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("18 µm")
         .meaning("Diameter of the round filaments; of filaments that fly, that of their case.")
         .label("Fibre diameter *d*"),
-    positive("fibre.density", Dimension::Density)
+    of_any_size("fibre.density", Dimension::Density, Sign::Positive)
         .access(at!(layer, layer_mut, density))
         .derived(is_flown)
         .required("910 kg/m³")
         .meaning("Density of the polymer; of filaments that fly, that of their case.")
         .label("Fibre density"),
-    positive("fibre.linear_density", Dimension::LinearDensity)
+    of_any_size("fibre.linear_density", Dimension::LinearDensity, Sign::Positive)
         .access(Access {
             get: |web| layer(web)?.titre.map(Value::Number),
             set: |web, value| {
@@ -79,7 +79,7 @@ pub(super) const LAYDOWN: &[WebKey] = &[
              make the web. Keys that stand in this file too, such as `air.velocity`, replace those of \
              the case.",
         ),
-    positive("laydown.sigma_md", Dimension::Length)
+    positive("laydown.sigma_md", Dimension::Length, (1e-5, 1.0))
         .access(of_surrogate!(sigma_md))
         .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
@@ -87,20 +87,17 @@ pub(super) const LAYDOWN: &[WebKey] = &[
             "Spread of a laid filament in machine direction: σ₁ of the surrogate. Known numbers do \
              not say how neighbours come down together, so the CV of such a web is a lower bound.",
         )
-        .label("Spread in machine direction")
-        .usual(1e-5, 1.0),
-    positive("laydown.sigma_cd", Dimension::Length)
+        .label("Spread in machine direction"),
+    positive("laydown.sigma_cd", Dimension::Length, (1e-5, 1.0))
         .access(of_surrogate!(sigma_cd))
         .needed_if(KNOWN, "18.3 mm")
         .follows(IDENTIFIED)
         .meaning("Spread of a laid filament in cross direction: σ₂ of the surrogate.")
-        .label("Spread in cross direction")
-        .usual(1e-5, 1.0),
-    positive("laydown.noise", Dimension::Noise)
+        .label("Spread in cross direction"),
+    positive("laydown.noise", Dimension::Noise, (0.1, 1e4))
         .access(of_surrogate!(noise))
         .needed_if(KNOWN, "12.4 m^-0.5")
         .follows(IDENTIFIED)
         .meaning("Strength A of the noise in the direction of the surrogate.")
-        .label("Noise of the direction *A*")
-        .usual(0.1, 1e4),
+        .label("Noise of the direction *A*"),
 ];

@@ -4,14 +4,14 @@ use super::super::access::{
     Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut, uncharged,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
-use crate::fibre::case::keys::row::{at, key, number, quantity, whole};
+use crate::fibre::case::keys::row::{at, key, number, of_any_size, quantity, whole};
 use crate::fibre::case::keys::{EVEN, Kind, Sign, Value};
 use crate::ground::Dimension;
 use crate::web::map::Filaments;
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    positive("line.feed_speed", Dimension::Velocity)
+    of_any_size("line.feed_speed", Dimension::Velocity, Sign::Positive)
         .access(Access {
             get: |web| {
                 layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into())
@@ -31,7 +31,7 @@ pub(super) const KEYS: &[WebKey] = &[
              `feed.speed` of a filament that flies.",
         )
         .label("Feed speed"),
-    positive("line.throughput", Dimension::MassFlow)
+    positive("line.throughput", Dimension::MassFlow, (1e-8, 1e-3))
         .access(Access {
             get: |web| layer(web)?.throughput.map(Value::Number),
             set: |web, value| {
@@ -46,14 +46,13 @@ pub(super) const KEYS: &[WebKey] = &[
         .gives_case(&["feed.speed", "spinline.throughput"])
         .read_last()
         .follows("`feed_speed` and the filament give it")
-        .usual(1e-8, 1e-3)
         .meaning(
             "Mass flow of a hole, in place of `line.feed_speed`, which is then throughput / linear \
              density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
         )
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole"),
-    positive("line.belt_speed", Dimension::Velocity)
+    of_any_size("line.belt_speed", Dimension::Velocity, Sign::Positive)
         .access(Access {
             get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
             set: |web, value| {
@@ -74,7 +73,7 @@ pub(super) const KEYS: &[WebKey] = &[
              of a filament that flies.",
         )
         .label("Belt speed"),
-    positive("line.basis_weight", Dimension::BasisWeight)
+    positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
             get: |web| layer(web).and(web.basis_weight).map(Value::Number),
             set: |web, value| {
@@ -90,7 +89,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .read_last()
         .of_all_layers()
         .follows("`belt_speed` and the filaments give it")
-        .usual(1e-3, 2.0)
         .meaning(
             "Mass of the web per area, of all layers together, written in one of them. It stands in \
              place of `line.belt_speed`, which follows.",
@@ -124,7 +122,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["holes per metre", "capillaries per metre"])
         .label("Filaments per metre"),
-    quantity("line.depth", Dimension::Length, Sign::NotNegative)
+    quantity("line.depth", Dimension::Length, Sign::NotNegative, (1e-4, 1.0))
         .access(Access {
             get: |web| match layer(web)?.filaments {
                 Filaments::Slot { depth, .. } => Some(depth.into()),
@@ -148,12 +146,10 @@ pub(super) const KEYS: &[WebKey] = &[
              pitch across the web, each at a random depth, where those that fly meet other eddies. \
              The air comes through the same slot, which gives the load on it.",
         )
-        .label("Depth of the slot")
-        .usual(1e-4, 1.0),
-    quantity("line.charge", Dimension::SpecificCharge, Sign::Any)
+        .label("Depth of the slot"),
+    quantity("line.charge", Dimension::SpecificCharge, Sign::Any, (1e-5, 1e-2))
         .access(at!(layer, layer_mut, charge))
         .follows("none")
-        .usual(1e-5, 1e-2)
         .meaning(
             "Charge per mass of the filaments from a charging bar, which drives them apart along the \
              machine direction. Only filaments that fly have one. No measured charge of a spunbond \
@@ -161,7 +157,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
-    positive("line.walls", Dimension::Length)
+    positive("line.walls", Dimension::Length, (1e-3, 1.0))
         .access(Access {
             get: |web| layer(web)?.walls.map(Value::Number),
             set: |web, value| {
@@ -174,7 +170,6 @@ pub(super) const KEYS: &[WebKey] = &[
             },
         })
         .follows("no plates")
-        .usual(1e-3, 1.0)
         .meaning(
             "With `line.charge`: distance of two earthed plates from the middle of the slot, one on \
              each side, from inlet to belt. The nearer plate pulls a curtain that is off the middle. \
@@ -182,7 +177,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["plates", "images"])
         .label("Distance of earthed plates"),
-    quantity("line.rows.offset", Dimension::Length, Sign::Any)
+    quantity("line.rows.offset", Dimension::Length, Sign::Any, (1e-6, 30.0))
         .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
@@ -190,9 +185,8 @@ pub(super) const KEYS: &[WebKey] = &[
              `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = \
              5000 }, …]`.",
         )
-        .label("Place of the first nozzle")
-        .usual(1e-6, 30.0),
-    positive("line.rows.pitch", Dimension::Length)
+        .label("Place of the first nozzle"),
+    positive("line.rows.pitch", Dimension::Length, (1e-6, 1.0))
         .access(Access {
             get: |web| row(web).map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() }),
             set: |web, value| {
@@ -208,8 +202,7 @@ pub(super) const KEYS: &[WebKey] = &[
             "Distance from nozzle to nozzle in a row, or `\"even\"`: the width of the web over their \
              number. With periodic edges, pitch times filaments is the width.",
         )
-        .label("Distance of the nozzles")
-        .usual(1e-6, 1.0),
+        .label("Distance of the nozzles"),
     key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| Some(row(web)?.filaments.into()),
@@ -227,20 +220,19 @@ pub(super) const KEYS: &[WebKey] = &[
         .meaning("Number of nozzles in a row.")
         .synonyms(&["holes", "nozzles", "capillaries"])
         .label("Nozzles of a row"),
-    quantity("line.rows.md", Dimension::Length, Sign::Any)
+    quantity("line.rows.md", Dimension::Length, Sign::Any, (1e-5, 1.0))
         .access(at!(row, row_mut, md))
         .value("0 mm")
         .meaning(
             "Place of the row in machine direction, from the middle of the slot. It matters where \
              filaments fly.",
         )
-        .label("Place of the row in machine direction")
-        .usual(1e-5, 1.0),
+        .label("Place of the row in machine direction"),
 ];
 
 /// The keys of a defect.
 pub(super) const DEFECTS: &[WebKey] = &[
-    quantity("line.defects.from", Dimension::Length, Sign::NotNegative)
+    quantity("line.defects.from", Dimension::Length, Sign::NotNegative, (1e-6, 30.0))
         .access(at!(defect, defect_mut, from))
         .follows("from the edge of the web on")
         .meaning(
@@ -249,41 +241,36 @@ pub(super) const DEFECTS: &[WebKey] = &[
              blocked one; with `to`, all holes between.",
         )
         .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak"])
-        .label("Place where a defect begins")
-        .usual(1e-6, 30.0),
-    quantity("line.defects.to", Dimension::Length, Sign::NotNegative)
+        .label("Place where a defect begins"),
+    quantity("line.defects.to", Dimension::Length, Sign::NotNegative, (1e-6, 30.0))
         .access(at!(defect, defect_mut, to))
         .follows("the one hole that is nearest to `from`; without `from`, all across the web")
         .meaning("Where the holes with the defect end.")
-        .label("Place where a defect ends")
-        .usual(1e-6, 30.0),
+        .label("Place where a defect ends"),
     key("line.defects.row", Kind::Whole(1, MOST_FILAMENTS))
         .access(at!(defect, defect_mut, row))
         .follows("all rows")
         .meaning("Number of the row of `rows` that has the defect, from 1.")
         .label("Row with a defect"),
-    quantity("line.defects.share", Dimension::Ratio, Sign::Share)
+    quantity("line.defects.share", Dimension::Ratio, Sign::Share, (1e-4, 1.0))
         .access(at!(defect, defect_mut, share))
         .value("1")
         .meaning("Probability with which each of these holes has the defect, chosen by the seed of the web.")
-        .label("Share of the holes with a defect")
-        .usual(1e-4, 1.0),
-    quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative)
+        .label("Share of the holes with a defect"),
+    quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative, (0.05, 2.0))
         .access(at!(defect, defect_mut, titre))
         .value("0")
         .meaning(
             "Mass per length of these filaments over that of the others, up to 2; 0 of blocked holes. \
              They are taken to lie as the others do.",
         )
-        .label("Titre of filaments with a defect")
-        .usual(0.05, 2.0),
-    quantity("line.defects.after", Dimension::Time, Sign::NotNegative)
+        .label("Titre of filaments with a defect"),
+    quantity("line.defects.after", Dimension::Time, Sign::NotNegative, (1e-6, 1e4))
         .access(at!(defect, defect_mut, after))
         .value("0 s")
         .meaning(
             "Time from the beginning of the sheet from which on it is so: when a filament broke or a \
              hole was blocked.",
         )
-        .label("Time of a defect")
-        .usual(1e-6, 1e4),
+        .label("Time of a defect"),
 ];

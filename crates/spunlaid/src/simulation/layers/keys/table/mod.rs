@@ -20,8 +20,8 @@ pub(super) const MOST_FILAMENTS: u64 = 10_000_000;
 pub(crate) const EITHER: &str = "either gives the other; write one of the two";
 
 /// A length, speed or other quantity above zero, which a study may vary.
-pub(super) const fn positive(name: &'static str, dimension: Dimension) -> NewKey {
-    quantity(name, dimension, Sign::Positive)
+pub(super) const fn positive(name: &'static str, dimension: Dimension, usual: (f64, f64)) -> NewKey {
+    quantity(name, dimension, Sign::Positive, usual)
 }
 
 /// The tables of the file of a web and their keys.

@@ -18,22 +18,20 @@ const EDGES: [&str; 2] = ["periodic", "cut"];
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    positive("web.width", Dimension::Length)
+    positive("web.width", Dimension::Length, (1e-3, 30.0))
         .access(at!(sheet.width))
         .required("1 m")
         .meaning("Size of the web in cross direction, a whole number of cells.")
         .synonyms(&["working width"])
-        .label("Width of the web")
-        .usual(1e-3, 30.0),
-    positive("web.length", Dimension::Length)
+        .label("Width of the web"),
+    positive("web.length", Dimension::Length, (1e-3, 300.0))
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
             "Size of the web in machine direction, a whole number of cells. Its end joins its \
              beginning, as in an endless web.",
         )
-        .label("Length of the web")
-        .usual(1e-3, 300.0),
+        .label("Length of the web"),
     key("web.patches", Kind::Lengths)
         .access(at!(sheet.patches))
         .follows("those of 1, 2, 5, 10, 20 and 50 mm that fit")
@@ -42,7 +40,7 @@ pub(super) const KEYS: &[WebKey] = &[
              cells, at most half of the web.",
         )
         .usual(1e-5, 10.0),
-    positive("web.cell", Dimension::Length)
+    positive("web.cell", Dimension::Length, (1e-6, 0.1))
         .access(at!(sheet.cell))
         .follows(
             "the smallest of 0.5, 1, 2, 5 and 10 mm that makes at most ten million cells and divides the \
@@ -50,8 +48,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .meaning("Side of the square cells of the map of the basis weight.")
         .synonyms(&["test area"])
-        .label("Cell of the map")
-        .usual(1e-6, 0.1),
+        .label("Cell of the map"),
     key("web.seed", Kind::Whole(0, u64::MAX))
         .access(at!(seed))
         .value("1")
@@ -98,7 +95,7 @@ pub(super) const KEYS: &[WebKey] = &[
              length scale of the air asks for, and up to four times as many if these are not enough.",
         )
         .label("Filaments per metre that are flown"),
-    positive("web.memory_limit", Dimension::Memory)
+    positive("web.memory_limit", Dimension::Memory, (1e7, 1e13))
         .access(at!(memory_limit))
         .value("4 GB")
         .fixed()
@@ -106,8 +103,7 @@ pub(super) const KEYS: &[WebKey] = &[
             "Largest memory for the field of eddies of a web in one air. A web that needs more is \
              refused before it is flown.",
         )
-        .label("Memory limit")
-        .usual(1e7, 1e13),
+        .label("Memory limit"),
     key("web.guessed", Kind::Text("line.depth, air.length_factor"))
         .access(Access {
             get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
@@ -126,54 +122,48 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Guessed numbers"),
-    positive("web.window", Dimension::Length)
+    positive("web.window", Dimension::Length, (1e-5, 10.0))
         .access(at!(window))
         .follows("20 mm, at most the web's smaller side")
         .meaning("Side of the square in the middle of the web whose single fibres are written as polylines.")
-        .label("Window")
-        .usual(1e-5, 10.0),
+        .label("Window"),
 ];
 
 /// In the order of the file.
 pub(super) const FABRIC: &[WebKey] = &[
-    positive("fabric.thickness", Dimension::Length)
+    positive("fabric.thickness", Dimension::Length, (1e-5, 0.1))
         .access(at!(fabric.thickness))
         .follows("no air permeability is given")
         .meaning("Thickness of the finished fabric between its bonds, which follows from the calender.")
         .synonyms(&["caliper", "gauge", "loft"])
-        .label("Thickness")
-        .usual(1e-5, 0.1),
-    positive("fabric.saleable_width", Dimension::Length)
+        .label("Thickness"),
+    positive("fabric.saleable_width", Dimension::Length, (1e-2, 30.0))
         .access(at!(fabric.saleable_width))
         .follows("all of the web between its edges")
         .meaning("Width in the middle of the web that is sold, to which all numbers of the fabric belong.")
         .synonyms(&["trim", "slit width", "net width"])
-        .label("Saleable width")
-        .usual(1e-2, 30.0),
-    quantity("fabric.tolerance", Dimension::Ratio, Sign::Share)
+        .label("Saleable width"),
+    quantity("fabric.tolerance", Dimension::Ratio, Sign::Share, (1e-3, 0.5))
         .access(at!(fabric.tolerance))
         .value("5 %")
         .meaning(
             "How far the weight may be from that of the middle half of the web, with `web.edges = \
              \"cut\"`: it gives the usable width and its trim.",
         )
-        .label("Tolerance of the weight")
-        .usual(1e-3, 0.5),
-    positive("fabric.strip_width", Dimension::Length)
+        .label("Tolerance of the weight"),
+    positive("fabric.strip_width", Dimension::Length, (1e-3, 1.0))
         .access(at!(fabric.strip.width))
         .value("50 mm")
         .meaning("Width of a strip of the tensile test, as in ISO 9073-3.")
         .synonyms(&["tensile", "specimen"])
-        .label("Width of a strip")
-        .usual(1e-3, 1.0),
-    positive("fabric.strip_length", Dimension::Length)
+        .label("Width of a strip"),
+    positive("fabric.strip_length", Dimension::Length, (1e-2, 10.0))
         .access(at!(fabric.strip.length))
         .value("200 mm")
         .meaning("Length of a strip between the jaws of the tensile test, as in ISO 9073-3.")
         .synonyms(&["tensile", "gauge length"])
-        .label("Length of a strip")
-        .usual(1e-2, 10.0),
-    positive("fabric.section", Dimension::Length)
+        .label("Length of a strip"),
+    positive("fabric.section", Dimension::Length, (1e-4, 0.1))
         .access(at!(fabric.strip.section))
         .value("5 mm")
         .meaning(
@@ -181,16 +171,14 @@ pub(super) const FABRIC: &[WebKey] = &[
              tear at its lightest section.",
         )
         .synonyms(&["tensile", "weakest link"])
-        .label("Section of a strip")
-        .usual(1e-4, 0.1),
-    positive("fabric.pressure", Dimension::Pressure)
+        .label("Section of a strip"),
+    positive("fabric.pressure", Dimension::Pressure, (1.0, 1e4))
         .access(at!(fabric.pressure))
         .value("200 Pa")
         .meaning("Pressure that drives air through the fabric in the test, as in ISO 9073-15.")
         .synonyms(&["air permeability", "porosity"])
-        .label("Pressure of the air")
-        .usual(1.0, 1e4),
-    quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share)
+        .label("Pressure of the air"),
+    quantity("fabric.measured_opacity", Dimension::Ratio, Sign::Share, (0.01, 0.99))
         .access(at!(fabric.measured_opacity))
         .follows("no opacity is given")
         .meaning(
@@ -198,12 +186,10 @@ pub(super) const FABRIC: &[WebKey] = &[
              program adds what the basis weight and its clouds do.",
         )
         .synonyms(&["cover", "whiteness"])
-        .label("Measured opacity")
-        .usual(0.01, 0.99),
-    positive("fabric.opacity_weight", Dimension::BasisWeight)
+        .label("Measured opacity"),
+    positive("fabric.opacity_weight", Dimension::BasisWeight, (1e-3, 1.0))
         .access(at!(fabric.opacity_weight))
         .follows("that of this web")
         .meaning("Basis weight of the fabric whose opacity was measured.")
-        .label("Basis weight of the measured opacity")
-        .usual(1e-3, 1.0),
+        .label("Basis weight of the measured opacity"),
 ];

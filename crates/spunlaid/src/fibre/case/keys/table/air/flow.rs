@@ -12,7 +12,8 @@ use crate::ground::{Dimension, Fault};
 named_fields!(Axis);
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("air.velocity", Dimension::Velocity, Any)
+    // Up to the speed of sound.
+    quantity("air.velocity", Dimension::Velocity, Any, (1e-3, 340.0))
         .access(Access {
             get: |case| Some(Value::Number(case.air.velocity)),
             set: |case, value| {
@@ -36,8 +37,6 @@ pub(super) const KEYS: &[Key] = &[
             take(&mut case.air.velocity, of_record)
         })
         .required("10 m/s")
-        // Up to the speed of sound.
-        .usual(1e-3, 340.0)
         .meaning("Mean velocity of the air along x. A record, a profile or a field gives it too.")
         .synonyms(&["air speed", "wind"])
         .label("Mean velocity *U*")
@@ -130,11 +129,10 @@ pub(super) const KEYS: &[Key] = &[
         )
         .synonyms(&["MD", "belt"])
         .label("Machine direction in the field"),
-    quantity("air.field_unit", Dimension::Length, Positive)
+    quantity("air.field_unit", Dimension::Length, Positive, (1e-6, 10.0))
         .access(at!(placed, placed_mut, unit))
         .or_unit()
         .value("1 m")
-        .usual(1e-6, 10.0)
         .meaning(
             "Length of one unit of the field's coordinates: `1 mm` if the mesh is in millimetres. \
              Velocities are not scaled.",
@@ -161,24 +159,22 @@ pub(super) const KEYS: &[Key] = &[
         .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
         .follows("the array with a usual name of ω, if there is none of ε")
         .meaning("Array of the specific dissipation rate ω in a field, in place of ε."),
-    quantity("air.length_constant", Dimension::Ratio, Positive)
+    quantity("air.length_constant", Dimension::Ratio, Positive, (0.01, 10.0))
         .access(at!(placed, placed_mut, length_constant))
         .value("0.43")
-        .usual(0.01, 10.0)
         .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
         .label("Constant of the eddies’ length *C*_{L}")
         .slider(0.1, 1.0),
-    quantity("air.time_constant", Dimension::Ratio, Positive)
+    quantity("air.time_constant", Dimension::Ratio, Positive, (0.01, 10.0))
         .access(at!(placed, placed_mut, time_constant))
         .value("0.3")
-        .usual(0.01, 10.0)
         .meaning(
             "Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency is ¼ \
              (velocity/length + 1/T).",
         )
         .label("Constant of the eddies’ lifetime *C*_{T}")
         .slider(0.1, 1.0),
-    quantity("air.speed_factor", Dimension::Ratio, Positive)
+    quantity("air.speed_factor", Dimension::Ratio, Positive, (0.01, 100.0))
         .access(Access {
             get: |case| (!case.air.is_uniform()).then_some(Value::Number(case.air.speed_factor)),
             set: |case, value| {
@@ -191,7 +187,6 @@ pub(super) const KEYS: &[Key] = &[
             },
         })
         .value("1")
-        .usual(0.01, 100.0)
         .meaning("Factor on all velocities of a profile or a field.")
         .label("Factor on the velocity of the air")
         .slider(0.2, 3.0)

@@ -2,7 +2,7 @@
 
 use crate::air::motion::{density_at, kinematic_viscosity_at};
 use crate::air::{Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape};
-use crate::fibre::case::keys::row::{Access, number, quantity, take};
+use crate::fibre::case::keys::row::{Access, number, of_any_size, quantity, take};
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
 use crate::fibre::case::keys::value::Value;
 use crate::fibre::case::keys::{Key, TAYLOR};
@@ -55,12 +55,11 @@ fn beyond_sutherland() -> Fault {
 }
 
 pub(super) const KEYS: &[Key] = &[
-    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative)
+    quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, (1e-5, 1.0))
         .access(of_air!(turbulence_intensity))
         .derived(|case| case.air.from_flow.turbulence_intensity)
         .inferred(from_air!(turbulence_intensity, |air| said(air)?.turbulence_intensity))
         .required("0.1")
-        .usual(1e-5, 1.0)
         .meaning(
             "Rms of each fluctuating velocity component over the mean velocity. A record, a profile \
              or a field may give it.",
@@ -69,12 +68,11 @@ pub(super) const KEYS: &[Key] = &[
         .label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
-    quantity("air.length_scale", Dimension::Length, Positive)
+    quantity("air.length_scale", Dimension::Length, Positive, (1e-5, 10.0))
         .access(of_air!(length_scale))
         .derived(|case| case.air.from_flow.length_scale)
         .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
         .required("50 mm")
-        .usual(1e-5, 10.0)
         .meaning(
             "Length of an eddy, along which the fluctuation is the same. A record, a profile or a \
              field may give it.",
@@ -82,7 +80,7 @@ pub(super) const KEYS: &[Key] = &[
         .synonyms(&["eddy size", "integral length scale"])
         .label("Length of the eddies *L*_{T}")
         .slider(5e-3, 0.2),
-    quantity("air.cutoff_frequency", Dimension::Frequency, Positive)
+    quantity("air.cutoff_frequency", Dimension::Frequency, Positive, (0.1, 5e4))
         .access(Access {
             get: |case| Some(Value::Number(case.air.cutoff_frequency)),
             set: |case, value| {
@@ -99,49 +97,44 @@ pub(super) const KEYS: &[Key] = &[
         .inferred(from_air!(cutoff_frequency, highest))
         .required("100 Hz")
         .or_words(&[TAYLOR])
-        .usual(0.1, 50000.0)
         .meaning(
             "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). \
              A record, a spectrum, a profile or a field may give it.",
         )
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
-    quantity("air.intensity_factor", Dimension::Ratio, NotNegative)
+    quantity("air.intensity_factor", Dimension::Ratio, NotNegative, (0.01, 100.0))
         .access(of_flow!(turbulence_intensity, intensity_factor))
         .value("1")
-        .usual(0.01, 100.0)
         .meaning("Factor on the turbulence intensity of a profile or a field.")
         .label("Factor on the turbulence intensity")
         .slider(0.2, 3.0),
-    quantity("air.length_factor", Dimension::Ratio, Positive)
+    quantity("air.length_factor", Dimension::Ratio, Positive, (0.01, 100.0))
         .access(of_flow!(length_scale, length_factor))
         .value("1")
-        .usual(0.01, 100.0)
         .meaning(
             "Factor on the length scale of a profile or a field; the cut-off frequency is divided by it.",
         )
         .synonyms(&["eddy size"])
         .label("Factor on the length of the eddies")
         .slider(0.2, 3.0),
-    quantity("air.density", Dimension::Density, NotNegative)
+    // From a thousandth to fifty times that of the atmosphere.
+    quantity("air.density", Dimension::Density, NotNegative, (0.01, 50.0))
         .access(at!(air.density))
         .value("1.204 kg/m³")
-        // From a thousandth to fifty times that of the atmosphere.
-        .usual(0.01, 50.0)
         .meaning("Density of the air, by default at 20 °C. `0 kg/m³` is a vacuum.")
         .label("Air density")
         .slider(0.0, 2.0)
         .in_flight(),
-    quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive)
+    // From compressed to hot thin air.
+    quantity("air.kinematic_viscosity", Dimension::KinematicViscosity, Positive, (5e-7, 1e-3))
         .access(at!(air.kinematic_viscosity))
         .value("1.51e-5 m²/s")
-        // From compressed to hot thin air.
-        .usual(5e-7, 1e-3)
         .meaning("Kinematic viscosity of the air, by default at 20 °C.")
         .label("Kinematic viscosity *ν*")
         .slider(1e-5, 6e-5)
         .in_flight(),
-    quantity("air.temperature", Dimension::Temperature, Any)
+    of_any_size("air.temperature", Dimension::Temperature, Any)
         .access(Access {
             get: |_| None,
             set: |case, value| {

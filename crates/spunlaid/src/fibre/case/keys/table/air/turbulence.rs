@@ -69,10 +69,9 @@ pub(super) const KEYS: &[Key] = &[
             "Measured velocity record, CSV or Parquet, whose fluctuation moves the fibre. A list has \
              one for each eddy.",
         ),
-    quantity("air.record_rate", Dimension::Frequency, Positive)
+    quantity("air.record_rate", Dimension::Frequency, Positive, (10.0, 1e6))
         .access(of_record!(rate, Value::Number, number))
         .follows("the rate of the record's time column")
-        .usual(10.0, 1e6)
         .meaning("Sampling rate of a record without a time column.")
         .fixed(),
     key("air.record_skip", Kind::Whole(0, MOST_SKIPPED))
@@ -113,7 +112,7 @@ pub(super) const KEYS: &[Key] = &[
              pattern that the mean flow carries along.",
         )
         .label("Eddies"),
-    quantity("air.decay_time", Dimension::Time, Positive)
+    quantity("air.decay_time", Dimension::Time, Positive, (1e-6, 1000.0))
         .access(Access {
             get: |case| match case.air.eddies {
                 EddyModel::Convected { decay_time } if decay_time.is_finite() => {
@@ -135,7 +134,6 @@ pub(super) const KEYS: &[Key] = &[
         .follows(
             "no decay: the pattern is frozen; of a fed fibre, the length scale divided by the rms velocity",
         )
-        .usual(1e-6, 1000.0)
         .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
         .label("Decay time of the eddies")
         .slider(1e-3, 0.1),
@@ -148,7 +146,7 @@ pub(super) const KEYS: &[Key] = &[
              eddies.",
         )
         .label("Turbulence across the flow"),
-    quantity("air.lateral_cutoff", Dimension::Ratio, Positive)
+    quantity("air.lateral_cutoff", Dimension::Ratio, Positive, (5.0, 60.0))
         .access(within!(
             |case| &case.air.lateral,
             &mut case.air.lateral,
@@ -159,7 +157,6 @@ pub(super) const KEYS: &[Key] = &[
             )
         ))
         .value("10")
-        .usual(5.0, 60.0)
         .meaning(
             "Largest lateral wave number of the turbulence times its length scale. A larger one \
              resolves smaller eddies and takes more memory. Compare only results of the same cut-off.",

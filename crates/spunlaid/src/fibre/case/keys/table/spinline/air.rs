@@ -87,21 +87,19 @@ pub(super) const KEYS: &[Key] = &[
             "Whether the velocity along the line is that of `air.field`, upstream of the inlet. The \
              temperature is `spinline.temperature`.",
         ),
-    quantity("spinline.velocity", Dimension::Velocity, Any)
+    quantity("spinline.velocity", Dimension::Velocity, Any, (1e-3, 340.0))
         .access(of_air!(velocity))
         .value("0 m/s")
-        .usual(1e-3, 340.0)
         .meaning("Velocity of the air along the thread, downwards, if it is the same everywhere.")
         .label("Air velocity along the thread *u*")
         .slider(0.0, 100.0),
-    quantity("spinline.cross_velocity", Dimension::Velocity, NotNegative)
+    quantity("spinline.cross_velocity", Dimension::Velocity, NotNegative, (1e-3, 50.0))
         .access(of_air!(cross_velocity))
         .value("0 m/s")
-        .usual(1e-3, 50.0)
         .meaning("Velocity of the quench air across the thread, if it is the same everywhere.")
         .label("Quench velocity *v*_{c}")
         .slider(0.0, 3.0),
-    quantity("spinline.temperature", Dimension::Temperature, Positive)
+    quantity("spinline.temperature", Dimension::Temperature, Positive, (233.15, 673.15))
         .access(Access {
             get: |case| match &case.spinline.as_ref()?.air {
                 Surroundings::Uniform(air) => Some(Value::Number(air.temperature)),
@@ -125,11 +123,10 @@ pub(super) const KEYS: &[Key] = &[
             },
         })
         .value("20 °C")
-        .usual(233.15, 673.15)
         .meaning("Temperature of the air, if it is the same everywhere.")
         .label("Air temperature *T*_{a}")
         .slider(273.15, 373.15),
-    quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative)
+    quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(of_air_change!(
             velocity_factor,
             Surroundings::Table(_) | Surroundings::Field { .. },
@@ -137,11 +134,10 @@ pub(super) const KEYS: &[Key] = &[
             "spinline.velocity"
         ))
         .value("1.0")
-        .usual(0.1, 10.0)
         .meaning("Factor on the velocity along the thread of a profile or a field: more or less drawing air.")
         .label("Air velocity along the thread *u*, factor")
         .slider(0.2, 2.0),
-    quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative)
+    quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(of_air_change!(
             cross_velocity_factor,
             Surroundings::Table(_) | Surroundings::Field { .. },
@@ -149,11 +145,10 @@ pub(super) const KEYS: &[Key] = &[
             "spinline.cross_velocity"
         ))
         .value("1.0")
-        .usual(0.1, 10.0)
         .meaning("Factor on the velocity across the thread of a profile or a field: more or less quench air.")
         .label("Quench velocity *v*_{c}, factor")
         .slider(0.2, 3.0),
-    quantity("spinline.temperature_offset", Dimension::TemperatureDifference, Any)
+    quantity("spinline.temperature_offset", Dimension::TemperatureDifference, Any, (0.1, 200.0))
         .access(of_air_change!(
             temperature_offset,
             Surroundings::Table(_),
@@ -161,7 +156,6 @@ pub(super) const KEYS: &[Key] = &[
             "spinline.temperature"
         ))
         .value("0 K")
-        .usual(0.1, 200.0)
         .meaning("Added to the temperatures of `spinline.profile`: warmer or colder air.")
         .label("Air temperature *T*_{a}, change")
         .slider(0.0, 60.0),

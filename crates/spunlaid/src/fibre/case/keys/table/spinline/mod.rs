@@ -85,7 +85,7 @@ const LINE: &[Key] = &[
         )
         .label("Polymer")
         .varies(),
-    quantity("spinline.melt_flow_rate", Dimension::Ratio, Positive)
+    quantity("spinline.melt_flow_rate", Dimension::Ratio, Positive, (0.5, 3000.0))
         .access(Access {
             get: |case| match case.spinline.as_ref()?.melt {
                 Melt::FlowRate(rate) => Some(Value::Number(rate)),
@@ -97,7 +97,6 @@ const LINE: &[Key] = &[
             },
         })
         .follows("the viscosity of the polymer")
-        .usual(0.5, 3000.0)
         .meaning(
             "Melt flow rate of the grade in g/10 min, with 2.16 kg at \
              `spinline.material.viscosity_temperature`. It gives the viscosity within some 20 %, in \
@@ -106,42 +105,37 @@ const LINE: &[Key] = &[
         .synonyms(&["MFR", "MFI", "melt flow index"])
         .label("Melt flow rate [g/10 min]")
         .slider(5.0, 100.0),
-    quantity("spinline.die_temperature", Dimension::Temperature, Positive)
+    quantity("spinline.die_temperature", Dimension::Temperature, Positive, (373.15, 723.15))
         .access(of_spinline!(die_temperature))
         .required("230 °C")
         .derived(no_spinline)
-        .usual(373.15, 723.15)
         .meaning("Temperature of the melt in the hole.")
         .label("Die temperature")
         .slider(453.15, 573.15),
-    quantity("spinline.hole_diameter", Dimension::Length, Positive)
+    quantity("spinline.hole_diameter", Dimension::Length, Positive, (5e-5, 3e-3))
         .access(of_spinline!(hole_diameter))
         .required("0.6 mm")
         .derived(no_spinline)
-        .usual(5e-5, 3e-3)
         .meaning("Diameter of the hole of the spinneret.")
         .synonyms(&["capillary", "nozzle diameter"])
         .label("Hole diameter"),
-    quantity("spinline.die_swell", Dimension::Ratio, Positive)
+    quantity("spinline.die_swell", Dimension::Ratio, Positive, (0.8, 3.0))
         .access(of_spinline!(die_swell))
         .value("1.0")
-        .usual(0.8, 3.0)
         .meaning("Diameter of the thread below the die over that of the hole.")
         .label("Die swell"),
-    quantity("spinline.throughput", Dimension::MassFlow, Positive)
+    quantity("spinline.throughput", Dimension::MassFlow, Positive, (1e-8, 1e-3))
         .access(of_spinline!(throughput))
         .required("0.5 g/min")
         .derived(no_spinline)
-        .usual(1e-8, 1e-3)
         .meaning("Mass flow of melt through a hole.")
         .synonyms(&["output per hole", "mass flow", "grams per minute"])
         .label("Throughput of a hole")
         .slider(1e-6, 3e-5),
-    quantity("spinline.length", Dimension::Length, Positive)
+    quantity("spinline.length", Dimension::Length, Positive, (0.02, 30.0))
         .access(of_spinline!(length))
         .required("1.6 m")
         .derived(no_spinline)
-        .usual(0.02, 30.0)
         .meaning("Length from the die to the inlet of the flown fibre, or to the take-up.")
         .label("Length of the spinline"),
 ];
@@ -159,7 +153,7 @@ const CURTAIN: &[Key] = &[
         )
         .label("Rows of holes")
         .varies(),
-    quantity("spinline.filaments_per_metre_and_row", Dimension::Ratio, Positive)
+    quantity("spinline.filaments_per_metre_and_row", Dimension::Ratio, Positive, (1.0, 1e5))
         .access(Access {
             get: |case| known(case.spinline.as_ref()?.curtain?.filaments_per_metre),
             set: |case, value| {
@@ -169,7 +163,6 @@ const CURTAIN: &[Key] = &[
             },
         })
         .follows("one filament in the air as it is given")
-        .usual(1.0, 1e5)
         .meaning("Filaments per metre of width in each row.")
         .synonyms(&["holes per metre"])
         .label("Filaments per metre and row"),

@@ -45,10 +45,9 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Crystallisation")
         .varies(),
-    quantity("spinline.emissivity", Dimension::Ratio, Share)
+    quantity("spinline.emissivity", Dimension::Ratio, Share, (0.01, 1.0))
         .access(of_spinline!(emissivity))
         .value("0.0")
-        .usual(0.01, 1.0)
         .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
         .label("Emissivity *ε*"),
     key("spinline.dissipation", Kind::Switch)
@@ -57,17 +56,15 @@ pub(super) const KEYS: &[Key] = &[
         .meaning("Whether the work of stretching heats the thread.")
         .label("Dissipation")
         .varies(),
-    quantity("spinline.nusselt_factor", Dimension::Ratio, Positive)
+    quantity("spinline.nusselt_factor", Dimension::Ratio, Positive, (0.2, 5.0))
         .access(of_spinline!(nusselt_factor))
         .value("1.0")
-        .usual(0.2, 5.0)
         .meaning("Factor on the Nusselt number of Kase and Matsuo. Measurements leave a doubt of some 20 %.")
         .label("Factor on the Nusselt number")
         .slider(0.5, 1.5),
-    quantity("spinline.break_stress", Dimension::Pressure, Positive)
+    quantity("spinline.break_stress", Dimension::Pressure, Positive, (1e5, 1e9))
         .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
-        .usual(1e5, 1e9)
         .meaning("Stress at which the thread breaks; a line that reaches it is refused.")
         .label("Stress at break"),
 ];
@@ -96,7 +93,7 @@ pub(super) const END_KEYS: &[Key] = &[
         .value("free")
         .meaning("What is known at the end: `free`, the tension, or `take-up`, the speed of a godet.")
         .label("End of the spinline"),
-    quantity("spinline.take_up_speed", Dimension::Velocity, Positive)
+    quantity("spinline.take_up_speed", Dimension::Velocity, Positive, (0.1, 200.0))
         .access(Access {
             get: |case| match case.spinline.as_ref()?.end {
                 End::TakeUp(speed) => known(speed),
@@ -113,11 +110,10 @@ pub(super) const END_KEYS: &[Key] = &[
             },
         })
         .follows("a free end")
-        .usual(0.1, 200.0)
         .meaning("Speed at which a godet takes the filament up.")
         .label("Take-up speed")
         .slider(1.0, 100.0),
-    quantity("spinline.end_tension", Dimension::Force, Any)
+    quantity("spinline.end_tension", Dimension::Force, Any, (1e-9, 1.0))
         .access(Access {
             get: |case| match case.spinline.as_ref()?.end {
                 End::Tension(tension) => Some(Value::Number(tension)),
@@ -141,7 +137,6 @@ pub(super) const END_KEYS: &[Key] = &[
         })
         .value("0 N")
         .or_words(&[FLOWN])
-        .usual(1e-9, 1.0)
         .meaning(
             "Tension at a free end: the pull of the fibre below it. With \"flown\" some fibres fly, \
              and the mean tension at their root is used, again and again until the speed changes by \
