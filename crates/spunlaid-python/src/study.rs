@@ -16,8 +16,7 @@ use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Record, Round
 use spunlaid::ground::threads::{lock, look_while, unlock};
 use spunlaid::ground::units::udunits;
 use spunlaid::input::{
-    Overrides, Resources, StudyChanges, StudyFile, parse_changed_study, read_changed_study, read_text,
-    write_experiment,
+    Overrides, Resources, StudyChanges, StudyFile, parse_study, read_study, read_text, write_experiment,
 };
 use spunlaid::simulation::{RunControl, WebSpec};
 use spunlaid_results::Failure;
@@ -74,7 +73,7 @@ impl Study {
             (None, None) => {
                 let path: PathBuf = study.extract()?;
                 let read = |resources: &Resources| {
-                    read_changed_study(&path, &StudyChanges { points, replicates, set: set.with(resources) })
+                    read_study(&path, StudyChanges { points, replicates, set: set.with(resources) })
                 };
                 (stem(&path), settled(py, threads, read)?)
             }
@@ -89,10 +88,10 @@ impl Study {
                     None => Ok((read_text(&path, kind)?, path.display().to_string())),
                 };
                 let read = |resources: &Resources| {
-                    let read = parse_changed_study(
+                    let read = parse_study(
                         &text,
                         STUDY,
-                        &StudyChanges { points, replicates, set: set.with(resources) },
+                        StudyChanges { points, replicates, set: set.with(resources) },
                         base,
                     );
                     without_lines(read, &made)

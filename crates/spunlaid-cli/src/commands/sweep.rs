@@ -12,7 +12,7 @@ use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{SpinSpec, spinline};
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::ground::{Error, Fault};
-use spunlaid::input::{Resources, StudyChanges, StudyFile, read_changed_study, write_experiment};
+use spunlaid::input::{Resources, StudyChanges, StudyFile, read_study, write_experiment};
 use spunlaid_results::folders::{JournalFolder, study};
 use spunlaid_results::numbers::lost_fibres_text;
 use std::sync::Mutex;
@@ -26,7 +26,7 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
     let (points, replicates) = (sweep.points, sweep.replicates);
     let read = |resources: &Resources| {
         let set = overrides(&sweep.set).with(resources);
-        read_changed_study(&sweep.study, &StudyChanges { points, replicates, set })
+        read_study(&sweep.study, StudyChanges { points, replicates, set })
     };
     if let Some(number) = sweep.print_point {
         return print_point(&read(&Resources::default())?.study, number);

@@ -30,8 +30,8 @@ pub use kind::kind_of;
 pub use settle::Resources;
 pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
 pub use study::{
-    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_changed_study, parse_changes,
-    parse_fit, parse_study, read_changed_study, read_changes, read_fit, read_study, starter_study,
+    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_changes, parse_fit, parse_study,
+    read_changes, read_fit, read_study, starter_study,
 };
 pub use web::{WebFile, parse_web, read_web, write_web};
 pub use write::write_case;
@@ -79,21 +79,9 @@ impl<'a> Overrides<'a> {
     }
 }
 
-impl<'a> From<&'a [(String, String)]> for Overrides<'a> {
-    fn from(values: &'a [(String, String)]) -> Self {
-        Self::new(values, "override")
-    }
-}
-
-impl<'a, const N: usize> From<&'a [(String, String); N]> for Overrides<'a> {
-    fn from(values: &'a [(String, String); N]) -> Self {
-        Self::from(&values[..])
-    }
-}
-
-impl<'a> From<&'a Vec<(String, String)>> for Overrides<'a> {
-    fn from(values: &'a Vec<(String, String)>) -> Self {
-        Self::from(&values[..])
+impl<'a, T: AsRef<[(String, String)]> + ?Sized> From<&'a T> for Overrides<'a> {
+    fn from(values: &'a T) -> Self {
+        Self::new(values.as_ref(), "override")
     }
 }
 

@@ -7,13 +7,13 @@ use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::{Point, Study};
-use spunlaid::input::{StudyChanges, read_changed_study};
+use spunlaid::input::{StudyChanges, read_study};
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
     let file = looked_at(|resources| {
         let set = overrides(&check.source.set).with(resources);
-        read_changed_study(&check.source.case, &StudyChanges { set, ..StudyChanges::points(None) })
+        read_study(&check.source.case, StudyChanges { set, ..None.into() })
     })?;
     file.notes.iter().for_each(say::study_note);
     let study = &file.study;

@@ -74,31 +74,26 @@ impl StudyChanges<'_> {
     fn sets(&self, key: &str) -> bool {
         self.set.values.iter().any(|(other, _)| other.trim() == key)
     }
+}
 
-    /// No changes, with this number of points requested.
-    pub const fn points(points: Option<u64>) -> Self {
+/// No changes, with this number of points requested.
+impl From<Option<u64>> for StudyChanges<'_> {
+    fn from(points: Option<u64>) -> Self {
         Self { points, replicates: None, set: Overrides::new(&[], "override") }
     }
 }
 
 /// Reads a study file and the case or web it names, and resolves and checks every point.
 ///
-/// * `points` – the number of points requested; required above `MOST_POINTS_UNASKED`
+/// * `changes` – what is asked for besides the file: [`StudyChanges`], or the number of points requested, which is
+///   required above `MOST_POINTS_UNASKED`
 ///
 /// # Errors
 /// When a file cannot be read, and when the study or any of its points is wrong; the error lists all
 /// problems.
-pub fn read_study(path: &Path, points: Option<u64>) -> Result<StudyFile, Error> {
-    read_changed_study(path, &StudyChanges::points(points))
-}
-
-/// [`read_study`] with changes.
-///
-/// # Errors
-/// As [`read_study`].
-pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<StudyFile, Error> {
+pub fn read_study<'a>(path: &Path, changes: impl Into<StudyChanges<'a>>) -> Result<StudyFile, Error> {
     let text = file::read(path, FileKind::Study)?;
-    parse_changed_study(&text, &path.display().to_string(), changes, |named, kind| {
+    parse_study(&text, &path.display().to_string(), changes, |named, kind| {
         let base = path.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named));
         Ok((file::read(&base, kind)?, base.display().to_string()))
     })
@@ -110,25 +105,13 @@ pub fn read_changed_study(path: &Path, changes: &StudyChanges<'_>) -> Result<Stu
 ///
 /// # Errors
 /// As [`read_study`].
-pub fn parse_study(
+pub fn parse_study<'a>(
     text: &str,
     name: &str,
-    points: Option<u64>,
+    changes: impl Into<StudyChanges<'a>>,
     base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
 ) -> Result<StudyFile, Error> {
-    parse_changed_study(text, name, &StudyChanges::points(points), base)
-}
-
-/// [`parse_study`] with changes.
-///
-/// # Errors
-/// As [`read_study`].
-pub fn parse_changed_study(
-    text: &str,
-    name: &str,
-    changes: &StudyChanges<'_>,
-    base: impl FnOnce(&str, FileKind) -> Result<(String, String), Error>,
-) -> Result<StudyFile, Error> {
+    let changes = changes.into();
     let own = Resources::default();
     let resources = changes.set.resources.unwrap_or(&own);
     let mut reader = open(text, name)?;
@@ -146,7 +129,7 @@ pub fn parse_changed_study(
         Err(_) if reader.problems() > 0 => return Err(reader.rejected()),
         base => base?,
     };
-    let plan = reader.plan(&*base, &set, changes);
+    let plan = reader.plan(&*base, &set, &changes);
     let Some(plan) = plan else {
         return Err(reader.rejected());
     };
