@@ -32,18 +32,14 @@ impl CaseBase {
         resources: &Resources,
     ) -> Result<Self, Error> {
         let key_values = values_of_case(resources, &text, name, set)?;
-        let open = match kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &resources.files)?,
-            _ => open::open(key_values, &resources.files)?,
-        };
-        Ok(Self { text, open, kind })
+        Ok(Self { text, open: open_as(kind, key_values, resources)?, kind })
     }
+}
 
-    fn open_again(&self, key_values: WrittenValues, resources: &Resources) -> Result<OpenCase, Error> {
-        match self.kind {
-            FileKind::Spinline => spinline::open_spinline(key_values, &resources.files),
-            _ => open::open(key_values, &resources.files),
-        }
+fn open_as(kind: FileKind, key_values: WrittenValues, resources: &Resources) -> Result<OpenCase, Error> {
+    match kind {
+        FileKind::Spinline => spinline::open_spinline(key_values, &resources.files),
+        _ => open::open(key_values, &resources.files),
     }
 }
 
@@ -139,12 +135,8 @@ impl Base for CaseBase {
         Ok((Experiment::Case(case), notes))
     }
 
-    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)> {
-        set
-    }
-
-    fn text(&self) -> String {
-        self.text.clone()
+    fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>) {
+        (self.text.clone(), set)
     }
 }
 
@@ -157,7 +149,7 @@ impl CaseBase {
         set: &[(VariedKey, f64)],
         resources: &Resources,
     ) -> (Result<OpenCase, Error>, Vec<Note>) {
-        let opened = self.open_again(key_values.clone(), resources);
+        let opened = open_as(self.kind, key_values.clone(), resources);
         let is_unneeded = |problem: &&Problem| {
             problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
@@ -178,7 +170,7 @@ impl CaseBase {
         }
         let mut fewer = key_values;
         unneeded.iter().for_each(|note| drop(fewer.remove(&note.key)));
-        (self.open_again(fewer, resources), unneeded)
+        (open_as(self.kind, fewer, resources), unneeded)
     }
 }
 

@@ -147,8 +147,9 @@ pub fn parse_study<'a>(
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
-    let text = write::write_study(&study, &base.keys_to_write(set));
-    Ok(StudyFile { study, notes, base_path: PathBuf::from(base_name), base_text: base.text(), text })
+    let (base_text, set) = base.written(set);
+    let text = write::write_study(&study, &set);
+    Ok(StudyFile { study, notes, base_path: PathBuf::from(base_name), base_text, text })
 }
 
 /// What a study varies, read.
@@ -207,12 +208,8 @@ trait Base {
         resources: &Resources,
     ) -> ExperimentWithNotes;
 
-    /// What of the keys that are the same at all points has to stand in the study, because [`Base::text`]
-    /// does not have it.
-    fn keys_to_write(&self, set: Vec<(String, String)>) -> Vec<(String, String)>;
-
-    /// The file of what is varied.
-    fn text(&self) -> String;
+    /// The file of what is varied, and what it does not have of the keys that are the same at all points.
+    fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>);
 }
 
 /// An experiment, and the remarks on it.

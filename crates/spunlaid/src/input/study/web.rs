@@ -166,12 +166,8 @@ impl Base for WebBase {
         Ok((Experiment::Web(spec), notes))
     }
 
-    fn keys_to_write(&self, _: Vec<(String, String)>) -> Vec<(String, String)> {
+    fn written(&self, _: Vec<(String, String)>) -> (String, Vec<(String, String)>) {
         // What is set is in the web already.
-        Vec::new()
-    }
-
-    fn text(&self) -> String {
-        write_web_to_vary(&self.spec, &self.filaments)
+        (write_web_to_vary(&self.spec, &self.filaments), Vec::new())
     }
 }
