@@ -20,8 +20,8 @@ impl Moments {
 
 /// Number of records in a journal.
 fn records(place: &Place, out: &str) -> u64 {
-    const RECORD: u64 = 8 * (6 + spunlaid::simulation::MEASURES.len() as u64);
-    fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / RECORD)
+    let record = 8 * (6 + spunlaid::simulation::MEASURES.len() as u64);
+    fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / record)
 }
 
 /// Kills sweeps at random moments until one completes or the limit is reached; returns the number of kills.

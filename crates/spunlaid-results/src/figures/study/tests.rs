@@ -61,8 +61,8 @@ fn rankings(study: &Study) -> Vec<Ranking> {
 
 #[test]
 fn draws_every_kind_of_study() {
-    let declared = MEASURES.map(|measure| measure.figure.name);
-    let n = declared.iter().collect::<std::collections::BTreeSet<_>>().len();
+    let declared = MEASURES.iter().map(|measure| measure.figure.name);
+    let n = declared.collect::<std::collections::BTreeSet<_>>().len();
     for (design, counts, expected) in [
         (Design::Grid, &[5][..], n),
         (Design::Grid, &[1], n),

@@ -1,6 +1,6 @@
 //! The cells of a field: where they are, how large they are, and in which one a place lies.
 
-use super::{FARTHEST, Field, Hint, Support, vector};
+use super::{Field, Hint, Support, vector};
 use crate::ground::Vec3;
 
 /// The cells of a field, numbered from 0 in the order of its file without those that were left out.
@@ -69,11 +69,7 @@ impl FieldCells<'_> {
 
     /// The cell in which a place lies; None outside of the field.
     pub(crate) fn find(&self, at: Vec3<f64>, hint: &mut Hint) -> Option<usize> {
-        let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
-        if at.iter().any(|x| x.is_nan()) {
-            return None;
-        }
-        let at = self.field.support.rounded(at);
+        let at = self.field.looked_at(at)?;
         match &self.field.support {
             Support::Lattice(lattice) => lattice.cell(at),
             Support::Mesh(mesh) => {

@@ -325,11 +325,8 @@ impl Field {
     /// * `at` – [m]; if a coordinate is NaN, the air stands still
     /// * `hint` – where the last point was found; set to where this one is found. Only meshes use it
     pub fn sample(&self, at: Vec3<f64>, hint: &mut Hint) -> Local {
-        let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
-        if at.iter().any(|x| x.is_nan()) {
-            return Local::default();
-        }
-        let (values, inside) = self.support.sample(self.support.rounded(at), hint);
+        let Some(at) = self.looked_at(at) else { return Local::default() };
+        let (values, inside) = self.support.sample(at, hint);
         let [u, v, w, k, epsilon] = values;
         Local { velocity: Vec3::new(u, v, w), k: k.max(0.0), epsilon: epsilon.max(0.0), inside }
     }
@@ -345,11 +342,14 @@ impl Field {
     /// * `at` – [m]
     /// * `hint` – as of [`Field::sample`]
     pub fn around(&self, at: Vec3<f64>, hint: &mut Hint) -> AirAround {
+        let at = self.looked_at(at);
+        at.map_or_else(AirAround::default, |at| self.bricks.around(at, hint, &self.support))
+    }
+
+    /// Where the field is looked at for a point [m]; None if a coordinate is NaN.
+    fn looked_at(&self, at: Vec3<f64>) -> Option<[f64; 3]> {
         let at = [at.x, at.y, at.z].map(|x| x.clamp(-FARTHEST, FARTHEST));
-        if at.iter().any(|x| x.is_nan()) {
-            return AirAround::default();
-        }
-        self.bricks.around(self.support.rounded(at), hint, &self.support)
+        at.iter().all(|x| !x.is_nan()).then(|| self.support.rounded(at))
     }
 
     /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z. None if the flow

@@ -128,8 +128,9 @@ impl Atmosphere {
     /// * `step` – number of that step, from 0
     pub(crate) fn felt(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
         match self {
-            Self::Way(_, stations) => stations.velocity(j, step),
-            Self::Space(air) => air.velocity(j, step),
+            Self::Way(_, Stations { elements, .. }) | Self::Space(AirInSpace { elements, .. }) => {
+                elements.velocity(j, step)
+            }
             Self::Uniform(_) | Self::Flow(..) => None,
         }
     }
@@ -150,17 +151,18 @@ impl Atmosphere {
         match self {
             Self::Uniform(_) => {}
             Self::Flow(_, flow) => flow.forget(),
-            Self::Way(_, stations) => stations.forget(),
-            Self::Space(air) => air.forget(),
+            Self::Way(_, Stations { elements, .. }) | Self::Space(AirInSpace { elements, .. }) => {
+                elements.forget();
+            }
         }
     }
 
     /// Follows fibres that have grown at their roots and become shorter at their ends to so many elements.
     pub(crate) fn follow(&mut self, elements: usize, born: bool) {
-        match self {
-            Self::Way(_, stations) => stations.follow(elements, born),
-            Self::Space(air) => air.follow(elements, born),
-            Self::Uniform(_) | Self::Flow(..) => {}
+        if let Self::Way(_, Stations { elements: air, .. }) | Self::Space(AirInSpace { elements: air, .. }) =
+            self
+        {
+            air.follow(elements, born);
         }
     }
 
@@ -199,8 +201,9 @@ impl Atmosphere {
         match self {
             Self::Uniform(_) => None,
             Self::Flow(_, flow) => Some(flow.outside(lane)),
-            Self::Way(_, stations) => stations.outside(lane),
-            Self::Space(air) => air.outside(lane),
+            Self::Way(_, Stations { elements, .. }) | Self::Space(AirInSpace { elements, .. }) => {
+                elements.outside(lane)
+            }
         }
     }
 }

@@ -22,9 +22,7 @@ pub struct AirInSpace {
     fields: PerLane<Field>,
     places: PerLane<Place>,
     means: PerLane<WayFlow>,
-    elements: AirAtElements,
-    /// The mean flow and the rms in a CFD field.
-    surroundings: Option<Surroundings>,
+    pub(super) elements: AirAtElements,
 }
 
 /// The field of a fibre.
@@ -89,11 +87,10 @@ impl AirInSpace {
                 last = Some((Arc::clone(field), means.clone()));
                 means
             }),
-            elements: AirAtElements::new(elements, every),
-            surroundings: in_field.then(|| {
-                let airs = lanes.map(|(air, place, _, _)| (air.clone(), *place));
-                Surroundings::around_elements(airs, elements, every)
-            }),
+            elements: AirAtElements::new(
+                in_field.then(|| lanes.map(|(air, place, _, _)| (air.clone(), *place))),
+                (elements, every),
+            ),
         }
     }
 
@@ -108,38 +105,11 @@ impl AirInSpace {
         self.give(&unmade);
     }
 
-    /// Velocity of the air at element `j` in the last step [m/s].
-    pub(super) fn velocity(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
-        self.elements.velocity(j, step)
-    }
-
-    /// Share of the time that the elements of a lane's fibre have spent outside of a CFD field's data.
-    pub(super) fn outside(&self, lane: usize) -> Option<f64> {
-        self.surroundings.as_ref().map(|surroundings| surroundings.outside(lane))
-    }
-
-    pub(super) fn forget(&mut self) {
-        self.elements.forget();
-        if let Some(surroundings) = &mut self.surroundings {
-            surroundings.forget();
-        }
-    }
-
-    pub(super) fn follow(&mut self, elements: usize, born: bool) {
-        self.elements.follow(elements, born);
-        if let Some(surroundings) = &mut self.surroundings {
-            surroundings.follow(elements, born);
-        }
-    }
-
     /// Replaces the air by another one. The values of the last look are kept until the next.
     pub(super) fn change(&mut self, by: Self) {
-        let Self { fields, places, means, elements, surroundings } = by;
+        let Self { fields, places, means, elements } = by;
         (self.fields, self.places, self.means) = (fields, places, means);
-        self.elements.every = elements.every;
-        if let (Some(own), Some(new)) = (&mut self.surroundings, surroundings) {
-            own.change(new);
-        }
+        self.elements.change(elements);
     }
 
     /// Looks at the air at the elements before a step at the time `t` [s].
@@ -178,16 +148,13 @@ impl AirInSpace {
     /// Looks up the air at the elements at the time `t` [s].
     #[inline(always)]
     fn look_up<S: Register>(&mut self, t: f64, position: &[Vec3<Lanes>]) {
-        if let Some(surroundings) = &mut self.surroundings {
-            surroundings.look_up::<S>(position);
-        }
-        let per_step = self.elements.per_step();
+        let (each, field, per_step) = self.elements.look_up::<S>(position);
         let half = Wide::<S>::splat(0.5);
         let fields = EddyFields::new(from_fn(|lane| &*self.fields.lane(lane).field));
         let means: [&WayFlow; WIDTH] = from_fn(|lane| self.means.lane(lane));
         let places =
             Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
-        for (j, (ends, element)) in position.windows(2).zip(self.elements.each()).enumerate() {
+        for (j, (ends, element)) in position.windows(2).zip(each).enumerate() {
             let centre = ((Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half).store();
             let at = centre + places;
             let fluctuation = fields.fluctuations::<S>(t, &at);
@@ -197,14 +164,13 @@ impl AirInSpace {
                 (mean.x.0[lane], mean.y.0[lane], rms.0[lane]) = (speed, widening * at.y.0[lane], strength);
             }
             let (mut mean, mut rms) = (Vec3::<Wide<S>>::load(&mean), Wide::load(&rms));
-            if let Some(surroundings) = &self.surroundings {
-                let [u, v, w, strength] = surroundings.value(j);
+            if let Some(field) = field {
+                let [u, v, w, strength] = field.value(j);
                 mean = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
                 rms = Wide::load(strength);
             }
             element.keep(Vec3::load(&fluctuation).mul_add(rms, mean), per_step);
         }
-        self.elements.finish_look();
     }
 }
 
@@ -238,14 +204,16 @@ pub(super) struct ElementAir {
 pub(super) struct AirAtElements {
     elements: Nodes<ElementAir>,
     /// Steps from one look to the next.
-    pub(super) every: u64,
+    every: u64,
     looked: bool,
+    /// The mean flow and the rms in a CFD field.
+    field: Option<Surroundings>,
 }
 
 impl ElementAir {
     /// Keeps the velocity at a look.
     ///
-    /// * `per_step` – of [`AirAtElements::per_step`]
+    /// * `per_step` – of [`AirAtElements::look_up`]
     #[inline(always)]
     pub(super) fn keep<S: Register>(&mut self, value: Vec3<Wide<S>>, per_step: Wide<S>) {
         self.rise = ((value - Vec3::load(&self.value)) * per_step).store();
@@ -254,14 +222,31 @@ impl ElementAir {
 }
 
 impl AirAtElements {
-    pub(super) fn new(elements: usize, every: u64) -> Self {
+    /// * `in_field` – air and place of each fibre in a CFD field
+    /// * `every` – steps from one look to the next
+    pub(super) fn new(in_field: Option<PerLane<(Air, Place)>>, (elements, every): (usize, u64)) -> Self {
         let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
-        Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false }
+        let field = in_field.map(|airs| Surroundings::around_elements(airs, elements, every));
+        Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false, field }
+    }
+
+    /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
+    pub(super) fn outside(&self, lane: usize) -> Option<f64> {
+        self.field.as_ref().map(|field| field.outside(lane))
     }
 
     /// Forgets the looks so far.
     pub(super) fn forget(&mut self) {
         self.looked = false;
+        self.field.iter_mut().for_each(Surroundings::forget);
+    }
+
+    /// Replaces the air by another one. The values of the last look are kept until the next.
+    pub(super) fn change(&mut self, by: Self) {
+        self.every = by.every;
+        if let (Some(field), Some(new)) = (&mut self.field, by.field) {
+            field.change(new);
+        }
     }
 
     /// Follows chains that have grown at their roots and become shorter at their ends to so many elements.
@@ -270,6 +255,7 @@ impl AirAtElements {
             self.elements.push_root(self.elements[0]);
         }
         self.elements.truncate(elements);
+        self.field.iter_mut().for_each(|field| field.follow(elements, born));
     }
 
     #[inline(always)]
@@ -277,21 +263,20 @@ impl AirAtElements {
         step.is_multiple_of(self.every)
     }
 
-    /// Factor from the change since the last look to that in a step. The first look has none before it to
-    /// extrapolate from.
+    /// Looks up the field. Returns the elements, to keep the velocity at each, the field, and the factor from the
+    /// change since the last look to that in a step.
     #[inline(always)]
-    pub(super) fn per_step<S: Register>(&self) -> Wide<S> {
-        Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 })
-    }
-
-    /// The elements, to keep the velocity at each.
-    pub(super) fn each(&mut self) -> std::slice::IterMut<'_, ElementAir> {
-        self.elements.iter_mut()
-    }
-
-    /// Ends a look at all elements.
-    pub(super) fn finish_look(&mut self) {
+    pub(super) fn look_up<S: Register>(
+        &mut self,
+        position: &[Vec3<Lanes>],
+    ) -> (std::slice::IterMut<'_, ElementAir>, Option<&Surroundings>, Wide<S>) {
+        if let Some(field) = &mut self.field {
+            field.look_up::<S>(position);
+        }
+        // The first look has none before it to extrapolate from.
+        let per_step = Wide::splat(if self.looked { 1.0 / self.every as f64 } else { 0.0 });
         self.looked = true;
+        (self.elements.iter_mut(), self.field.as_ref(), per_step)
     }
 
     /// Velocity of the air at element `j` in a step since the last look [m/s]; None beyond the last element.

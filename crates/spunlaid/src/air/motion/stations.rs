@@ -8,7 +8,7 @@
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
 use super::in_space::{AirAtElements, InstantStations};
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Surroundings, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::air::field::Hint;
 use crate::ground::company::shared;
 use crate::ground::lanes::indices;
@@ -54,9 +54,7 @@ pub struct Stations {
     decorrelation: Vec<Lanes>,
     /// Of each station, at the last look, in each lane: fluctuation, and mean velocity along x [m/s].
     last_look: Vec<[[f64; 4]; WIDTH]>,
-    elements: AirAtElements,
-    /// The mean flow and the rms in a field.
-    field: Option<Surroundings>,
+    pub(super) elements: AirAtElements,
 }
 
 impl Stations {
@@ -94,57 +92,24 @@ impl Stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
-        let field = way.in_field.then(|| {
-            let airs = lanes.zip(places, |(air, _), place| (air.clone(), *place));
-            Surroundings::around_elements(airs, elements, way.every)
-        });
+        let in_field = way.in_field.then(|| lanes.zip(places, |(air, _), place| (air.clone(), *place)));
         Self {
             off_middle: places.lanes(|place| place.y),
             per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
             mean_flow: (0..way.stations).map(mean_flow).collect(),
             decorrelation: (0..way.stations).map(decorrelation).collect(),
             last_look: vec![[[0.0; 4]; WIDTH]; way.stations],
-            elements: AirAtElements::new(elements, way.every),
-            field,
+            elements: AirAtElements::new(in_field, (elements, way.every)),
             way,
-        }
-    }
-
-    /// Share of the time that the elements of a lane's fibre have spent outside of a field's data.
-    pub(crate) fn outside(&self, lane: usize) -> Option<f64> {
-        self.field.as_ref().map(|field| field.outside(lane))
-    }
-
-    /// Velocity of the air at element `j` in the last step [m/s].
-    pub(super) fn velocity(&self, j: usize, step: u64) -> Option<Vec3<Lanes>> {
-        self.elements.velocity(j, step)
-    }
-
-    /// Forgets the looks so far.
-    pub(crate) fn forget(&mut self) {
-        self.elements.forget();
-        if let Some(field) = &mut self.field {
-            field.forget();
         }
     }
 
     /// Replaces the air by another one with as many stations. The values of the last look are kept until the next.
     pub(crate) fn change(&mut self, by: Self) {
-        let Self { way, per_length, mean_flow, decorrelation, field, .. } = by;
+        let Self { way, per_length, mean_flow, decorrelation, elements, .. } = by;
         (self.way, self.per_length, self.mean_flow, self.decorrelation) =
             (way, per_length, mean_flow, decorrelation);
-        self.elements.every = self.way.every;
-        if let (Some(field), Some(new)) = (&mut self.field, field) {
-            field.change(new);
-        }
-    }
-
-    /// Follows a chain that has grown at its root and become shorter at its end to so many elements.
-    pub(crate) fn follow(&mut self, elements: usize, born: bool) {
-        self.elements.follow(elements, born);
-        if let Some(field) = &mut self.field {
-            field.follow(elements, born);
-        }
+        self.elements.change(elements);
     }
 
     /// Looks at the air at the elements before a step at the time `t` [s].
@@ -189,14 +154,11 @@ impl Stations {
                 }
             }
         }
-        if let Some(field) = &mut self.field {
-            field.look_up::<S>(position);
-        }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
-        let per_step = self.elements.per_step();
+        let (each, field, per_step) = self.elements.look_up::<S>(position);
         let (per_length, last) = (Wide::load(&self.per_length), (self.way.stations - 1) as f64);
         let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
-        for (j, (ends, here)) in position.windows(2).zip(self.elements.each()).enumerate() {
+        for (j, (ends, here)) in position.windows(2).zip(each).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;
             let place = (centre * per_length - half).max(Wide::zero());
             let place = Wide::select_less(place, end, place, end);
@@ -225,14 +187,13 @@ impl Stations {
                     .mul_add(half, Wide::load(&self.off_middle));
                 flow.y = (upper - lower) * per_length * y;
             }
-            if let Some(field) = &self.field {
+            if let Some(field) = field {
                 let [u, v, w, rms] = field.value(j);
                 flow = Vec3::new(Wide::load(u), Wide::load(v), Wide::load(w));
                 fluctuation = fluctuation * Wide::load(rms);
             }
             here.keep(flow + fluctuation, per_step);
         }
-        self.elements.finish_look();
     }
 }
 

@@ -46,6 +46,7 @@ pub use record::{OF_COMPONENTS, OF_RECORDS};
 pub use sample::Sample;
 pub use scan::{OF_SCANNED_PATCHES, OF_SCANS};
 pub use spinline::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
+use std::sync::LazyLock;
 pub use web::{OF_PATCHES, OF_WEBS};
 
 /// Everything that is measured, in the order of the tables.
@@ -136,37 +137,11 @@ impl Observers {
     }
 }
 
-/// The number of measures that are numbers.
-pub const NUMBERS: usize = {
-    let (mut count, mut i) = (0, 0);
-    while i < DECLARED.len() {
-        let (measures, mut j) = (DECLARED[i].measures, 0);
-        while j < measures.len() {
-            count += matches!(measures[j].kind, Kind::Number) as usize;
-            j += 1;
-        }
-        i += 1;
-    }
-    count
-};
-
 /// All measures that are numbers, whether they apply to a case or not. A study stores these for each fibre.
-pub const MEASURES: [&Measure; NUMBERS] = {
-    let mut all = [&DECLARED[0].measures[0]; NUMBERS];
-    let (mut count, mut i) = (0, 0);
-    while i < DECLARED.len() {
-        let (measures, mut j) = (DECLARED[i].measures, 0);
-        while j < measures.len() {
-            if matches!(measures[j].kind, Kind::Number) {
-                all[count] = &measures[j];
-                count += 1;
-            }
-            j += 1;
-        }
-        i += 1;
-    }
-    all
-};
+pub static MEASURES: LazyLock<Vec<&Measure>> = LazyLock::new(|| {
+    let all = DECLARED.iter().flat_map(|declared| declared.measures);
+    all.filter(|measure| measure.kind == Kind::Number).collect()
+});
 
 /// Whether measures have a meaning for the fibre in a lane.
 fn applies(declared: &Declaration, flight: &Flight, lane: usize) -> bool {
