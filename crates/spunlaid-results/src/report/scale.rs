@@ -10,7 +10,6 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::web::Map;
 use spunlaid::web::map::PatchFindings;
-use spunlaid::web::map::uniformity::Unevenness;
 
 /// The CVs of the pictures.
 const LEVELS: [f64; 5] = [0.03, 0.06, 0.1, 0.15, 0.2];
@@ -52,11 +51,10 @@ pub(super) struct Judged {
 
 impl From<&PatchFindings> for Judged {
     fn from(patch: &PatchFindings) -> Self {
-        let error = |told: Unevenness| patch.whole_error().whole().or(told.standard_error);
         Self {
             patch: patch.map.patch,
             of_map: patch.filled.unwrap_or(patch.map.cv),
-            told: patch.told().map(|told| (told.cv, error(told))),
+            told: patch.told_with_whole_error().map(|told| (told.cv, told.standard_error)),
             interval: patch.interval(),
             chance: Some(patch.straight_fibres),
         }

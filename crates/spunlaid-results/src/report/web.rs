@@ -24,7 +24,6 @@ use crate::output::web::Layer;
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Findings, PatchFindings};
 use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
 use spunlaid_charts::Figure;
@@ -188,7 +187,11 @@ fn headline_of(findings: &Findings) -> String {
     let weight = findings.basis_weight();
     let patch = headline_patch(findings).map(|i| &findings.patches[i]);
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
-        return headline(Some(weight), patch.and_then(whole).as_ref(), findings.laid.flown.is_empty());
+        return headline(
+            Some(weight),
+            patch.and_then(PatchFindings::told_with_whole_error).as_ref(),
+            findings.laid.flown.is_empty(),
+        );
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
@@ -200,12 +203,6 @@ fn headline_of(findings: &Findings) -> String {
         "A web of {}. How uneven it is, is not known: too few filaments were flown. {remedy}.",
         grams_with_error(weight)
     )
-}
-
-/// What is told of the web with its error by all causes, or by chance alone if the others are not known.
-fn whole(patch: &PatchFindings) -> Option<Unevenness> {
-    let told = patch.told()?;
-    Some(Unevenness { standard_error: patch.whole_error().whole().or(told.standard_error), ..told })
 }
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of

@@ -6,7 +6,7 @@ use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Job, LaidPoint};
 use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::parse_case;
-use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together, nothing_kept};
+use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
 use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, RunControl, Trajectory, Unchecked};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -251,7 +251,7 @@ replicates = 12
             &FinerPlans::none(Unchecked::NotAsked),
             Keep::SAMPLES,
             computing,
-            nothing_kept,
+            |_, _| Ok(None),
             |landed| {
                 match landed {
                     Ok(trajectory) => {

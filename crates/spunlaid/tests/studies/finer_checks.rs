@@ -7,7 +7,7 @@ use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
 use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::{fly_for_checks, fly_together, nothing_kept};
+use spunlaid::simulation::ensemble::{fly_for_checks, fly_together};
 use spunlaid::simulation::{FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -30,10 +30,17 @@ fn checked_by(
         (Refinement::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
     let mut flown = Vec::new();
-    let paths = fly_for_checks(case, &plans, Keep::SAMPLES, computing, nothing_kept, |trajectory| {
-        flown.push(trajectory.expect("no fibre is lost"));
-        Ok::<(), Error>(())
-    })?;
+    let paths = fly_for_checks(
+        case,
+        &plans,
+        Keep::SAMPLES,
+        computing,
+        |_, _| Ok(None),
+        |trajectory| {
+            flown.push(trajectory.expect("no fibre is lost"));
+            Ok::<(), Error>(())
+        },
+    )?;
     let checks = plans.check(&paths, computing);
     assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
     Ok((flown, if refined == Refinement::TimeStep { checks.step } else { checks.mesh }))

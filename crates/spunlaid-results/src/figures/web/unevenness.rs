@@ -4,7 +4,7 @@ use super::{MM, PER_CENT, Weights};
 use crate::figures::joined;
 use crate::numbers::significant;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Findings, straight_fibres};
+use spunlaid::web::map::{Findings, PatchFindings, straight_fibres};
 use spunlaid::web::{Edges, Map, Web, scan};
 use spunlaid_charts::palette::{BLUE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
@@ -40,11 +40,8 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
 
 /// The coefficient of variation over the size of the patches.
 pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
-    let map = findings.patches.iter().filter_map(|patch| {
-        let (side, cv, error) = point(&patch.told()?);
-        Some((side, cv, patch.whole_error().whole().map(|error| error * PER_CENT).or(error)))
-    });
-    let map: Vec<_> = map.collect();
+    let map = findings.patches.iter().filter_map(PatchFindings::told_with_whole_error);
+    let map: Vec<_> = map.map(|told| point(&told)).collect();
     let patches = || findings.patches.iter();
     let single =
         patches().filter_map(|patch| Some((patch.map.patch * MM, patch.single_fibres?.0 * PER_CENT)));

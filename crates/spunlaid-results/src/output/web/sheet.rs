@@ -61,9 +61,10 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
         ],
     ];
     for patch in &findings.patches {
-        let error = patch.whole_error().whole().or(patch.map.standard_error);
-        let told = |cv: f64| format!("{}{THIN}%", plus_minus(100.0 * cv, error.map(|error| 100.0 * error)));
-        let cv = patch.told().map(|of_web| told(of_web.cv));
+        let cv = patch.told_with_whole_error().map(|told| {
+            let error = told.standard_error.map(|error| 100.0 * error);
+            format!("{}{THIN}%", plus_minus(100.0 * told.cv, error))
+        });
         let cv = cv.unwrap_or_else(|| "not known: too few filaments were flown".to_owned());
         let side = number(1e3 * patch.map.patch);
         rows.push([format!("CV of the basis weight over patches of {side}{THIN}mm"), cv]);

@@ -70,7 +70,7 @@ pub fn fly<E: From<Error>>(
 ///
 /// * `plans` – those of the case
 /// * `recall` – the trajectories of replicates that fly together, if they have been flown before; it passes
-///   on what was recorded of them. [`nothing_kept`] recalls none
+///   on what was recorded of them
 ///
 /// # Errors
 /// Another thread stops the ensemble, `recall` or `take` returns an error; and with the reason of the first
@@ -122,14 +122,6 @@ pub fn fly_for_checks<E: From<Error>>(
         return Err(error.into());
     }
     Ok(RunPaths(paths.into_paths()))
-}
-
-/// Recalls nothing for [`fly_for_checks`].
-///
-/// # Errors
-/// None.
-pub fn nothing_kept(_: Range<u64>, _: &dyn Recorder) -> Result<Option<Vec<Trajectory>>, Error> {
-    Ok(None)
 }
 
 /// The replicates of a piece of work of a case.

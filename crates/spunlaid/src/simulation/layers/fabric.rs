@@ -2,7 +2,6 @@
 
 use super::WebSpec;
 use crate::web::fabric::{Filaments, tell};
-use crate::web::map::uniformity::Unevenness;
 use crate::web::map::{Findings, PatchFindings, holes};
 use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
 
@@ -23,7 +22,7 @@ impl WebSpec {
             reach: Some(found.reach),
             filaments: kinds.collect(),
             orientation: Some(&found.orientation),
-            patches: found.patches.iter().filter_map(with_whole_error).collect(),
+            patches: found.patches.iter().filter_map(PatchFindings::told_with_whole_error).collect(),
             defects: self.streak_sources(web),
         };
         tell(&laid, &self.fabric, threads)
@@ -46,11 +45,4 @@ impl WebSpec {
         // Where chance chose no hole, there is no streak.
         all.filter(|source| !source.missing.is_empty()).collect()
     }
-}
-
-/// The CV of a web with its error by all causes, or by chance where another one is not known; None if it is not
-/// told.
-fn with_whole_error(patch: &PatchFindings) -> Option<Unevenness> {
-    let told = patch.told()?;
-    Some(Unevenness { standard_error: patch.whole_error().whole().or(told.standard_error), ..told })
 }

@@ -9,9 +9,9 @@
 use super::flying::{Flying, Sink};
 use super::pack::Reach;
 use super::{BLOCK, Beam, BeamControl, BeamFindings};
-use crate::air::{Air, EddyField, Extent, Flow, Hint, Lateral, Room, StreamKey};
+use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
-use crate::ground::{Error, Fault, Vec3};
+use crate::ground::{Error, Vec3};
 use crate::web::{Edges, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
 use std::slice::from_ref;
@@ -56,14 +56,15 @@ impl BeamAir {
 ///
 /// # Errors
 /// For each beam as of [`Beam::fly`]; and if it is stopped.
-pub(crate) fn fly_abreast(
+pub(super) fn fly_abreast(
     beams: &[Beam<'_>],
     (sheet, memory): (&Sheet, f64),
     by: BeamControl<'_>,
 ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
-    SharedAir::of(beams, (sheet, memory))?.fly(sinks, by)
+    let room = room_of(beams, sheet);
+    SharedAir::new((beams, sheet), (&room, HIGHEST), memory).fly(sinks, by)
 }
 
 /// Whether a beam goes on.
@@ -85,35 +86,32 @@ fn make(groups: &mut [Group], threads: usize) {
     });
 }
 
-/// Most memory that the air of a beam takes in a room [B].
-fn memory_of_air(beam: &Beam<'_>, room: &Room) -> f64 {
-    let air = &beam.case.air;
-    let memory = |cutoff: f64| EddyField::memory_in_room(air, room, cutoff.min(HIGHEST));
-    air.lateral.cutoff().map_or(0.0, memory)
+/// The room in which the airs of beams have the same pattern as far as they can.
+fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
+    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet, REACH_OF_COMPARED);
+    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), air(beam)));
+    Room::of(&airs.collect::<Vec<_>>())
 }
 
 /// Most memory that the air of one of some beams takes that fly abreast [B].
-pub(crate) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
+pub(super) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
     let room = room_of(beams, sheet);
-    beams.iter().map(|beam| memory_of_air(beam, &room)).fold(0.0, f64::max)
+    beams.iter().map(|beam| beam.memory_in(&room, HIGHEST)).fold(0.0, f64::max)
 }
 
 impl<'a> SharedAir<'a> {
     /// The air of one beam alone.
     pub(super) fn of_one(beam: &'a Beam<'a>, sheet: &'a Sheet) -> Self {
-        let air = BeamAir { field: beam.field(sheet), maker: 0, pace: 1.0, memory: 0.0 };
-        Self { beams: from_ref(beam), sheet, airs: vec![air], memory: f64::INFINITY }
+        Self::new((from_ref(beam), sheet), (&beam.room(sheet), f64::INFINITY), f64::INFINITY)
     }
 
     /// The airs of beams in one room, of which those with one pattern share one.
-    fn of(beams: &'a [Beam<'a>], (sheet, memory): (&'a Sheet, f64)) -> Result<Self, Error> {
-        let room = room_of(beams, sheet);
+    ///
+    /// * `highest` – lateral wave number, times the length scale
+    fn new((beams, sheet): (&'a [Beam<'a>], &'a Sheet), (room, highest): (&Room, f64), memory: f64) -> Self {
         let mut airs: Vec<BeamAir> = Vec::new();
         for (number, beam) in beams.iter().enumerate() {
             let (air, seed) = (&beam.case.air, beam.case.run.seed);
-            let cutoff = air.lateral.cutoff();
-            let cutoff =
-                cutoff.ok_or_else(|| Fault::plain("the air of a beam is the same everywhere across"))?;
             let mut makers = (0..number).filter(|maker| airs[*maker].maker == *maker);
             let shared = makers.find_map(|maker| {
                 let other = beams[maker].case;
@@ -123,17 +121,18 @@ impl<'a> SharedAir<'a> {
                 let field = airs[maker].field.as_ref()?;
                 let (field, pace) = match other.air == *air {
                     true => (field.clone(), 1.0),
-                    false => field.at_pace_of([&other.air, air], &room)?,
+                    false => field.at_pace_of([&other.air, air], room)?,
                 };
-                Some((field, maker, pace))
+                Some(BeamAir { field: Some(field), maker, pace, memory: beam.memory_in(room, highest) })
             });
-            let (field, maker, pace) = shared.unwrap_or_else(|| {
+            airs.push(shared.unwrap_or_else(|| {
                 let key = StreamKey { seed, replicate: 0 };
-                (EddyField::in_room(air, &room, cutoff.min(HIGHEST), key), number, 1.0)
-            });
-            airs.push(BeamAir { field: Some(field), maker, pace, memory: memory_of_air(beam, &room) });
+                let made = |cutoff: f64| EddyField::in_room(air, room, cutoff.min(highest), key);
+                let field = air.lateral.cutoff().map(made);
+                BeamAir { field, maker: number, pace: 1.0, memory: beam.memory_in(room, highest) }
+            }));
         }
-        Ok(Self { beams, sheet, airs, memory })
+        Self { beams, sheet, airs, memory }
     }
 
     /// Flies the beams until they have laid the sheet, or the belt that passes in the same time.
@@ -284,22 +283,21 @@ const REACH: f64 = 0.36;
 /// As far as beams are compared, five of them: hardly two filaments that meet the same eddies again hang so.
 const REACH_OF_COMPARED: f64 = 0.22;
 impl Beam<'_> {
-    /// The air that its filaments share, of which nothing has been made; None if it is the same at every place.
-    pub(super) fn field(&self, sheet: &Sheet) -> Option<EddyField> {
-        let (case, key) = (self.case, StreamKey { seed: self.case.run.seed, replicate: 0 });
-        let (way, extent) = (case.way_of_air(), self.extent_of_air(sheet, REACH));
-        Some(EddyField::new(&case.air, way, extent, case.air.lateral.cutoff()?, key))
+    /// The room of its air alone.
+    fn room(&self, sheet: &Sheet) -> Room {
+        Room::alone(self.case.way_of_air(), self.extent_of_air(sheet, REACH))
     }
 
     /// Most memory that the air of all filaments takes [B].
-    pub(crate) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
-        let (case, extent) = (self.case, self.extent_of_air(sheet, REACH));
-        match case.air.lateral {
-            Lateral::Uniform => 0.0,
-            Lateral::VonKarman { cutoff } => {
-                EddyField::memory(1, &case.air, case.way_of_air(), extent, cutoff)
-            }
-        }
+    pub(super) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
+        self.memory_in(&self.room(sheet), f64::INFINITY)
+    }
+
+    /// Most memory that its air takes in a room [B].
+    fn memory_in(&self, room: &Room, highest: f64) -> f64 {
+        let air = &self.case.air;
+        let memory = |cutoff: f64| EddyField::memory_in_room(air, room, cutoff.min(highest));
+        air.lateral.cutoff().map_or(0.0, memory)
     }
 
     /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
@@ -317,13 +315,6 @@ impl Beam<'_> {
         };
         Extent { y: y.max(least), z }
     }
-}
-
-/// The room in which the airs of beams have the same pattern as far as they can.
-pub(super) fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
-    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet, REACH_OF_COMPARED);
-    let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), air(beam)));
-    Room::of(&airs.collect::<Vec<_>>())
 }
 
 /// The largest of some numbers less the smallest.

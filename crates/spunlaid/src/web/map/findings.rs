@@ -95,6 +95,13 @@ impl PatchFindings {
         self.doubt.is_none().then_some(self.map)
     }
 
+    /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
+    /// not told.
+    pub fn told_with_whole_error(&self) -> Option<Unevenness> {
+        let told = self.told()?;
+        Some(Unevenness { standard_error: self.whole_error().whole().or(told.standard_error), ..told })
+    }
+
     /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
     /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
     pub fn independent(&self) -> Option<f64> {

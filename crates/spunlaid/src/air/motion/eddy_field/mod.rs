@@ -74,8 +74,9 @@ pub(crate) struct Room {
     pub(crate) extent: Extent,
     /// Length of the way [m].
     pub(crate) distance: f64,
-    /// Steps from one generation to the next.
-    steps: usize,
+    /// Steps from one generation to the next that there are at least, and how many times as far apart as usual they
+    /// may be.
+    steps: (usize, f64),
 }
 
 impl Room {
@@ -83,13 +84,18 @@ impl Room {
     pub(crate) fn of(airs: &[(&Air, f64, Extent)]) -> Self {
         let largest = |size: fn(&(&Air, f64, Extent)) -> f64| airs.iter().map(size).fold(0.0, f64::max);
         let extent = Extent { y: largest(|(.., extent)| extent.y), z: largest(|(.., extent)| extent.z) };
-        let room = Self { extent, distance: largest(|(_, distance, _)| *distance), steps: 0 };
+        let room = Self { extent, distance: largest(|(_, distance, _)| *distance), steps: (0, COARSER) };
         let steps = airs.iter().map(|(air, ..)| room.way(air).stages.len() - 1);
-        Self { steps: steps.max().unwrap_or(0), ..room }
+        Self { steps: (steps.max().unwrap_or(0), COARSER), ..room }
+    }
+
+    /// The room of one air alone.
+    pub(crate) const fn alone(distance: f64, extent: Extent) -> Self {
+        Self { extent, distance, steps: (0, 1.0) }
     }
 
     fn way(&self, air: &Air) -> EddyPath {
-        EddyPath::with_steps(air, self.distance, (self.steps, COARSER))
+        EddyPath::with_steps(air, self.distance, self.steps)
     }
 }
 
@@ -99,18 +105,14 @@ impl EddyField {
     /// * `cutoff` – largest wave number across, times the smallest length scale [-]; zero for the same
     ///   fluctuation everywhere across
     pub fn new(air: &Air, distance: f64, extent: Extent, cutoff: f64, key: StreamKey) -> Self {
-        Self::on_way(air, EddyPath::new(air, distance), extent, (cutoff, key))
+        Self::in_room(air, &Room::alone(distance, extent), cutoff, key)
     }
 
     /// A field that is as long and as wide as a room, and has as many generations.
     ///
     /// * `cutoff`, `key` – as of [`EddyField::new`]
     pub(crate) fn in_room(air: &Air, room: &Room, cutoff: f64, key: StreamKey) -> Self {
-        Self::on_way(air, room.way(air), room.extent, (cutoff, key))
-    }
-
-    fn on_way(air: &Air, way: EddyPath, extent: Extent, (cutoff, key): (f64, StreamKey)) -> Self {
-        let plan = Plan::new(air, way, extent, cutoff);
+        let plan = Plan::new(air, room.way(air), room.extent, cutoff);
         let tapes = vec![Tape::default(); plan.generations.len()];
         Self {
             synthesis: Arc::new(Synthesis::new(&plan, Isa::detect())),
