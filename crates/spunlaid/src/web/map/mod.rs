@@ -4,6 +4,16 @@
 //! [surrogate](crate::web::surrogate) or one that was flown. [`lay`] gives the [`Map`] of the basis weight, the
 //! mass of fibre in each cell. Of such a map, simulated or measured, [`uniformity`] says how uneven it is.
 //!
+//! The error of a CV comes from what is chance, and each kind of chance has one place (theory.md):
+//!
+//! | what is chance | where | theory |
+//! |---|---|---|
+//! | the waves of one sheet, of independent filaments or of one air | [`uniformity`] | "Chance in a map" |
+//! | which of the filaments were flown | `few` | (83d), (83e), "The error of few filaments" |
+//! | the mean over filaments that share gusts | `shared_error` | (72a) |
+//! | the curves of single fibres, of a web of independent filaments | `expected` | scatter between the fibres |
+//! | when neighbours come down together | `simulation::one_air` | "The error of a correlation of neighbours" |
+//!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
 mod basis_weight;
