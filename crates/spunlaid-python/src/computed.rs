@@ -13,12 +13,12 @@ use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Overrides, parse_spinline, write_spinline};
-use spunlaid::simulation::{Place, Trajectory};
+use spunlaid::simulation::{CurveValue, Trajectory};
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::folders::comparison::{ComparedFolders, Folders};
 use spunlaid_results::folders::products::{ScanFolder, SpinFolder};
-use spunlaid_results::folders::run::Run;
+use spunlaid_results::folders::run::RunFolder;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::output::folder::Staging;
 use spunlaid_results::output::spinline::COLUMNS;
@@ -38,7 +38,7 @@ pub(crate) struct Computed {
 /// What they are of.
 #[derive(Debug)]
 pub(crate) enum Of {
-    Run(Box<Run>),
+    Run(Box<RunFolder>),
     Web(Box<WebFolder>),
     Scan(Box<ScanFolder>),
     Spinline(Box<SpinFolder>),
@@ -59,7 +59,7 @@ macro_rules! contents {
 }
 
 impl Computed {
-    fn run(&self) -> Option<&Run> {
+    fn run(&self) -> Option<&RunFolder> {
         if let Of::Run(run) = &self.of { Some(run) } else { None }
     }
 }
@@ -119,7 +119,7 @@ impl Computed {
         let curves = self.run().map_or(&[][..], |run| &run.results.curves);
         let dict = |curve: &spunlaid::simulation::Curve| {
             let dict = described(py, curve.measure)?;
-            let put = |name, of: &dyn Fn(&Place) -> f64| {
+            let put = |name, of: &dyn Fn(&CurveValue) -> f64| {
                 dict.set_item(name, column(py, curve.places.iter().map(of))?)
             };
             put("at", &|place| place.at)?;

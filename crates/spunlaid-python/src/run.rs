@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use spunlaid::fibre::Note;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
-use spunlaid_results::folders::run::{Run, fly as flown, found, performance};
+use spunlaid_results::folders::run::{RunFolder, fly as flown, found, performance};
 use spunlaid_results::output::flown::Flights;
 use spunlaid_results::output::folder::{ENTRIES, Staging};
 use std::path::PathBuf;
@@ -52,6 +52,6 @@ pub(crate) fn fly(
     let (results, checks, drawn) = (flown.results, unlock(checks), OnceLock::new());
     let mut notes = Note::notes_of_results(&notes);
     notes.extend(found(&case, &results).into_iter().flatten());
-    let run = Run { name: name.clone(), case, results, checks, notes, performance, drawn };
+    let run = RunFolder { name: name.clone(), case, results, checks, notes, performance, drawn };
     Ok(Computed { name, of: Of::Run(Box::new(run)) })
 }

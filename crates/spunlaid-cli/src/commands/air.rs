@@ -103,7 +103,7 @@ fn outside(places: &[Vec3<f64>], found: &[Option<LocalAir>]) -> Option<String> {
 const MUCH_OUTSIDE: f64 = 0.01;
 
 /// What was read.
-enum Line {
+enum LineFile {
     /// The file of a web, with one layer.
     Web(Box<WebFile>),
     /// A case.
@@ -114,14 +114,14 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     let line = read(air)?;
     let refuse = |fault: Fault| Error::File(Box::new(Problem::with_path(&air.source.case, fault)));
     let (case, curtain, input, notes) = match &line {
-        Line::Web(file) => {
+        LineFile::Web(file) => {
             let case = match &file.spec.layers[..] {
                 [layer] => layer.source.case().ok_or_else(|| refuse(no_case()))?,
                 layers => return Err(refuse(several(layers.len())).into()),
             };
             (case, file.spec.curtain(0), Input::Web(&file.spec), &file.notes)
         }
-        Line::Case(case, notes) => (&**case, Curtain::of_spinline(case), Input::Case(case), notes),
+        LineFile::Case(case, notes) => (&**case, Curtain::of_spinline(case), Input::Case(case), notes),
     };
     if let Some(fault) = Sources::fault(case) {
         return Err(refuse(fault).into());
@@ -150,15 +150,15 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
 }
 
 /// The line, from the file of a web or from a case.
-fn read(air: &Air) -> Result<Line, Failure> {
+fn read(air: &Air) -> Result<LineFile, Failure> {
     let (path, quiet) = (&air.source.case, air.output.quiet);
     if !is_standard(path) && kind_of(path) == FileKind::Web {
         let set = overrides(&air.source.set);
         let file = settled(air.threads, quiet, |resources| read_web(path, set.with(resources)))?;
-        return Ok(Line::Web(Box::new(file)));
+        return Ok(LineFile::Web(Box::new(file)));
     }
     let (case, notes) = settled(air.threads, quiet, |resources| air.source.read(&[], resources))?;
-    Ok(Line::Case(Box::new(case), notes))
+    Ok(LineFile::Case(Box::new(case), notes))
 }
 
 fn no_filaments() -> Fault {

@@ -15,7 +15,7 @@ use spunlaid::input::paper::{
     in_scheme, table1, time_steps,
 };
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
-use spunlaid::simulation::{Keep, KeepShapes, Number, Place, Results, RunControl, SpectrumPoint};
+use spunlaid::simulation::{CurveValue, Keep, KeepShapes, Number, Results, RunControl, SpectrumPoint};
 use spunlaid_charts::Figure;
 use spunlaid_results::figures::paper as draw;
 use spunlaid_results::folders::products::PaperFolder;
@@ -200,7 +200,7 @@ impl PaperResults {
         trend.points.iter().map(|&(value, point)| TrendPoint::new(value, &self.points[point])).collect()
     }
 
-    fn errors(&self) -> Vec<(f64, Vec<Place>)> {
+    fn errors(&self) -> Vec<(f64, Vec<CurveValue>)> {
         self.steps
             .iter()
             .map(|(step, results)| (*step, results.curve("work_error_over_time").to_vec()))

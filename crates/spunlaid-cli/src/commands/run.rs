@@ -21,7 +21,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (mut case, mut notes) = read(run)?;
     let (name, output) = (name_of(&run.source.case, FileKind::Case, ["case", "fibre"]), &run.output);
     let (folder, origin) = (output.optional_folder(&name), invocation.origin_of([&run.source.case]));
-    let mut delivery = Delivery::open::<files::Run>(folder, origin, output, &run.figures.files())?;
+    let mut delivery = Delivery::open::<files::RunFolder>(folder, origin, output, &run.figures.files())?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = run_control(run.threads, &fibre_steps);
@@ -42,7 +42,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     notes.extend([&lost, &outside, &coarse].into_iter().flatten().cloned());
     let checks = if flown.paths.is_some() { plans.before_flight() } else { plans.stopped() };
     let (case, drawn) = (Arc::new(case), OnceLock::new());
-    let mut written = files::Run { name, case, results, checks, notes, performance, drawn };
+    let mut written = files::RunFolder { name, case, results, checks, notes, performance, drawn };
     if let Err(failure) = delivery.publish(&written, run.threads) {
         // What is kept goes first, since the folder above it is removed only if it is empty.
         drop(flown.kept);

@@ -3,7 +3,7 @@
 use crate::numbers::capitalised;
 use spunlaid::ground::Vec3;
 use spunlaid::input::paper::{LateralEstimates, Parameter, TrendPoint};
-use spunlaid::simulation::{Place, SpectrumPoint};
+use spunlaid::simulation::{CurveValue, SpectrumPoint};
 use spunlaid_charts::palette::{BLUE, GREEN, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
 
@@ -75,7 +75,7 @@ pub fn final_shape(shape: &[Vec3<f64>]) -> Figure {
 }
 
 /// Figure 8b: the work check over time for several time steps [s].
-pub fn step_errors(runs: &[(f64, Vec<Place>)]) -> Figure {
+pub fn step_errors(runs: &[(f64, Vec<CurveValue>)]) -> Figure {
     let mut chart = Chart::new(
         "figure_8b",
         "Error of the work for three time steps",

@@ -114,7 +114,7 @@ pub fn fly(
 
 /// Everything of a run that goes into the files.
 #[derive(Debug)]
-pub struct Run {
+pub struct RunFolder {
     /// What the run is called: the name of the case file.
     pub name: String,
     /// The case.
@@ -131,7 +131,7 @@ pub struct Run {
     pub drawn: OnceLock<Vec<Figure>>,
 }
 
-impl Run {
+impl RunFolder {
     /// Warnings and remarks, with those of the checks.
     fn all_notes(&self) -> Vec<String> {
         let doubts =
@@ -141,7 +141,7 @@ impl Run {
 }
 
 /// The tables are those of [`fly`].
-impl Contents for Run {
+impl Contents for RunFolder {
     const ENTRIES: &'static [&'static str] = ENTRIES;
     const OF_ONE_FORMAT: &'static [&'static str] = &["end_node.parquet", "energy.parquet", "laid.parquet"];
 

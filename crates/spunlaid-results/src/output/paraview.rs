@@ -57,7 +57,7 @@ pub(super) fn collection(series: &[(f64, String)]) -> String {
 
 /// Writes what fed fibres have laid, a line for each kept replicate, in the coordinates of the belt.
 pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<(), Failure> {
-    let lines: Vec<Line> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
+    let lines: Vec<Polyline> = trajectories.iter().filter(|t| !t.laid.is_empty()).map(laid_line).collect();
     if lines.is_empty() {
         Ok(())
     } else {
@@ -68,32 +68,32 @@ pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<
 /// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from
 /// the window's corner [m].
 pub fn write_strands(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
-    let line = |strand: &Strand| Line {
+    let line = |strand: &Strand| Polyline {
         number: strand.layer as u64 + 1,
         points: strand.points.iter().map(|[cd, md]| Vec3::new(*md, *cd, 0.0)).collect(),
         data: vec![vec![strand.filament as f64 + 1.0; strand.points.len()]],
     };
-    let lines: Vec<Line> = strands.iter().map(line).collect();
+    let lines: Vec<Polyline> = strands.iter().map(line).collect();
     staging.write("fibres.vtp", poly_data("layer", &["filament"], &lines))
 }
 
-fn laid_line(trajectory: &Trajectory) -> Line {
+fn laid_line(trajectory: &Trajectory) -> Polyline {
     let points = trajectory.laid.iter();
-    Line {
+    Polyline {
         number: trajectory.replicate + 1,
         points: points.clone().map(|p| Vec3::new(0.0, p.md, p.cd)).collect(),
         data: vec![points.clone().map(|p| p.fed).collect(), points.map(|p| p.time).collect()],
     }
 }
 
-fn shape_line(replicate: u64, shape: Shape, rest_length: f64) -> Line {
+fn shape_line(replicate: u64, shape: Shape, rest_length: f64) -> Polyline {
     let points = shape.position;
     let distance = (0..points.len()).map(|i| i as f64 * rest_length).collect();
-    Line { number: replicate + 1, points, data: vec![distance] }
+    Polyline { number: replicate + 1, points, data: vec![distance] }
 }
 
 /// A line of a VTK file.
-struct Line {
+struct Polyline {
     /// Of the replicate, counted from 1, or of the layer.
     number: u64,
     /// [m]
@@ -103,7 +103,7 @@ struct Line {
 }
 
 /// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
-fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
+fn poly_data(numbered: &str, names: &[&str], lines: &[Polyline]) -> String {
     let count: usize = lines.iter().map(|line| line.points.len()).sum();
     let points: String = lines
         .iter()
@@ -114,7 +114,7 @@ fn poly_data(numbered: &str, names: &[&str], lines: &[Line]) -> String {
         let values = values.map(|value| value + " ").collect::<String>();
         format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">\n{values}\n</DataArray>\n")
     };
-    let number = |line: &Line| std::iter::repeat_n(line.number.to_string(), line.points.len());
+    let number = |line: &Polyline| std::iter::repeat_n(line.number.to_string(), line.points.len());
     let number = array("Int32", numbered, &mut lines.iter().flat_map(number));
     let data = |(i, name): (usize, &&str)| {
         let values = lines.iter().flat_map(|line| &line.data[i]);

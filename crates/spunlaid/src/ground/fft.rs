@@ -62,7 +62,7 @@ impl InverseTransform {
     /// Transforms `data` in place.
     pub(crate) fn run(&self, data: &mut Vec<Complex>) {
         let mut scratch = vec![Complex::default(); data.len()];
-        Isa::detect().run(Run { transform: self, data, scratch: &mut scratch });
+        Isa::detect().run(TransformTask { transform: self, data, scratch: &mut scratch });
     }
 
     /// Transforms `data` in place, with `scratch` of the same size.
@@ -90,13 +90,13 @@ impl InverseTransform {
     }
 }
 
-struct Run<'a> {
+struct TransformTask<'a> {
     transform: &'a InverseTransform,
     data: &'a mut Vec<Complex>,
     scratch: &'a mut Vec<Complex>,
 }
 
-impl Task for Run<'_> {
+impl Task for TransformTask<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -52,15 +52,15 @@ type Places = BTreeMap<Key, Records>;
 /// small piece of memory for each would lie between the large ones of flights, which could not be used again.
 #[derive(Debug)]
 struct Records {
-    first: Place,
+    first: RowPlace,
     more: Option<Box<More>>,
 }
 
 #[derive(Debug, Default)]
-struct More(Vec<Place>);
+struct More(Vec<RowPlace>);
 
 impl Records {
-    fn all(&self) -> impl Iterator<Item = Place> {
+    fn all(&self) -> impl Iterator<Item = RowPlace> {
         let more = self.more.iter().flat_map(|more| &more.0);
         std::iter::once(self.first).chain(more.copied())
     }
@@ -72,7 +72,7 @@ impl<T: Read + Write + Seek + std::fmt::Debug + Send> Store for T {}
 
 /// Where a record begins, and how many numbers it has.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct RowPlace {
     at: u64,
     count: usize,
 }
@@ -208,7 +208,7 @@ impl Log {
         rows.store.seek(SeekFrom::Start(at))?;
         rows.store.write_all(&bytes)?;
         rows.end += bytes.len() as u64;
-        enter(&mut rows.places, mark, key, Place { at, count });
+        enter(&mut rows.places, mark, key, RowPlace { at, count });
         Ok(())
     }
 
@@ -230,9 +230,9 @@ impl Log {
 
     /// The numbers under a key, as they were added, piece by piece.
     pub fn pieces(&self, key: Key) -> impl Iterator<Item = io::Result<Vec<f64>>> {
-        let places: Vec<Place> =
+        let places: Vec<RowPlace> =
             lock(&self.rows).places.get(&key).into_iter().flat_map(Records::all).collect();
-        places.into_iter().map(|Place { at, count }| {
+        places.into_iter().map(|RowPlace { at, count }| {
             let mut bytes = vec![0; (FRAME + count) * BYTES];
             let mut rows = lock(&self.rows);
             rows.store.seek(SeekFrom::Start(at))?;
@@ -248,7 +248,7 @@ fn unlocked(rows: &mut Mutex<Rows>) -> &mut Rows {
     rows.get_mut().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn enter(places: &mut Places, mark: u64, key: Key, place: Place) {
+fn enter(places: &mut Places, mark: u64, key: Key, place: RowPlace) {
     if mark == MARKS[1] {
         places.remove(&key);
     } else {
@@ -289,7 +289,7 @@ fn scan(file: &File, start: u64) -> io::Result<(Places, u64, u64, bool)> {
             reader.read_exact(&mut bytes[HEAD * BYTES..])?;
             if checked(&bytes).is_some() {
                 damaged += u64::from(at > end);
-                enter(&mut places, mark, key, Place { at, count: count as usize });
+                enter(&mut places, mark, key, RowPlace { at, count: count as usize });
                 at += bytes.len() as u64;
                 end = at;
                 torn = at < length;

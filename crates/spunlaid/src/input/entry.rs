@@ -2,7 +2,7 @@
 
 use super::FORMAT_VERSION;
 use super::source::{Source, fit};
-use crate::fibre::case::keys::{FileKind, Kind, Value};
+use crate::fibre::case::keys::{DataFile, Kind, Value};
 use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Dimension, Fault, Finding, Problem, UnitAdvice, Vec3};
@@ -137,7 +137,7 @@ pub(super) fn read(
         }
         (Kind::Switch, DeValue::Boolean(switch)) => Value::Text(switch.to_string()),
         (Kind::File(file), DeValue::String(text)) if file.is_word(text) => Value::Text(text.to_string()),
-        (Kind::File(FileKind::Records), DeValue::Array(list)) if !list.is_empty() => {
+        (Kind::File(DataFile::Records), DeValue::Array(list)) if !list.is_empty() => {
             let paths = list.iter().map(|one| one.get_ref().as_str().map(&beside));
             Value::Paths(paths.collect::<Option<_>>().ok_or_else(|| wrong(kind(value)))?)
         }

@@ -3,7 +3,7 @@
 use super::data::DataFiles;
 use super::written_values::{WrittenValue, WrittenValues, sorted};
 use crate::air::{FieldLayout, Flow, RecordLayout};
-use crate::fibre::case::keys::{self, Content, FileKind, Key, Kind, Omission, Value};
+use crate::fibre::case::keys::{self, Content, DataFile, Key, Kind, Omission, Value};
 use crate::fibre::{Case, Line, Note, Remark, Spinline};
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Fault, FileError};
@@ -167,7 +167,7 @@ fn field_layout(key_values: &WrittenValues) -> FieldLayout {
 /// The content of the files that a key names, and what is said of them.
 fn load(
     files: &DataFiles,
-    kind: FileKind,
+    kind: DataFile,
     paths: &[PathBuf],
     key_values: &WrittenValues,
 ) -> Result<(Content, Vec<Remark>), FileError> {

@@ -15,9 +15,9 @@ pub mod one_air;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use ensemble::{
-    CellSource, Change, Curtain, Curve, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
-    KeepShapes, LaidCurves, LostFibre, Number, Place, Recorder, Refinement, Results, RunControl, RunPaths,
-    Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
+    CellSource, Change, Curtain, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans,
+    Job, Keep, KeepShapes, LaidCurves, LostFibre, Number, Recorder, Refinement, Results, RunControl,
+    RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub(crate) use layers::SAME;
 pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};

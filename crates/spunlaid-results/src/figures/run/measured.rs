@@ -2,7 +2,7 @@
 
 use crate::figures::with_unit;
 use crate::numbers::significant;
-use spunlaid::simulation::{Curve, Kind, Measure, Place, Results, observe};
+use spunlaid::simulation::{Curve, CurveValue, Kind, Measure, Results, observe};
 use spunlaid_charts::palette::{BLUE, GREEN, PURPLE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Rose, Series, even};
 
@@ -99,9 +99,9 @@ fn styled(i: usize, name: &str) -> Series {
 }
 
 /// The places in the units of the axes.
-fn scaled(curve: &Curve, per_si: f64) -> Vec<Place> {
+fn scaled(curve: &Curve, per_si: f64) -> Vec<CurveValue> {
     let factor = curve.measure.unit.per_si;
-    let scaled = |place: &Place| Place {
+    let scaled = |place: &CurveValue| CurveValue {
         at: place.at * per_si,
         mean: place.mean * factor,
         standard_error: place.standard_error.map(|error| error * factor),
@@ -111,8 +111,8 @@ fn scaled(curve: &Curve, per_si: f64) -> Vec<Place> {
 }
 
 /// A thin line with markers and error bars at so many of the places.
-fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place], marked: usize) -> Chart {
-    let point = |place: &Place| (place.at, place.mean, place.standard_error);
+fn profile(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue], marked: usize) -> Chart {
+    let point = |place: &CurveValue| (place.at, place.mean, place.standard_error);
     let line = even(places.len(), LINED).into_iter().map(|k| (places[k].at, places[k].mean));
     let marked = even(places.len(), marked).into_iter().map(|k| point(&places[k]));
     let all = places.iter().map(point).collect();
@@ -124,7 +124,7 @@ fn profile(chart: Chart, i: usize, curve: &Curve, places: &[Place], marked: usiz
 }
 
 /// A line with a band of one standard error to both sides. What was fitted to a measured curve has its colour, dashed.
-fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart {
+fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue]) -> Chart {
     let colour = if i.is_multiple_of(2) { BLUE } else { VERMILION };
     let points = places.iter().map(|place| (place.at, place.mean));
     let full = places.iter().map(|place| (place.at, place.mean, place.standard_error)).collect();
@@ -132,7 +132,7 @@ fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[Place]) -> Chart
     if i >= MEASURED {
         return chart.line(series.dashed(&[7.0, 4.0]).width(1.4), points);
     }
-    let error = |place: &Place| place.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0);
+    let error = |place: &CurveValue| place.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0);
     let band = places.iter().map(|place| (place.at, place.mean - error(place), place.mean + error(place)));
     chart.band(Series::new("", colour).adorning(), band).line(series.width(1.8), points)
 }
@@ -165,16 +165,17 @@ fn mean_sentence(replicates: usize) -> String {
 }
 
 /// The mean over time, and a band from it to the largest of any replicate.
-fn series(chart: Chart, i: usize, curve: &Curve, places: &[Place], replicates: usize) -> Chart {
+fn series(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue], replicates: usize) -> Chart {
     let each = places.len().div_ceil(INSTANTS).max(1);
-    let together = |some: &[Place]| {
-        let known: Vec<&Place> = some.iter().filter(|place| place.mean.is_finite()).collect();
+    let together = |some: &[CurveValue]| {
+        let known: Vec<&CurveValue> = some.iter().filter(|place| place.mean.is_finite()).collect();
         let mean = known.iter().map(|place| place.mean).sum::<f64>() / known.len() as f64;
         let largest = known.iter().map(|place| place.largest).fold(f64::NAN, f64::max);
         (some[some.len() / 2].at, mean, largest)
     };
     let band: Vec<_> = places.chunks(each).map(together).collect();
-    let all = |value: fn(&Place) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
+    let all =
+        |value: fn(&CurveValue) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };
@@ -203,7 +204,7 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
     chart.vertical(line.dashed(dash).width(1.2), frequency)
 }
 
-fn caption(declared: &observe::Figure, kind: Kind, places: &[Place], replicates: usize) -> String {
+fn caption(declared: &observe::Figure, kind: Kind, places: &[CurveValue], replicates: usize) -> String {
     let note = match (kind, replicates) {
         (Kind::Spectrum, _) => {
             " Dashed: the crossing frequency, half the number of sign changes per second.".to_owned()

@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 
 /// The results of a run.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct ComparedRun {
     pub(super) curves: Curves,
     summary: Json,
 }
 
-impl Run {
+impl ComparedRun {
     pub(super) fn read(folder: &Path, name: String) -> Result<Self, Failure> {
         let summary = read_summary_of_run(folder)?;
         Ok(Self { curves: Curves { name, rows: curves(&folder.join("figures")) }, summary })

@@ -1,7 +1,7 @@
 //! Runs side by side: the means of their measures, and their curves.
 
 use super::Found;
-use super::run::Run;
+use super::run::ComparedRun;
 use crate::Failure;
 use crate::figures::overlaid_figures;
 use crate::output::comparison::{ComparedMeasure, Comparison};
@@ -26,18 +26,18 @@ const OF_TURBULENCE: [&str; 10] = [
 
 /// Every run against the first, and their curves in one picture each.
 pub(super) fn compared(folders: &[PathBuf], names: Vec<String>) -> Result<Found, Failure> {
-    let runs = folders.iter().zip(names).map(|(folder, name)| Run::read(folder, name));
-    let runs: Vec<Run> = runs.collect::<Result<_, _>>()?;
+    let runs = folders.iter().zip(names).map(|(folder, name)| ComparedRun::read(folder, name));
+    let runs: Vec<ComparedRun> = runs.collect::<Result<_, _>>()?;
     let comparisons = runs.iter().skip(1).map(|other| compare_with(&runs[0], other)).collect();
     let curves: Vec<_> = runs.into_iter().map(|run| run.curves).collect();
     Ok(Found { comparisons, figures: overlaid_figures(&curves), pictures: None, notes: Vec::new() })
 }
 
-fn compare_with(first: &Run, other: &Run) -> Comparison {
+fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
     let differs = OF_TURBULENCE.iter().find(|path| first.at(path) != other.at(path));
     let pairs = differs.is_none().then(|| first.replicates().min(other.replicates()) as usize);
     let measure = |measure: &&'static Measure| {
-        let values_of_run = |run: &Run| run.values(measure.group.name, measure.column);
+        let values_of_run = |run: &ComparedRun| run.values(measure.group.name, measure.column);
         let values = [values_of_run(first)?, values_of_run(other)?];
         let difference = match pairs {
             Some(_) => Difference::paired(&values[0], &values[1]),

@@ -2,7 +2,7 @@
 //! once in forty times.
 
 use super::polynomials::Polynomials;
-use super::search::{Place, residuals_of, weights_at};
+use super::search::{SearchState, residuals_of, weights_at};
 use super::surface::Surface;
 use super::values::{Values, least_misfit};
 use super::webs::Webs;
@@ -48,7 +48,7 @@ pub(super) struct Ends {
 /// As [`Webs::trial`].
 pub(super) fn ends(
     webs: &mut Webs<'_>,
-    place: &Place,
+    place: &SearchState,
     values: &Values,
     other_errors: &Matrix,
 ) -> Result<Vec<Ends>, Error> {
@@ -70,7 +70,7 @@ pub(super) fn ends(
 
 /// Seeks the ends of a key's interval.
 struct Search<'a> {
-    place: &'a Place,
+    place: &'a SearchState,
     values: &'a Values,
     other_errors: &'a Matrix,
     /// Index of the key among those that change something.
@@ -113,8 +113,12 @@ impl Search<'_> {
             }
             self.reach.iter_mut().zip(&to).for_each(|(reach, to)| *reach = reach.max(1.05 * to.abs()));
             let (_, slopes) = Polynomials::new(webs, place, self.reach).at(&to);
-            let end_place =
-                Place { trial, weights: weights_at(webs, trial)?, slopes: slopes.clone(), settled: true };
+            let end_place = SearchState {
+                trial,
+                weights: weights_at(webs, trial)?,
+                slopes: slopes.clone(),
+                settled: true,
+            };
             let mean = webs.trials[trial].mean.clone();
             let keys = values.surface.keys.clone();
             let surface = Surface::new(webs, &end_place, keys, (mean, &slopes), self.other_errors);

@@ -1,6 +1,6 @@
 //! The numbers around a place as polynomials of the coordinates.
 
-use super::search::Place;
+use super::search::SearchState;
 use super::webs::Webs;
 use super::weights::Matrix;
 use crate::ground::statistics::{dot, inverse};
@@ -17,7 +17,7 @@ impl Polynomials {
     /// * `reach` – how far from the place trials count, by coordinate
     ///
     /// If too few trials lie there, they are the straight lines of the place.
-    pub(super) fn new(webs: &Webs<'_>, place: &Place, reach: &[f64]) -> Self {
+    pub(super) fn new(webs: &Webs<'_>, place: &SearchState, reach: &[f64]) -> Self {
         let keys = reach.len();
         let linear = || std::iter::once(Vec::new()).chain((0..keys).map(|i| vec![i]));
         let squares = || (0..keys).map(|i| vec![i, i]);
@@ -39,7 +39,12 @@ impl Polynomials {
         })
     }
 
-    fn from_terms(webs: &Webs<'_>, place: &Place, reach: &[f64], terms: Vec<Vec<usize>>) -> Option<Self> {
+    fn from_terms(
+        webs: &Webs<'_>,
+        place: &SearchState,
+        reach: &[f64],
+        terms: Vec<Vec<usize>>,
+    ) -> Option<Self> {
         let here = &webs.trials[place.trial].coordinates;
         // In parts of the reach, so that all terms are of like size.
         let step = |at: &[f64]| -> Vec<f64> {

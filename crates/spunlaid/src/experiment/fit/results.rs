@@ -3,7 +3,7 @@
 
 use super::interval::{Ends, IntervalEnd};
 use super::parameter::Parameter;
-use super::search::{Place, residuals_of};
+use super::search::{SearchState, residuals_of};
 use super::surface::{Surface, in_place_of_the_scan};
 use super::texture::Texture;
 use super::values::Values;
@@ -119,7 +119,7 @@ const ALIKE: f64 = 0.95;
 /// * `others` – standard errors of the logarithms by causes other than chance
 pub(super) fn collect_results(
     webs: &Webs<'_>,
-    place: &Place,
+    place: &SearchState,
     values: Values,
     (ends, others): (&[Ends], &Matrix),
 ) -> Fit {
@@ -194,7 +194,7 @@ fn correlate_keys(surface: &Surface, weights: &Matrix, count: usize) -> (Matrix,
 }
 
 /// What was compared.
-fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> Vec<FittedNumber> {
+fn numbers(webs: &Webs<'_>, place: &SearchState, surface: &Surface, others: &Matrix) -> Vec<FittedNumber> {
     let trial = &webs.trials[place.trial];
     let number = |i: usize| {
         let mean = trial.mean[i];
@@ -214,7 +214,7 @@ fn numbers(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -
 /// How many webs of the place, each taken as the scan, leave a larger misfit.
 ///
 /// * `others` – standard errors of the logarithms by causes other than chance
-fn count_larger_misfits(webs: &Webs<'_>, place: &Place, surface: &Surface, others: &Matrix) -> u64 {
+fn count_larger_misfits(webs: &Webs<'_>, place: &SearchState, surface: &Surface, others: &Matrix) -> u64 {
     let all = &webs.trials[place.trial].webs;
     let causes: Matrix = others.iter().chain(&webs.target.camera).cloned().collect();
     let left = |weights: &Matrix, apart: &[f64]| {
@@ -237,7 +237,7 @@ fn count_larger_misfits(webs: &Webs<'_>, place: &Place, surface: &Surface, other
 }
 
 /// All trials with their misfits.
-fn trials(webs: &Webs<'_>, place: &Place) -> Vec<FitTrial> {
+fn trials(webs: &Webs<'_>, place: &SearchState) -> Vec<FitTrial> {
     let trial = |trial: usize| FitTrial {
         values: webs.trials[trial].values.clone(),
         misfit: misfit(&place.weights, &residuals_of(webs, trial)),

@@ -26,7 +26,7 @@ const TIGHTER: f64 = 8.0;
 const TRIES: usize = 6;
 
 /// Where the search has come to.
-pub(super) struct Place {
+pub(super) struct SearchState {
     /// Index of the trial.
     pub(super) trial: usize,
     /// Slopes of the numbers by each key.
@@ -43,7 +43,7 @@ pub(super) struct Place {
 ///
 /// # Errors
 /// As [`Webs::trial`].
-pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> Result<Place, Error> {
+pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> Result<SearchState, Error> {
     let (mut damping, mut steps) = (DAMPING, vec![STEP; webs.parameters.len()]);
     let mut current_slopes = slopes(webs, trial, &steps, false)?;
     // Whether the slopes were found at this trial, or follow from those of an earlier one.
@@ -100,7 +100,7 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
     let to = next_coordinates(webs, trial, &weights, &slopes, &residuals_of(webs, trial), 0.0);
     let far = to.iter().zip(&webs.trials[trial].coordinates).map(|(to, from)| (to - from).abs());
     let settled = far.zip(&errors).all(|(far, error)| far <= LITTLE * error);
-    Ok(Place { trial, slopes, weights, settled })
+    Ok(SearchState { trial, slopes, weights, settled })
 }
 
 /// The index of the trial with the least misfit.

@@ -1,6 +1,6 @@
 //! What the trials around a place say together: the numbers there, their slopes, and how far off values are.
 
-use super::search::Place;
+use super::search::SearchState;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, mean_of, weights};
 use crate::ground::statistics::dot;
@@ -48,7 +48,7 @@ impl Surface {
     /// * `other_errors` – of the logarithms, by causes other than chance
     pub(super) fn new(
         webs: &Webs<'_>,
-        place: &Place,
+        place: &SearchState,
         mut keys: Vec<usize>,
         (numbers, slopes): (Vec<f64>, &Matrix),
         other_errors: &Matrix,
@@ -76,7 +76,7 @@ impl Surface {
     /// The step to the values with the least misfit, by key.
     ///
     /// * `from` – the step from the place to where these numbers are
-    pub(super) fn step(&self, webs: &Webs<'_>, place: &Place, from: &[f64]) -> Vec<f64> {
+    pub(super) fn step(&self, webs: &Webs<'_>, place: &SearchState, from: &[f64]) -> Vec<f64> {
         let at = webs.trials[place.trial].coordinates.iter().zip(from).map(|(place, from)| place + from);
         let at: Vec<f64> = at.collect();
         let residuals: Vec<f64> =
@@ -96,7 +96,7 @@ impl Surface {
 /// * `errors` – standard errors of the logarithms by further causes
 pub(super) fn in_place_of_the_scan(
     webs: &Webs<'_>,
-    place: &Place,
+    place: &SearchState,
     web: usize,
     errors: &[Vec<f64>],
 ) -> (Matrix, Vec<f64>) {

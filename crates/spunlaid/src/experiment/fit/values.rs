@@ -2,7 +2,7 @@
 //! has ended.
 
 use super::polynomials::Polynomials;
-use super::search::{Place, residuals_of};
+use super::search::{SearchState, residuals_of};
 use super::surface::Surface;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained};
@@ -32,7 +32,11 @@ pub(super) struct Values {
 ///
 /// # Errors
 /// As [`Webs::trial`].
-pub(super) fn values(webs: &mut Webs<'_>, place: &Place, other_errors: &Matrix) -> Result<Values, Error> {
+pub(super) fn values(
+    webs: &mut Webs<'_>,
+    place: &SearchState,
+    other_errors: &Matrix,
+) -> Result<Values, Error> {
     let start = webs.trials[place.trial].clone();
     let all = (0..webs.parameters.len()).collect();
     let mut surface = Surface::new(webs, place, all, (start.mean.clone(), &place.slopes), other_errors);
@@ -70,7 +74,7 @@ type Profile = (Vec<(f64, f64)>, f64);
 /// The least misfit for other values of a key, and how far from the place polynomials hold.
 fn profile(
     webs: &mut Webs<'_>,
-    place: &Place,
+    place: &SearchState,
     surface: &Surface,
     (index, error): (usize, f64),
 ) -> Result<Profile, Error> {
@@ -115,7 +119,7 @@ fn profile(
 /// straight lines serve.
 pub(super) fn least_misfit(
     webs: &Webs<'_>,
-    place: &Place,
+    place: &SearchState,
     surface: &Surface,
     (index, trial): (usize, usize),
 ) -> f64 {

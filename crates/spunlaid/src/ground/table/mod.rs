@@ -51,7 +51,7 @@ pub use head::{Head, scale};
 pub(crate) use logical::Meaning;
 pub(crate) use parquet::ParquetTable;
 pub(crate) use stamp::{FORMS, Stamp};
-use start::{Line, Lines};
+use start::{Lines, TextLine};
 use std::collections::VecDeque;
 use std::io::Read;
 use std::ops::Range;
@@ -76,7 +76,7 @@ pub(crate) enum FirstCell {
 #[derive(Debug)]
 pub struct Table<R> {
     lines: Lines<R>,
-    ahead: VecDeque<Line>,
+    ahead: VecDeque<TextLine>,
     heads: Vec<Head>,
     named: bool,
     header: u64,
@@ -85,7 +85,7 @@ pub struct Table<R> {
     decimals: Option<u8>,
     /// What is known of signs between thousands, for each column.
     digits: Vec<Digits>,
-    row: Line,
+    row: TextLine,
     cells: Vec<Range<usize>>,
 }
 
@@ -101,7 +101,7 @@ impl<R: Read> Table<R> {
         let mut lines = Lines::open(source, kind, skip)?;
         let mut ahead = VecDeque::new();
         while ahead.len() < LINES_AHEAD {
-            let mut line = Line::default();
+            let mut line = TextLine::default();
             if !lines.next(&mut line)? {
                 break;
             }
@@ -127,7 +127,7 @@ impl<R: Read> Table<R> {
             parting: start.parting,
             decimals: None,
             digits,
-            row: Line::default(),
+            row: TextLine::default(),
             cells: Vec::new(),
         })
     }

@@ -19,9 +19,9 @@ pub(super) struct Start {
 }
 
 /// Finds the first row and the names above it.
-pub(super) fn find(lines: &[Line]) -> Option<Start> {
+pub(super) fn find(lines: &[TextLine]) -> Option<Start> {
     // Lines that are not comments.
-    let is_content = |line: &Line| !is_comment(&line.text) && !line.is_blank();
+    let is_content = |line: &TextLine| !is_comment(&line.text) && !line.is_blank();
     let content: Vec<usize> = (0..lines.len()).filter(|i| is_content(&lines[*i])).collect();
     let text = |i: usize| lines[content[i]].text.as_str();
     let (first, parting) = numbers(content.len(), text).or_else(|| mixed(content.len(), text))?;
@@ -189,7 +189,7 @@ fn notes(names: &[String]) -> bool {
 
 /// A line that is not empty.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Line {
+pub(super) struct TextLine {
     /// Line number, from 1.
     pub(super) number: u64,
     /// The text without the end of the line. Tabs at its end remain, because they part cells that are empty.
@@ -198,7 +198,7 @@ pub(super) struct Line {
     pub(super) blank: u64,
 }
 
-impl Line {
+impl TextLine {
     /// Whether nothing but blanks and tabs is in it.
     pub(super) fn is_blank(&self) -> bool {
         self.text.trim().is_empty()
@@ -229,7 +229,7 @@ impl<R: Read> Lines<R> {
     }
 
     /// Reads the next line that is not empty; `false` at the end.
-    pub(super) fn next(&mut self, line: &mut Line) -> Result<bool, FileError> {
+    pub(super) fn next(&mut self, line: &mut TextLine) -> Result<bool, FileError> {
         line.blank = 0;
         loop {
             self.number += 1;

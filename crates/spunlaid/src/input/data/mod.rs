@@ -9,7 +9,7 @@ use crate::air::{
     RecordNumbers, Settings,
 };
 use crate::fibre::Remark;
-use crate::fibre::case::keys::{Content, FileKind as Kind};
+use crate::fibre::case::keys::{Content, DataFile};
 use crate::ground::threads::lock;
 use crate::ground::{FileError, FileKind, Vec3, file};
 use crate::input::file::text as text_of;
@@ -27,7 +27,7 @@ type Found = Result<(Content, Vec<Remark>), FileError>;
 pub(super) type Layouts = (RecordLayout, FieldLayout);
 
 /// A file by its path, what it is read as, and a text that tells different ways to read it apart.
-type FileKey = (PathBuf, Kind, String);
+type FileKey = (PathBuf, DataFile, String);
 
 /// The files read so far, of which a study names few.
 #[derive(Debug, Default)]
@@ -35,10 +35,10 @@ pub(super) struct DataFiles(Mutex<Vec<(FileKey, Found)>>);
 
 impl DataFiles {
     /// The content of a file that is kept from an earlier reading, or is read now.
-    pub(super) fn read(&self, kind: Kind, path: &Path, layouts: &Layouts) -> Found {
+    pub(super) fn read(&self, kind: DataFile, path: &Path, layouts: &Layouts) -> Found {
         let way = match kind {
-            Kind::Records => way_of(&layouts.0),
-            Kind::Field => way_of(&layouts.1),
+            DataFile::Records => way_of(&layouts.0),
+            DataFile::Field => way_of(&layouts.1),
             _ => String::new(),
         };
         let key = (path.to_owned(), kind, way);
@@ -52,21 +52,21 @@ impl DataFiles {
     }
 }
 
-fn read(kind: Kind, path: &Path, (record, field): &Layouts, way: &str) -> Found {
+fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Found {
     let content = match kind {
-        Kind::Profile => Content::Profile(table(path, FileKind::Table, profile::profile)?),
-        Kind::Spectrum => Content::Spectrum(table(path, FileKind::Table, profile::spectrum)?),
-        Kind::SpinlineAir => Content::SpinlineAir(table(path, FileKind::Table, profile::spinline_air)?),
-        Kind::Polymer => Content::Polymer(table(path, FileKind::Case, |bytes| {
+        DataFile::Profile => Content::Profile(table(path, FileKind::Table, profile::profile)?),
+        DataFile::Spectrum => Content::Spectrum(table(path, FileKind::Table, profile::spectrum)?),
+        DataFile::SpinlineAir => Content::SpinlineAir(table(path, FileKind::Table, profile::spinline_air)?),
+        DataFile::Polymer => Content::Polymer(table(path, FileKind::Case, |bytes| {
             polymer::read(&text_of(bytes.to_vec())?, &path.display().to_string())
         })?),
-        Kind::Field => {
+        DataFile::Field => {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, field)?;
             let content = Content::Field(from_file(path, checksum, field).with_parts(parts).read_as(way));
             return Ok((content, warnings.iter().map(|fault| Remark::warning(fault.to_string())).collect()));
         }
         // All that `spunlaid analyse` says is said of a record.
-        Kind::Records => {
+        DataFile::Records => {
             let columns = record.columns.iter().flat_map(|columns| columns.split(','));
             let settings = Layout {
                 rate: record.rate,

@@ -205,7 +205,7 @@ struct Spot {
 
 /// A straight line fitted to points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Line {
+struct StraightLine {
     slope: f64,
     /// Standard error of the slope, from the errors of the points.
     slope_error: f64,
@@ -214,14 +214,14 @@ struct Line {
 }
 
 /// The least-squares line.
-fn line(spots: &[Spot]) -> Line {
+fn line(spots: &[Spot]) -> StraightLine {
     let n = spots.len() as f64;
     let (mx, my) = (spots.iter().map(|s| s.x).sum::<f64>() / n, spots.iter().map(|s| s.y).sum::<f64>() / n);
     let sxx: f64 = spots.iter().map(|s| (s.x - mx).powi(2)).sum();
     let sxy: f64 = spots.iter().map(|s| (s.x - mx) * (s.y - my)).sum();
     let syy: f64 = spots.iter().map(|s| (s.y - my).powi(2)).sum();
     let variance: f64 = spots.iter().map(|s| ((s.x - mx) * s.error).powi(2)).sum();
-    Line { slope: sxy / sxx, slope_error: variance.sqrt() / sxx, r_squared: sxy * sxy / (sxx * syy) }
+    StraightLine { slope: sxy / sxx, slope_error: variance.sqrt() / sxx, r_squared: sxy * sxy / (sxx * syy) }
 }
 
 /// The difference of two points, divided by its standard error.

@@ -18,7 +18,7 @@ pub use finer::{
     Unchecked,
 };
 pub use order::in_order;
-pub use results::{Collector, Curve, LostFibre, Number, Place, Results};
+pub use results::{Collector, Curve, CurveValue, LostFibre, Number, Results};
 pub use shapes::{Shape, Shapes};
 pub use sources::{CellSource, Curtain, HeatSums, Sources};
 use std::collections::{BTreeMap, VecDeque};

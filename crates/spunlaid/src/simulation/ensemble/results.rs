@@ -67,12 +67,12 @@ pub struct Curve {
     /// Which measure.
     pub measure: &'static Measure,
     /// Its places along the fibre, times or frequencies, in their order.
-    pub places: Vec<Place>,
+    pub places: Vec<CurveValue>,
 }
 
 /// A point of a curve, in SI units; NaN if the measure is defined for no replicate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct CurveValue {
     /// Distance from the root [m], time [s] or frequency [Hz].
     pub at: f64,
     /// Mean over the replicates.
@@ -89,21 +89,21 @@ pub struct Collector {
     keep: usize,
     /// The values of the numbers, and the places and sums of the curves.
     numbers: Vec<(&'static Measure, Vec<f64>)>,
-    curves: Vec<(&'static Measure, Vec<f64>, Vec<Sums>)>,
+    curves: Vec<(&'static Measure, Vec<f64>, Vec<RunningMoments>)>,
     trajectories: Vec<Trajectory>,
     lost: Vec<LostFibre>,
 }
 
 /// Running mean and sum of squares over the replicates (Welford), and the largest.
 #[derive(Clone, Copy, Debug)]
-struct Sums {
+struct RunningMoments {
     count: f64,
     mean: f64,
     squares: f64,
     largest: f64,
 }
 
-impl Sums {
+impl RunningMoments {
     const NONE: Self = Self { count: 0.0, mean: 0.0, squares: 0.0, largest: f64::NAN };
 
     fn add(&mut self, value: f64) {
@@ -117,9 +117,9 @@ impl Sums {
         self.largest = self.largest.max(value);
     }
 
-    fn at(self, place: f64) -> Place {
+    fn at(self, place: f64) -> CurveValue {
         let Self { count, mean, squares, largest } = self;
-        Place {
+        CurveValue {
             at: place,
             mean: if count > 0.0 { mean } else { f64::NAN },
             standard_error: (count > 1.0).then(|| (squares / (count - 1.0) / count).sqrt()),
@@ -155,7 +155,7 @@ impl Results {
     /// What a fed fibre does on its way, for the load on its air; empty if that was not measured.
     pub fn way(&self) -> Vec<WayPlace> {
         let places = self.curve(FORCE_ON_AIR).iter().zip(self.curve(FIBRE_ON_WAY));
-        let place = |(force, fibre): (&Place, &Place)| WayPlace {
+        let place = |(force, fibre): (&CurveValue, &CurveValue)| WayPlace {
             distance: force.at,
             force: force.mean,
             standard_error: force.standard_error,
@@ -165,7 +165,7 @@ impl Results {
     }
 
     /// A curve by its measure's name; empty if there is none.
-    pub fn curve(&self, name: &str) -> &[Place] {
+    pub fn curve(&self, name: &str) -> &[CurveValue] {
         self.curves.iter().find(|curve| curve.measure.name == name).map_or(&[], |curve| &curve.places)
     }
 }
@@ -177,7 +177,7 @@ impl Collector {
             for (measure, value) in &trajectory.values {
                 match value {
                     Value::Curve(places, _) => {
-                        self.curves.push((measure, places.clone(), vec![Sums::NONE; places.len()]));
+                        self.curves.push((measure, places.clone(), vec![RunningMoments::NONE; places.len()]));
                     }
                     _ => self.numbers.push((measure, Vec::new())),
                 }

@@ -141,7 +141,7 @@ pub fn identify(sigmas: [f64; 2], step: f64, correlations: [&[f64]; 2]) -> Optio
     let products = products(&wanted, middle, &rough, Size::COARSE);
     let best = (0..WIDTH).min_by(|a, b| products[*a][*a].total_cmp(&products[*b][*b])).unwrap_or(0);
     let (low, high) = (rough[best.saturating_sub(1)], rough[(best + 1).min(WIDTH - 1)]);
-    let fit = Fit::between(low, high, &wanted, middle);
+    let fit = NoiseMisfit::between(low, high, &wanted, middle);
     let (found, mean_square) = fit.least();
     let near = |end: f64| (found - end).abs() < 1e-6;
     if ends.into_iter().any(near) {
@@ -256,14 +256,14 @@ fn products(
 
 /// The mean square of the residuals as a function of the logarithm of the relative noise within a range: the
 /// residuals are interpolated by the polynomial through eight Chebyshev points.
-struct Fit {
+struct NoiseMisfit {
     low: f64,
     high: f64,
     points: [f64; WIDTH],
     products: [[f64; WIDTH]; WIDTH],
 }
 
-impl Fit {
+impl NoiseMisfit {
     fn between(low: f64, high: f64, wanted: &[FitTarget; 2], middle: f64) -> Self {
         let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / WIDTH as f64;
         let points = from_fn(|i| 0.5 * (low + high) - 0.5 * (high - low) * libm::cos(angle(i)));

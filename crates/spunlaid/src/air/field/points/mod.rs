@@ -56,7 +56,7 @@ impl Points {
     fn site(&self, node: Node, nodes: &[Node]) -> Site {
         let mut nearest = [(0.0, 0); NEIGHBOURS[NEIGHBOURS.len() - 1] + 1];
         for wanted in NEIGHBOURS {
-            let mut fit = Fit::new(self.plane, wanted);
+            let mut fit = GradientFit::new(self.plane, wanted);
             let mut reach_2 = 0.0;
             let nearest = &mut nearest[..=wanted];
             self.tree.nearest(node.at, nearest);
@@ -153,7 +153,7 @@ const RIDGE: f64 = 1e-13;
 /// A weighted least-squares fit. The weight of a neighbour is its distance to the power −2, so that only its
 /// direction counts.
 #[derive(Clone, Copy)]
-struct Fit {
+struct GradientFit {
     /// Sum of products of directions.
     normal: [[f64; 3]; 3],
     /// Sum of products of a direction and the change per distance.
@@ -161,7 +161,7 @@ struct Fit {
     neighbours: f64,
 }
 
-impl Fit {
+impl GradientFit {
     /// * `plane` – axes along which nothing changes
     /// * `most` – largest number of neighbours that will be added
     fn new(plane: [bool; 3], most: usize) -> Self {

@@ -42,7 +42,7 @@ pub(super) struct MeshParts {
 }
 
 /// How VTK's types of cells are treated.
-enum Kind {
+enum CellType {
     /// A point, a line, or a face of no use.
     Flat,
     /// A face whose corners stand in order around it.
@@ -59,28 +59,28 @@ enum Kind {
     Polyhedron,
 }
 
-fn kind(number: i64) -> Option<Kind> {
+fn kind(number: i64) -> Option<CellType> {
     Some(match number {
-        0..=4 | 21 | 35 | 68 | 75 => Kind::Flat,
-        5 | 7 | 9 => Kind::Polygon,
-        6 => Kind::Strip,
-        8 => Kind::Pixel,
-        22 | 34 | 69 | 76 => Kind::HigherOrderFace(3),
-        23 | 28 | 30 | 70 | 77 => Kind::HigherOrderFace(4),
+        0..=4 | 21 | 35 | 68 | 75 => CellType::Flat,
+        5 | 7 | 9 => CellType::Polygon,
+        6 => CellType::Strip,
+        8 => CellType::Pixel,
+        22 | 34 | 69 | 76 => CellType::HigherOrderFace(3),
+        23 | 28 | 30 | 70 | 77 => CellType::HigherOrderFace(4),
         // A quadratic polygon has a point on each of its edges.
-        36 => Kind::HigherOrderFace(0),
-        10 => Kind::Linear(Shape::Tetrahedron),
-        11 => Kind::Voxel,
-        12 => Kind::Linear(Shape::Hexahedron),
-        13 => Kind::Linear(Shape::Wedge),
-        14 => Kind::Linear(Shape::Pyramid),
-        15 => Kind::Linear(Shape::PentagonalPrism),
-        16 => Kind::Linear(Shape::HexagonalPrism),
-        24 | 71 | 78 => Kind::HigherOrder(Shape::Tetrahedron),
-        25 | 29 | 33 | 72 | 79 => Kind::HigherOrder(Shape::Hexahedron),
-        26 | 31 | 32 | 73 | 80 => Kind::HigherOrder(Shape::Wedge),
-        27 | 37 | 74 | 81 => Kind::HigherOrder(Shape::Pyramid),
-        42 => Kind::Polyhedron,
+        36 => CellType::HigherOrderFace(0),
+        10 => CellType::Linear(Shape::Tetrahedron),
+        11 => CellType::Voxel,
+        12 => CellType::Linear(Shape::Hexahedron),
+        13 => CellType::Linear(Shape::Wedge),
+        14 => CellType::Linear(Shape::Pyramid),
+        15 => CellType::Linear(Shape::PentagonalPrism),
+        16 => CellType::Linear(Shape::HexagonalPrism),
+        24 | 71 | 78 => CellType::HigherOrder(Shape::Tetrahedron),
+        25 | 29 | 33 | 72 | 79 => CellType::HigherOrder(Shape::Hexahedron),
+        26 | 31 | 32 | 73 | 80 => CellType::HigherOrder(Shape::Wedge),
+        27 | 37 | 74 | 81 => CellType::HigherOrder(Shape::Pyramid),
+        42 => CellType::Polyhedron,
         _ => return None,
     })
 }
@@ -110,7 +110,7 @@ impl MeshLists {
         Ok(MeshParts { are_faces: !faces.cells.is_empty(), flat: solid.flat, ..faces })
     }
 
-    fn kind(&self, place: usize) -> Result<Kind, Fault> {
+    fn kind(&self, place: usize) -> Result<CellType, Fault> {
         let number = self.types[place];
         kind(number).ok_or_else(|| {
             Fault::new(
@@ -130,15 +130,15 @@ impl MeshLists {
             }
         };
         match self.kind(place)? {
-            Kind::Polygon => push(&face),
-            Kind::Pixel => {
+            CellType::Polygon => push(&face),
+            CellType::Pixel => {
                 if let [_, _, third, fourth] = face.as_mut_slice() {
                     std::mem::swap(third, fourth);
                 }
                 push(&face);
             }
-            Kind::Strip => face.windows(3).for_each(push),
-            Kind::HigherOrderFace(corners) => {
+            CellType::Strip => face.windows(3).for_each(push),
+            CellType::HigherOrderFace(corners) => {
                 face.truncate(if corners == 0 { face.len() / 2 } else { corners });
                 push(&face);
                 parts.higher_order += 1;
@@ -153,12 +153,16 @@ impl MeshLists {
         let corners =
             |cell: &[i64]| cell.iter().map(|point| checked(*point, points)).collect::<Result<Vec<u32>, _>>();
         match self.kind(place)? {
-            Kind::Flat | Kind::Polygon | Kind::Pixel | Kind::Strip | Kind::HigherOrderFace(_) => {
+            CellType::Flat
+            | CellType::Polygon
+            | CellType::Pixel
+            | CellType::Strip
+            | CellType::HigherOrderFace(_) => {
                 parts.flat += 1;
                 return Ok(());
             }
-            Kind::Linear(shape) => parts.cells.push(shape, &corners(own)?)?,
-            Kind::Voxel => {
+            CellType::Linear(shape) => parts.cells.push(shape, &corners(own)?)?,
+            CellType::Voxel => {
                 let mut corners = corners(own)?;
                 if corners.len() == Shape::Hexahedron.corners() {
                     // Its points are listed in rows, not around the face.
@@ -167,12 +171,12 @@ impl MeshLists {
                 }
                 parts.cells.push(Shape::Hexahedron, &corners)?;
             }
-            Kind::HigherOrder(shape) => {
+            CellType::HigherOrder(shape) => {
                 let taken = own.len().min(shape.corners());
                 parts.cells.push(shape, &corners(&own[..taken])?)?;
                 parts.higher_order += 1;
             }
-            Kind::Polyhedron => {
+            CellType::Polyhedron => {
                 let faces = self.faces(place, own)?;
                 let faces: Vec<Vec<u32>> = faces.into_iter().map(corners).collect::<Result<_, _>>()?;
                 parts.cells.push_polyhedron(faces.iter().map(Vec::as_slice));

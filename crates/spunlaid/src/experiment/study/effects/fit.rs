@@ -44,7 +44,7 @@ impl Term {
 }
 
 /// A least-squares fit over some points.
-pub(super) struct Fit<'a> {
+pub(super) struct EffectsFit<'a> {
     pub(super) study: &'a Study,
     pub(super) points: Vec<usize>,
     /// Factors whose effects it tells, with their least and greatest values; words are in no order.
@@ -58,7 +58,7 @@ pub(super) struct Fit<'a> {
 pub(super) type Weighted = (Contrast, Vec<f64>);
 
 /// The fits of a study: one of all points, or one for each factor of a one-at-a-time design.
-pub(super) fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
+pub(super) fn fits(study: &Study) -> Result<Vec<EffectsFit<'_>>, Refusal> {
     let count = study.factors.len();
     if study.design == Design::OneAtATime {
         let base = &study.points[0].values;
@@ -69,12 +69,12 @@ pub(super) fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
                     (0..count).all(|other| other == factor || values[other] == base[other])
                 };
                 let points: Vec<usize> = (0..study.points.len()).filter(is_alone).collect();
-                Fit::new(study, points, &[factor])
+                EffectsFit::new(study, points, &[factor])
             })
             .collect();
     }
     let (all, factors): (Vec<usize>, Vec<usize>) = ((0..study.points.len()).collect(), (0..count).collect());
-    let fit = Fit::new(study, all, &factors)?;
+    let fit = EffectsFit::new(study, all, &factors)?;
     let (points, keys) = (fit.points.len(), count);
     let needed = fit.terms.len() + 2;
     if points < needed {
@@ -84,7 +84,7 @@ pub(super) fn fits(study: &Study) -> Result<Vec<Fit<'_>>, Refusal> {
     Ok(vec![if study.design.draws() { fit.with_curvature() } else { fit }])
 }
 
-impl<'a> Fit<'a> {
+impl<'a> EffectsFit<'a> {
     fn new(study: &'a Study, points: Vec<usize>, factors: &[usize]) -> Result<Self, Refusal> {
         let (mut terms, mut spans) = (Vec::new(), Vec::new());
         for &factor in factors {

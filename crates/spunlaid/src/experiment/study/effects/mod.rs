@@ -35,7 +35,7 @@ use super::journal::Journal;
 use super::{Design, Study};
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Effect, Error};
-use fit::{Fit, fits};
+use fit::{EffectsFit, fits};
 use solution::Solution;
 use std::cmp::Reverse;
 
@@ -141,7 +141,7 @@ impl Ranking {
 }
 
 /// Adjusted R² of the straight lines.
-fn explained(fits: &[Fit<'_>], solved: &[Solution], measure: usize) -> f64 {
+fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> f64 {
     let (mut from_lines, mut from_mean, mut free, mut all) = (0.0, 0.0, 0.0, 0.0);
     for (fit, solution) in fits.iter().zip(solved) {
         let lines = fit.terms.iter().filter(|term| term.is_main()).count() as f64;

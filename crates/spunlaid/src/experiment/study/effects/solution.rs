@@ -1,6 +1,6 @@
 //! The solution of a fit: coefficients, and effects with their intervals.
 
-use super::fit::{Fit, Weighted};
+use super::fit::{EffectsFit, Weighted};
 use super::{Contrast, Refusal};
 use crate::experiment::study::PointResults;
 use crate::experiment::study::journal::Journal;
@@ -21,7 +21,7 @@ pub(super) struct Solution {
 
 impl Solution {
     /// Reads the points of the fit twice, so that a large study takes no more memory than a small one.
-    pub(super) fn new(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
+    pub(super) fn new(fit: &EffectsFit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
         let fitted = match FittedCoefficients::read(fit, journal)? {
             Ok(fitted) => fitted,
             Err(refusal) => return Ok(Err(refusal)),
@@ -74,7 +74,7 @@ struct FittedCoefficients {
 }
 
 impl FittedCoefficients {
-    fn read(fit: &Fit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
+    fn read(fit: &EffectsFit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
         let zeros = || vec![vec![0.0; fit.size()]; fit.study.quantities.len()];
         let (mut xy, mut of_replicates, mut weights) = (zeros(), Vec::new(), Vec::new());
         let mut replicated = true;
@@ -117,7 +117,7 @@ impl FittedCoefficients {
     /// * `independent` – variance of the contrast from the replicates of independent phases
     fn effect(
         &self,
-        fit: &Fit<'_>,
+        fit: &EffectsFit<'_>,
         m: usize,
         rest: &Rest,
         (contrast, weights): &Weighted,
@@ -154,8 +154,8 @@ struct Rest {
     squares: f64,
     /// The part of them that the noise of the means explains.
     noise: f64,
-    about_lines: Sums,
-    about_mean: Sums,
+    about_lines: SquareSums,
+    about_mean: SquareSums,
     /// Variance of each contrast from the replicates; with independent phases only.
     contrasts: Vec<Variance>,
 }
@@ -163,7 +163,7 @@ struct Rest {
 impl Rest {
     /// Of each measure.
     fn read(
-        fit: &Fit<'_>,
+        fit: &EffectsFit<'_>,
         journal: &mut Journal,
         fitted: &FittedCoefficients,
         contrasts: &[Weighted],
@@ -205,12 +205,12 @@ impl Rest {
 
 /// Sums of numbers and of their squares.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+struct SquareSums {
     first: f64,
     second: f64,
 }
 
-impl Sums {
+impl SquareSums {
     fn add(&mut self, x: f64) {
         self.first += x;
         self.second += x * x;

@@ -18,7 +18,7 @@ mod varied;
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
-pub use value::{Content, FileKind, Kind, Sign, Value};
+pub use value::{Content, DataFile, Kind, Sign, Value};
 pub use varied::VariedKey;
 
 use super::Case;

@@ -1,6 +1,6 @@
 //! How a row of the table of keys is written.
 
-use super::value::{FileKind, Kind, SWITCH, Sign, Value};
+use super::value::{DataFile, Kind, SWITCH, Sign, Value};
 use super::{Condition, Key, Omission, Relations};
 use crate::air::{Flow, PlacedField};
 use crate::fibre::case::Case;
@@ -235,7 +235,7 @@ pub(crate) const fn choose(name: &'static str, names: fn() -> Vec<&'static str>)
     NewKey { varies: true, ..key(name, Kind::Choice(names)) }
 }
 
-pub(super) const fn file(name: &'static str, kind: FileKind) -> NewKey {
+pub(super) const fn file(name: &'static str, kind: DataFile) -> NewKey {
     key(name, Kind::File(kind))
 }
 

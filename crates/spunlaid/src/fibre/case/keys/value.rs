@@ -161,7 +161,7 @@ pub enum Sign {
 
 /// What a file contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FileKind {
+pub enum DataFile {
     /// Values along the fibre.
     Profile,
     /// A CFD solution.
@@ -176,7 +176,7 @@ pub enum FileKind {
     Polymer,
 }
 
-impl FileKind {
+impl DataFile {
     /// The words that a key takes in place of a file, and an example of a file.
     fn words(self) -> (Vec<&'static str>, &'static str) {
         match self {
@@ -212,7 +212,7 @@ pub enum Kind {
     /// Several lengths above zero.
     Lengths,
     /// The path of a file.
-    File(FileKind),
+    File(DataFile),
     /// What another key takes, in words.
     Other(&'static str),
 }
@@ -324,7 +324,7 @@ impl Kind {
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
             Self::Lengths => "a list of lengths, like [\"1 mm\", \"5 mm\"]".to_owned(),
-            Self::File(FileKind::Records) => {
+            Self::File(DataFile::Records) => {
                 "the path of a record, \"probe.csv\", or a list with one for each eddy".to_owned()
             }
             Self::File(_) => "the path of a file, in quotes".to_owned(),
@@ -363,7 +363,7 @@ impl Kind {
             Self::Direction => "three numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Lengths => "a list of lengths above zero, like [\"1 mm\", \"5 mm\"]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
-            Self::File(FileKind::Records) => {
+            Self::File(DataFile::Records) => {
                 "the path of a file, or a list with one for each eddy".to_owned()
             }
             Self::File(_) => "the path of a file".to_owned(),

@@ -41,12 +41,12 @@ pub(crate) struct Canvas {
     /// Whether the sheet goes on at the other edge, in cross and in machine direction.
     pub(super) closed: [bool; 2],
     isa: Isa,
-    sums: Mutex<Sums>,
+    sums: Mutex<CellSums>,
 }
 
 /// What has been drawn.
 #[derive(Debug)]
-struct Sums {
+struct CellSums {
     cells: Vec<u32>,
     cut: u64,
     is_full: bool,
@@ -75,7 +75,7 @@ impl Canvas {
             quantum,
             closed: [sheet.edges == Edges::Periodic, false],
             isa: Isa::detect(),
-            sums: Mutex::new(Sums { cells: vec![0; columns * rows], cut: 0, is_full: false }),
+            sums: Mutex::new(CellSums { cells: vec![0; columns * rows], cut: 0, is_full: false }),
         })
     }
 
@@ -129,7 +129,7 @@ impl Canvas {
     }
 
     /// Adds cells of a row from a column on, and empties them.
-    fn add(&self, sums: &mut Sums, [mut column, row]: [i64; 2], mut cells: &mut [u32]) {
+    fn add(&self, sums: &mut CellSums, [mut column, row]: [i64; 2], mut cells: &mut [u32]) {
         let [columns, rows] = self.size;
         let row_on_ring = if self.closed[1] { row.rem_euclid(rows) } else { row };
         // What lies before and behind the sheet is not counted.
@@ -162,7 +162,7 @@ impl Canvas {
     /// # Errors
     /// If a cell holds more than can be counted.
     pub(crate) fn finish(self) -> Result<LaidWeb, Fault> {
-        let Sums { cells, cut, is_full } = self.sums.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let CellSums { cells, cut, is_full } = self.sums.into_inner().unwrap_or_else(PoisonError::into_inner);
         if is_full {
             return Err(too_full(self.cell));
         }

@@ -6,7 +6,7 @@ use crate::fibre::case::keys::row::{
     Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text,
 };
 use crate::fibre::case::keys::value::Sign::{Any, Positive};
-use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
+use crate::fibre::case::keys::value::{Content, DataFile, Kind, Value};
 use crate::ground::{Dimension, Fault};
 
 named_fields!(Axis);
@@ -42,7 +42,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Mean velocity *U*")
         .slider(0.0, 60.0)
         .in_flight(),
-    file("air.profile", FileKind::Profile)
+    file("air.profile", DataFile::Profile)
         .access(Access {
             get: |case| match &case.air.flow {
                 Flow::Profile(profile) => Some(Content::Profile(profile.clone()).into()),
@@ -63,7 +63,7 @@ pub(super) const KEYS: &[Key] = &[
             "Table of the air along the fibre: velocity over the distance from the root and, if it has \
              such columns, turbulence.",
         ),
-    file("air.field", FileKind::Field)
+    file("air.field", DataFile::Field)
         .access(Access {
             get: |case| Some(Content::Field(placed(case)?.field.clone()).into()),
             set: |case, value| {

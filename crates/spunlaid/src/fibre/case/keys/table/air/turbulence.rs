@@ -6,7 +6,7 @@ use crate::fibre::case::keys::row::{
     Access, FED, change, choose, file, key, number, quantity, read_with_case, text, whole,
 };
 use crate::fibre::case::keys::value::Sign::Positive;
-use crate::fibre::case::keys::value::{Content, FileKind, Kind, SPECTRA, Value};
+use crate::fibre::case::keys::value::{Content, DataFile, Kind, SPECTRA, Value};
 use crate::ground::{Dimension, Fault};
 
 /// Most lines that are skipped at the start of a record.
@@ -17,7 +17,7 @@ const MOST_MISSING: u64 = 1_000_000;
 named_fields!(Lateral);
 
 pub(super) const KEYS: &[Key] = &[
-    file("air.spectrum", FileKind::Spectrum)
+    file("air.spectrum", DataFile::Spectrum)
         .access(Access {
             get: |case| match &case.air.spectrum {
                 SpectrumShape::Measured(table) => Some(Content::Spectrum(table.clone()).into()),
@@ -41,7 +41,7 @@ pub(super) const KEYS: &[Key] = &[
         )
         .label("Shape of the spectrum")
         .varies(),
-    file("air.record", FileKind::Records)
+    file("air.record", DataFile::Records)
         .access(Access {
             get: |case| {
                 let records = &case.air.records;

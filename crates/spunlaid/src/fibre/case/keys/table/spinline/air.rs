@@ -4,7 +4,7 @@ use super::spinline;
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{Access, file, key, number, quantity, read_with_case, switch};
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
-use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
+use crate::fibre::case::keys::value::{Content, DataFile, Kind, Value};
 use crate::fibre::spinline::Surroundings;
 use crate::ground::{Dimension, Fault};
 
@@ -41,7 +41,7 @@ macro_rules! of_air_change {
 }
 
 pub(super) const KEYS: &[Key] = &[
-    file("spinline.profile", FileKind::SpinlineAir)
+    file("spinline.profile", DataFile::SpinlineAir)
         .access(Access {
             get: |case| match &case.spinline.as_ref()?.air {
                 Surroundings::Table(table) => Some(Content::SpinlineAir(table.clone()).into()),

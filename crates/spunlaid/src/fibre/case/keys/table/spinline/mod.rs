@@ -8,7 +8,7 @@ use crate::fibre::case::Case;
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{Access, file, key, named, number, quantity, read_with_case};
 use crate::fibre::case::keys::value::Sign::Positive;
-use crate::fibre::case::keys::value::{Content, FileKind, Kind, Value};
+use crate::fibre::case::keys::value::{Content, DataFile, Kind, Value};
 use crate::fibre::spinline::{Curtain, Melt, Polymer, PolymerSource, Spinline};
 use crate::ground::{Dimension, Fault};
 
@@ -56,7 +56,7 @@ pub(super) const KEYS: &[&[Key]] = &[LINE, air::KEYS, thread::END_KEYS, thread::
 pub(super) const MATERIAL: &[&[Key]] = &[material::KEYS];
 
 const LINE: &[Key] = &[
-    file("spinline.polymer", FileKind::Polymer)
+    file("spinline.polymer", DataFile::Polymer)
         .access(Access {
             get: |case| {
                 Some(match &case.spinline.as_ref()?.polymer {

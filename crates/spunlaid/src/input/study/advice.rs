@@ -19,7 +19,7 @@ use crate::web::map::Filaments;
 const STEPS: [Step; 2] = [Step { factor: 0.8, kelvin: -10.0 }, Step { factor: 1.2, kelvin: 10.0 }];
 
 pub(super) fn changes_of_line(web: OpenWeb<'_>) -> Vec<Change> {
-    Line { web }.changes()
+    LineChanges { web }.changes()
 }
 
 /// Digits of a changed setting.
@@ -41,14 +41,14 @@ fn throughput(layer: usize, power: f64) -> (String, f64) {
 }
 
 /// The line of a web, whose settings change.
-struct Line<'a> {
+struct LineChanges<'a> {
     web: OpenWeb<'a>,
 }
 
 /// Keys that change together, each with the power of the factor by which it changes.
 type KeyPowers = Vec<(String, f64)>;
 
-impl Line<'_> {
+impl LineChanges<'_> {
     fn spec(&self) -> &WebSpec {
         self.web.base.spec()
     }
