@@ -7,6 +7,7 @@ use spunlaid::fibre::Case;
 use spunlaid::ground::Vec3;
 use spunlaid::simulation::{Shape, Trajectory};
 use spunlaid::web::Strand;
+use std::fmt::{self, Write};
 
 /// Largest number of instants in a series if the case does not say how many. Each instant is a file.
 const MOST_INSTANTS: usize = 500;
@@ -102,31 +103,37 @@ struct Polyline {
     data: Vec<Vec<f64>>,
 }
 
+/// Values one after another.
+fn text<T>(values: impl IntoIterator<Item = T>, write: impl Fn(&mut String, T) -> fmt::Result) -> String {
+    values.into_iter().fold(String::new(), |mut text, value| {
+        // A string takes all that is written to it.
+        let _ = write(&mut text, value);
+        text
+    })
+}
+
 /// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
 fn poly_data(numbered: &str, names: &[&str], lines: &[Polyline]) -> String {
     let count: usize = lines.iter().map(|line| line.points.len()).sum();
-    let points: String = lines
-        .iter()
-        .flat_map(|line| &line.points)
-        .map(|p| format!("{:e} {:e} {:e}\n", p.x, p.y, p.z))
-        .collect();
-    let array = |kind: &str, name: &str, values: &mut dyn Iterator<Item = String>| {
-        let values = values.map(|value| value + " ").collect::<String>();
+    let points = lines.iter().flat_map(|line| &line.points);
+    let points = text(points, |text, p| writeln!(text, "{:e} {:e} {:e}", p.x, p.y, p.z));
+    let array = |kind: &str, name: &str, values: String| {
         format!("<DataArray type=\"{kind}\" Name=\"{name}\" format=\"ascii\">\n{values}\n</DataArray>\n")
     };
-    let number = |line: &Polyline| std::iter::repeat_n(line.number.to_string(), line.points.len());
-    let number = array("Int32", numbered, &mut lines.iter().flat_map(number));
+    let number = |line: &Polyline| std::iter::repeat_n(line.number, line.points.len());
+    let number =
+        array("Int32", numbered, text(lines.iter().flat_map(number), |text, n| write!(text, "{n} ")));
     let data = |(i, name): (usize, &&str)| {
         let values = lines.iter().flat_map(|line| &line.data[i]);
-        array("Float64", name, &mut values.map(|value| format!("{value:e}")))
+        array("Float64", name, text(values, |text, value| write!(text, "{value:e} ")))
     };
     let data: String = names.iter().enumerate().map(data).collect();
-    let connectivity = array("Int64", "connectivity", &mut (0..count).map(|i| i.to_string()));
+    let connectivity = array("Int64", "connectivity", text(0..count, |text, i| write!(text, "{i} ")));
     let ends = lines.iter().scan(0, |end, line| {
         *end += line.points.len();
-        Some(end.to_string())
+        Some(*end)
     });
-    let offsets = array("Int64", "offsets", &mut ends.into_iter());
+    let offsets = array("Int64", "offsets", text(ends, |text, end| write!(text, "{end} ")));
     format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
         <PolyData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" \
