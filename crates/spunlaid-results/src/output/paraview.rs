@@ -105,11 +105,10 @@ struct Polyline {
 
 /// Values one after another.
 fn text<T>(values: impl IntoIterator<Item = T>, write: impl Fn(&mut String, T) -> fmt::Result) -> String {
-    values.into_iter().fold(String::new(), |mut text, value| {
-        // A string takes all that is written to it.
-        let _ = write(&mut text, value);
-        text
-    })
+    let mut text = String::new();
+    // A string takes all that is written to it.
+    values.into_iter().for_each(|value| write(&mut text, value).unwrap_or_default());
+    text
 }
 
 /// VTK XML PolyData of lines: points [m], what is numbered, and the data with these names.
@@ -129,11 +128,9 @@ fn poly_data(numbered: &str, names: &[&str], lines: &[Polyline]) -> String {
     };
     let data: String = names.iter().enumerate().map(data).collect();
     let connectivity = array("Int64", "connectivity", text(0..count, |text, i| write!(text, "{i} ")));
-    let ends = lines.iter().scan(0, |end, line| {
-        *end += line.points.len();
-        Some(*end)
-    });
-    let offsets = array("Int64", "offsets", text(ends, |text, end| write!(text, "{end} ")));
+    let end = |line: usize| lines[..=line].iter().map(|line| line.points.len()).sum::<usize>();
+    let ends = text((0..lines.len()).map(end), |text, end| write!(text, "{end} "));
+    let offsets = array("Int64", "offsets", ends);
     format!(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
         <PolyData>\n<Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" \
