@@ -3,7 +3,7 @@
 use super::super::web::Guess;
 use super::super::{Overrides, Resources, file};
 use super::Base;
-use super::advice::{OpenWeb, changes_of_line};
+use super::line::{OpenWeb, changes_of_line};
 use super::web::WebBase;
 use crate::experiment::Change;
 use crate::fibre::case::keys::VariedKey;

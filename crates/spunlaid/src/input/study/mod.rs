@@ -1,10 +1,10 @@
 //! Study files: reads a file to a [`Study`] with all its points, and writes it back.
 
-mod advice;
 mod base;
 mod changes;
 mod design;
 mod fit;
+mod line;
 mod links;
 mod plan;
 mod points;
