@@ -3,8 +3,8 @@
 use super::fibres::Instant;
 use serde::Serialize;
 use spunlaid::fibre::Case;
-use spunlaid::ground::{Estimate, WIDTH};
-use spunlaid::simulation::{DECLARED, Measure};
+use spunlaid::ground::{Estimate, Measure, WIDTH};
+use spunlaid::simulation::{DECLARED, FibreMeasure};
 use spunlaid::web::surrogate::identify;
 use spunlaid::web::{Footprint, Trace, TraceSettings, laydown};
 use std::array::from_fn;
@@ -146,7 +146,7 @@ impl ShownNumber {
     }
 }
 
-pub(super) fn measure(name: &str) -> Option<&'static Measure> {
+pub(super) fn measure(name: &str) -> Option<&'static FibreMeasure> {
     DECLARED.iter().flat_map(|declared| declared.measures).find(|measure| measure.name == name)
 }
 

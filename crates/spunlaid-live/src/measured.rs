@@ -4,9 +4,9 @@ use super::fibres::Instant;
 use super::laid::{LaidStatistics, ShownNumber};
 use serde::Serialize;
 use spunlaid::fibre::{Case, EndNodeMotion, Flight};
-use spunlaid::ground::{WIDTH, Welch, Window};
+use spunlaid::ground::{Value, WIDTH, Welch, Window};
 use spunlaid::simulation::observe::Sample;
-use spunlaid::simulation::{DECLARED, Observation, Observer, Value};
+use spunlaid::simulation::{DECLARED, Observation, Observer};
 use std::array::from_fn;
 
 /// Time after a change that the statistics of a fibre of fixed length leave out, if the case has no longer spin-up [s].

@@ -4,12 +4,12 @@ use crate::value::scale;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spunlaid::ground::units::udunits;
-use spunlaid::simulation::{MEASURES, Measure};
+use spunlaid::simulation::{FibreMeasure, MEASURES};
 use spunlaid_results::figures::Scale;
 use spunlaid_results::output::tables::unit_of_column;
 
 /// Name and meaning of a measure, and the scales of its axes: of a curve along and up.
-pub(crate) fn described<'py>(py: Python<'py>, measure: &Measure) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn described<'py>(py: Python<'py>, measure: &FibreMeasure) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("column", measure.column)?;
     dict.set_item("label", measure.label)?;

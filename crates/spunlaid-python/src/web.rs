@@ -7,11 +7,11 @@ use crate::watched::{LOOK, Watch, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{advise, are_tried, steps};
-use spunlaid::ground::FileKind;
 use spunlaid::ground::threads::look_while;
+use spunlaid::ground::{FileKind, Measure, measure};
 use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
-use spunlaid::simulation::observe::with_errors;
-use spunlaid::simulation::{Flights, Flyer, Measure, OF_PATCHES, OF_SCANNED_PATCHES};
+use spunlaid::simulation::{Flights, Flyer};
+use spunlaid::web::{OF_PATCHES, OF_SCANNED_PATCHES};
 use spunlaid_results::folders::web::WebFolder;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -66,7 +66,7 @@ pub(crate) fn lay_web(
 #[pyfunction]
 pub(crate) fn patch_numbers() -> [Vec<&'static str>; 2] {
     [
-        with_errors(OF_PATCHES).map(Measure::entry).collect(),
-        with_errors(OF_SCANNED_PATCHES).map(Measure::entry).collect(),
+        measure::with_errors(OF_PATCHES).map(Measure::entry).collect(),
+        measure::with_errors(OF_SCANNED_PATCHES).map(Measure::entry).collect(),
     ]
 }

@@ -4,7 +4,7 @@
 //!
 //! | wing | what it is for |
 //! |---|---|
-//! | [`ground`] | numbers in lanes, units, errors, tables, statistics: nothing of fibres |
+//! | [`ground`] | numbers in lanes, units, errors, tables, statistics, measures: nothing of fibres |
 //! | [`air`] | fields of CFD, records of a hot wire, turbulence: the velocity at a place and time |
 //! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
 //! | [`web`] | curves on the belt, the map of a web, the fabric, scans |

@@ -24,6 +24,7 @@ const WINGS: &[(&str, &[&[&str]])] = &[
             &["company", "log"],
             &["file", "table"],
             &["statistics"],
+            &["measure"],
             &["effects"],
         ],
     ),

@@ -1,7 +1,8 @@
 //! The measured curves of several runs in one picture each.
 
 use super::run::measured::axes;
-use spunlaid::simulation::{DECLARED, Kind, Measure};
+use spunlaid::ground::MeasureKind;
+use spunlaid::simulation::{DECLARED, FibreMeasure};
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION};
 use spunlaid_charts::{Chart, Figure, Series};
 use std::collections::BTreeMap;
@@ -38,9 +39,9 @@ pub struct Curves {
 
 /// A figure for each declared curve that all runs have.
 pub fn overlaid_figures(runs: &[Curves]) -> Vec<Figure> {
-    let mut declared: Vec<Vec<&Measure>> = Vec::new();
+    let mut declared: Vec<Vec<&FibreMeasure>> = Vec::new();
     for measure in DECLARED.iter().flat_map(|declaration| declaration.measures) {
-        if measure.kind == Kind::Number {
+        if measure.kind == MeasureKind::Number {
             continue;
         }
         match declared.iter_mut().find(|measures| measures[0].figure.name == measure.figure.name) {
@@ -48,12 +49,13 @@ pub fn overlaid_figures(runs: &[Curves]) -> Vec<Figure> {
             None => declared.push(vec![measure]),
         }
     }
-    let in_all =
-        |measures: &&Vec<&Measure>| runs.iter().all(|run| run.rows.contains_key(measures[0].figure.name));
+    let in_all = |measures: &&Vec<&FibreMeasure>| {
+        runs.iter().all(|run| run.rows.contains_key(measures[0].figure.name))
+    };
     declared.iter().filter(in_all).map(|measures| overlaid(runs, measures)).collect()
 }
 
-fn overlaid(runs: &[Curves], measures: &[&Measure]) -> Figure {
+fn overlaid(runs: &[Curves], measures: &[&FibreMeasure]) -> Figure {
     let figure = measures[0].figure;
     let (along, up) = axes(measures[0], measures.len() == 1);
     let mut chart = Chart::new(figure.name, figure.title, along, up).when_empty("nothing to compare");

@@ -3,9 +3,9 @@
 use spunlaid::air::Air;
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Contact, Drag, Fibre, FrictionLaw, LaidPoint, Line, NormalLaw, Root, Run};
-use spunlaid::ground::Vec3;
+use spunlaid::ground::{MeasureKind, Value, Vec3};
 use spunlaid::simulation::ensemble::Sample;
-use spunlaid::simulation::{DECLARED, Kind, Measure, Results, Shape, SpectrumPoint, Trajectory, Value};
+use spunlaid::simulation::{DECLARED, FibreMeasure, Results, Shape, SpectrumPoint, Trajectory};
 
 /// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
 pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
@@ -86,7 +86,7 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
     };
     let over_time =
         |quantity: fn(&Sample) -> f64| Value::Curve(times.clone(), samples.iter().map(quantity).collect());
-    let value = |measure: &Measure| match measure.name {
+    let value = |measure: &FibreMeasure| match measure.name {
         "amplitude_y" => Value::Number(amplitude),
         "amplitude_z" => Value::Number(amplitude * (1.0 + 0.01 * replicate as f64)),
         "frequency_y" | "frequency_z" => Value::Number(frequency),
@@ -96,10 +96,10 @@ fn trajectory(case: &Case, nodes: usize, replicate: u64, amplitude: f64) -> Traj
         "work_error_over_time" => over_time(Sample::work_error_percent),
         "balance_error_over_time" => over_time(Sample::balance_error_percent),
         _ => match measure.kind {
-            Kind::Number => Value::Number(1e-4),
-            Kind::Profile | Kind::Way | Kind::Lag | Kind::Direction => along(0.5),
-            Kind::Series => over_time(|sample| sample.time),
-            Kind::Spectrum => spectrum(),
+            MeasureKind::Number => Value::Number(1e-4),
+            MeasureKind::Profile | MeasureKind::Way | MeasureKind::Lag | MeasureKind::Direction => along(0.5),
+            MeasureKind::Series => over_time(|sample| sample.time),
+            MeasureKind::Spectrum => spectrum(),
         },
     };
     let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));
@@ -173,9 +173,9 @@ fn fed_trajectory(case: &Case, replicate: u64) -> Trajectory {
         let at = |i: i32| f64::from(i) * 10.0;
         Value::Curve((0..36).map(at).collect(), (0..36).map(|i| from / (1.0 + at(i) / 100.0)).collect())
     };
-    let value = |measure: &Measure| match measure.kind {
-        Kind::Number => Value::Number(0.014 + 1e-4 * replicate as f64),
-        Kind::Series => Value::Curve(times.clone(), times.clone()),
+    let value = |measure: &FibreMeasure| match measure.kind {
+        MeasureKind::Number => Value::Number(0.014 + 1e-4 * replicate as f64),
+        MeasureKind::Series => Value::Curve(times.clone(), times.clone()),
         _ => curve(1.0 + 0.01 * replicate as f64),
     };
     let applied = DECLARED.iter().filter(|declared| (declared.applies)(case));

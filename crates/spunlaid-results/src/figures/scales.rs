@@ -4,7 +4,8 @@ use super::run::measured::axes;
 use super::study::FactorAxis;
 use super::with_unit;
 use spunlaid::experiment::Study;
-use spunlaid::simulation::{Measure, Unit};
+use spunlaid::ground::Unit;
+use spunlaid::simulation::FibreMeasure;
 use spunlaid_charts::{Axis, Spacing};
 
 /// How values in SI units stand on an axis.
@@ -32,7 +33,7 @@ impl Scale {
     }
 
     /// The scales of a curve, along and up; `None` for a number.
-    pub fn from_curve(measure: &Measure) -> Option<[Self; 2]> {
+    pub fn from_curve(measure: &FibreMeasure) -> Option<[Self; 2]> {
         let (.., unit) = measure.kind.abscissa()?;
         let (along, up) = axes(measure, true);
         Some([Self::new(along, unit.per_si), Self::new(up, measure.unit.per_si)])

@@ -1,7 +1,8 @@
 //! Every figure of every run can be drawn.
 
 use super::{run_figures, sample};
-use spunlaid::simulation::{Kind, SpectrumPoint};
+use spunlaid::ground::MeasureKind;
+use spunlaid::simulation::SpectrumPoint;
 use spunlaid_charts::{Figure, pdf, png, svg};
 
 fn check(figures: &[Figure]) {
@@ -109,7 +110,7 @@ fn draws_what_is_left_when_values_are_missing() {
     results.trajectories.clear();
     for curve in &mut results.curves {
         match curve.measure.kind {
-            Kind::Profile => {
+            MeasureKind::Profile => {
                 (curve.places[2].mean, curve.places[2].standard_error) = (f64::NAN, None);
                 curve.places[3].standard_error = Some(f64::NAN);
             }

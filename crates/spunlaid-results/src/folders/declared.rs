@@ -10,16 +10,17 @@ use crate::output::summary::Performance;
 use crate::output::web::summary_of_scan;
 use crate::report::{analysis_report, scan_report, spinline_text};
 use serde_json::Value as Json;
-use spunlaid::ground::Isa;
+use spunlaid::air::{OF_COMPONENTS, OF_RECORDS};
+use spunlaid::fibre::OF_SPINLINES;
+use spunlaid::ground::{Isa, Measure, Value, measure};
 use spunlaid::input::{parse_spinline, parse_web};
-use spunlaid::simulation::observe::{measured, with_errors};
-use spunlaid::simulation::{
-    Flyer, Measure, OF_COMPONENTS, OF_FABRICS, OF_PATCHES, OF_RECORDS, OF_SCANNED_PATCHES, OF_SCANS,
-    OF_SPINLINES, OF_WEBS, Value,
-};
+use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
 use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{FewDoubt, FewFilamentsCv, Format, LayControl, Light, Picture, scan};
+use spunlaid::web::{
+    FewDoubt, FewFilamentsCv, Format, LayControl, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES,
+    OF_SCANS, OF_WEBS, Picture, scan,
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -125,7 +126,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             assert!(value.is_none() || report.contains(declared.label), "{}", declared.entry());
         }
         for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {
-            for declared in with_errors(OF_PATCHES) {
+            for declared in measure::with_errors(OF_PATCHES) {
                 // What is not known is no number in JSON.
                 let number =
                     declared.value(patch).map(|value| value.number()).filter(|number| number.is_finite());
@@ -142,8 +143,8 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         }
     }
     // Each of them has been looked at.
-    assert_eq!(names, with_errors(OF_PATCHES).map(Measure::entry).collect());
-    let with_column = with_errors(OF_PATCHES).filter(|declared| declared.short.is_some());
+    assert_eq!(names, measure::with_errors(OF_PATCHES).map(Measure::entry).collect());
+    let with_column = measure::with_errors(OF_PATCHES).filter(|declared| declared.short.is_some());
     assert_eq!(heads, with_column.map(Measure::entry).collect());
 }
 
@@ -197,7 +198,7 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let results = &folder.results;
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
     let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(results));
-    for row in measured(OF_SPINLINES, &results.rows[0]) {
+    for row in measure::measured(OF_SPINLINES, &results.rows[0]) {
         let name = row.measure.entry();
         let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));
         assert_eq!(json.and_then(Json::as_f64), row.value.map(|value| value.number()), "{name}");
@@ -213,7 +214,7 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
     let report = analysis_report(&record, &analysis, &figures, &remarks, "[air]\n");
     let pages = [report.html(), report.text(200)];
     fn check<T>(measures: &'static [Measure<T>], found: &T, json: &Json, pages: &[String; 2]) {
-        for row in measured(measures, found) {
+        for row in measure::measured(measures, found) {
             let value = row.value.as_ref().map(|value: &Value| serde_json::to_value(value).unwrap());
             assert_eq!(json.get(row.measure.entry()), value.as_ref(), "{}", row.measure.entry());
             assert!(pages.iter().all(|page| page.contains(row.measure.label)), "{}", row.measure.entry());

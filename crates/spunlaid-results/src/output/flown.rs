@@ -16,9 +16,9 @@ use crate::Failure;
 use spunlaid::experiment::Experiment;
 use spunlaid::fibre::{Case, LaidPoint};
 use spunlaid::ground::threads::lock;
-use spunlaid::ground::{Error, Log, Vec3};
+use spunlaid::ground::{Error, Log, Value, Vec3};
 use spunlaid::simulation::ensemble::Sample;
-use spunlaid::simulation::{DECLARED, Keep, Measure, Recorder, Shapes, Trajectory, Value};
+use spunlaid::simulation::{DECLARED, FibreMeasure, Keep, Recorder, Shapes, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::ops::Range;
@@ -293,12 +293,12 @@ impl Recorder for Flights {
 }
 
 /// All measures. The identity has the version of the program, so their order is known.
-fn measures() -> impl Iterator<Item = &'static Measure> {
+fn measures() -> impl Iterator<Item = &'static FibreMeasure> {
     DECLARED.iter().flat_map(|declaration| declaration.measures)
 }
 
 /// The measures of a replicate from their numbers.
-fn values(mut rest: &[f64]) -> Vec<(&'static Measure, Value)> {
+fn values(mut rest: &[f64]) -> Vec<(&'static FibreMeasure, Value)> {
     let mut values = Vec::new();
     while let [index, count, others @ ..] = rest {
         let (own, others) = others.split_at(others.len().min((2 * *count as usize).max(1)));

@@ -3,8 +3,7 @@
 use super::measured::values;
 use super::spinline::SpinResults;
 use serde_json::Value as Json;
-use spunlaid::fibre::{Case, Load, WayPlace};
-use spunlaid::simulation::{OF_LOAD_PLACES, OF_LOADS};
+use spunlaid::fibre::{Case, Load, OF_LOAD_PLACES, OF_LOADS, WayPlace};
 
 /// The load of the filaments of a case; None for a fibre of fixed length.
 ///

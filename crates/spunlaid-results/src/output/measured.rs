@@ -3,14 +3,12 @@
 use crate::numbers::{number_to, plus_minus};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::Estimate;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{ErrorRole, Measure, Measured};
+use spunlaid::ground::{ErrorRole, Estimate, Measure, Measured, measure};
 
 /// The values of some measures by their names, in their order, those of a group together; null where there is none.
 pub fn values<T>(measures: &'static [Measure<T>], found: &T) -> Json {
     let mut all = json!({});
-    for row in measured(measures, found) {
+    for row in measure::measured(measures, found) {
         match row.measure.entry().split_once('.') {
             Some((group, name)) => all[group][name] = json(row.value),
             None => all[row.measure.entry()] = json(row.value),

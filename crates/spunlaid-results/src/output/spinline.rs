@@ -7,10 +7,9 @@ use crate::output::measured::values;
 use crate::output::table::{Column, Value, number, whole};
 use crate::output::versioned_json;
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::{Case, FreezingCause, Solution, Station, ZERO_CELSIUS};
+use spunlaid::fibre::{Case, FreezingCause, OF_SPINLINES, Solution, Station, ZERO_CELSIUS};
 use spunlaid::ground::{Dimension, Error};
 use spunlaid::input::{Influence, OfFilament, SpinFile};
-use spunlaid::simulation::OF_SPINLINES;
 use spunlaid_charts::label::plain;
 
 /// A solved spinline, and what decides its diameter.

@@ -6,10 +6,8 @@ use super::table::{Content, Layout, Row, Table};
 use super::words::{count, time};
 use crate::numbers::{THIN, significant};
 use crate::output::analysis::with_interval;
-use spunlaid::air::{Analysis, Component, Interval, Record};
-use spunlaid::ground::Dimension;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measure, Measured, OF_COMPONENTS, OF_RECORDS};
+use spunlaid::air::{Analysis, Component, OF_COMPONENTS, OF_RECORDS, Record};
+use spunlaid::ground::{Dimension, Interval, Measure, Measured, measure};
 use spunlaid_charts::Figure;
 
 /// What was found in a velocity record.
@@ -64,14 +62,14 @@ fn table<T>(measures: &'static [Measure<T>], found: &T) -> Table {
         let about = [row.measure.unit.shown, row.meaning()].map(str::to_owned);
         Row::new(row.measure.label, with_interval(&row, found).into_iter().chain(about))
     };
-    let labelled = measured(measures, found).filter(|row| !row.measure.label.is_empty());
+    let labelled = measure::measured(measures, found).filter(|row| !row.measure.label.is_empty());
     Table::of(columns).laid_out(Layout::Results).rows(labelled.map(row))
 }
 
 /// With the numbers of the table below it, and their intervals.
 fn headline(analysis: &Analysis) -> String {
     let told = |name: &str| {
-        let row = measured(OF_RECORDS, analysis).find(|row| row.measure.label == name);
+        let row = measure::measured(OF_RECORDS, analysis).find(|row| row.measure.label == name);
         row.map_or_else(String::new, |row| {
             let [value, low, high] = with_interval(&row, analysis);
             format!("{value}{THIN}{} ({low} to {high})", row.measure.unit.shown)

@@ -4,16 +4,13 @@ use super::document::Section;
 use super::table::{Content, Layout, Row, Table};
 use super::words::millimetres;
 use crate::output::web::known_text;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{
-    Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, PERCENT,
-};
-use spunlaid::web::Fabric;
+use spunlaid::ground::{Measure, PERCENT, measure};
+use spunlaid::web::{Fabric, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 
 /// Everything that is told of a fabric.
 pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
-    let rows = measured(OF_FABRICS, fabric).filter_map(|row| {
+    let rows = measure::measured(OF_FABRICS, fabric).filter_map(|row| {
         let value = known_text(&row)?;
         Some(Row::new(row.measure.label, [value.as_str(), row.measure.meaning]))
     });

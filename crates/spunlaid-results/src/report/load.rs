@@ -4,9 +4,8 @@ use super::document::Section;
 use super::table::{Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::fibre::{Load, LoadPlace};
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measured, OF_LOAD_PLACES, OF_LOADS};
+use spunlaid::fibre::{Load, LoadPlace, OF_LOAD_PLACES, OF_LOADS};
+use spunlaid::ground::{Measured, measure};
 
 const TITLE: &str = "What the filaments do to their air";
 
@@ -98,8 +97,11 @@ fn faster(change: f64) -> String {
 /// The load at places on the way, as far as it is known.
 fn along_way(load: &Load) -> Table {
     let is_known = |row: &Measured<LoadPlace>| row.value.is_some();
-    let rows: Vec<Vec<Measured<LoadPlace>>> =
-        load.places.iter().map(|place| measured(OF_LOAD_PLACES, place).filter(is_known).collect()).collect();
+    let rows: Vec<Vec<Measured<LoadPlace>>> = load
+        .places
+        .iter()
+        .map(|place| measure::measured(OF_LOAD_PLACES, place).filter(is_known).collect())
+        .collect();
     let head = |row: &Measured<LoadPlace>| match row.measure.unit.shown {
         "" => row.measure.label.to_owned(),
         unit => format!("{}, {unit}", row.measure.label),

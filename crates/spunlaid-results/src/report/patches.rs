@@ -3,7 +3,8 @@
 use super::table::{Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::simulation::{ErrorRole, Measure, OF_PATCHES};
+use spunlaid::ground::{ErrorRole, Measure};
+use spunlaid::web::OF_PATCHES;
 use spunlaid::web::map::{Findings, PatchFindings};
 
 /// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.

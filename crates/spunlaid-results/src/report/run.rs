@@ -16,7 +16,8 @@ use crate::output::load::load_of_spinline;
 use crate::output::spinline::SpinResults;
 use crate::output::summary::Performance;
 use spunlaid::fibre::Case;
-use spunlaid::simulation::{DECLARED, FinerChecks, Kind, Number, Results};
+use spunlaid::ground::MeasureKind;
+use spunlaid::simulation::{DECLARED, FinerChecks, Number, Results};
 use spunlaid_charts::Figure;
 
 /// A run. The page has less than 6 MB.
@@ -171,12 +172,12 @@ fn under_headings(figures: &[Figure]) -> Section<'_> {
         measures.find(|measure| measure.figure.name == figure.name).map(|measure| measure.kind)
     };
     let heading = |figure: &Figure| match kind(figure) {
-        Some(Kind::Lag | Kind::Direction) => HEADINGS[0],
+        Some(MeasureKind::Lag | MeasureKind::Direction) => HEADINGS[0],
         None if ["laid_trace", "footprint"].contains(&figure.name.as_str()) => HEADINGS[0],
-        Some(Kind::Way) => HEADINGS[1],
-        Some(Kind::Number | Kind::Spectrum) => HEADINGS[2],
-        Some(Kind::Profile) => HEADINGS[3],
-        Some(Kind::Series) => HEADINGS[4],
+        Some(MeasureKind::Way) => HEADINGS[1],
+        Some(MeasureKind::Number | MeasureKind::Spectrum) => HEADINGS[2],
+        Some(MeasureKind::Profile) => HEADINGS[3],
+        Some(MeasureKind::Series) => HEADINGS[4],
         None if figure.name.starts_with("end_node") => HEADINGS[2],
         None => HEADINGS[5],
     };

@@ -3,8 +3,8 @@
 use super::table::{Content, Layout, Row, Table};
 use super::words::{estimate_text, unbroken};
 use crate::numbers::{capitalised, number, signed};
-use spunlaid::ground::Estimate;
-use spunlaid::simulation::{Aggregate, Number, Results};
+use spunlaid::ground::{Aggregate, Estimate};
+use spunlaid::simulation::{Number, Results};
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;

@@ -15,12 +15,11 @@ use crate::figures::SEEN;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text as shown_number;
 use crate::output::summary::Performance;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measure, Measured, OF_SCANNED_PATCHES, OF_SCANS};
+use spunlaid::ground::{Measure, Measured, measure};
 use spunlaid::web::map::nearest_to_seen;
 use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::scan::{Doubt, Findings, PatchFindings};
-use spunlaid::web::{Fabric, Map};
+use spunlaid::web::{Fabric, Map, OF_SCANNED_PATCHES, OF_SCANS};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -218,7 +217,7 @@ fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
     // What is zero has not been found.
     let is_found =
         |row: &Measured<Findings>| !row.measure.label.is_empty() && row.measure.number(findings) != 0.0;
-    let labelled = measured(OF_SCANS, findings).filter(is_found);
+    let labelled = measure::measured(OF_SCANS, findings).filter(is_found);
     facts.extend(labelled.filter_map(|row| Some((row.measure.label, shown(&row)?))));
     if let Some(largest) = findings.aside.spots.first() {
         let spots = format!(

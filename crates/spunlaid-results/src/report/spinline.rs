@@ -8,8 +8,9 @@ use super::words::length;
 use crate::numbers::{THIN, number_to, significant};
 use crate::output::spinline::{SpinResults, freezing, influence, model_error, numerical_error};
 use crate::output::web::Layer;
-use spunlaid::fibre::{Case, End, Law, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS};
-use spunlaid::simulation::OF_SPINLINES;
+use spunlaid::fibre::{
+    Case, End, Law, OF_SPINLINES, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS,
+};
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 

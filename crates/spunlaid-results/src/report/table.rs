@@ -2,8 +2,7 @@
 
 use crate::output::measured::text;
 use askama::Template;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Measure, Measured};
+use spunlaid::ground::{Measure, Measured, measure};
 
 /// Rows under heads. The first column holds their names.
 #[derive(Debug, Default, Template)]
@@ -123,7 +122,7 @@ impl Table {
             let named = Row::new(row.measure.label, [&value, row.measure.unit.shown, row.measure.meaning]);
             Some(named.detail(row.remark.unwrap_or_default()))
         };
-        Self::of(columns).laid_out(Layout::Results).rows(measured(measures, found).filter_map(row))
+        Self::of(columns).laid_out(Layout::Results).rows(measure::measured(measures, found).filter_map(row))
     }
 
     /// Names with a value each, without heads.

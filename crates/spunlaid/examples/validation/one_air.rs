@@ -1,13 +1,12 @@
 //! The numbers of webs in one air and of their fabrics: the errors that are told, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::ground::Isa;
 use spunlaid::ground::threads::each;
+use spunlaid::ground::{Isa, Measure, measure};
 use spunlaid::input::parse_web;
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{Flyer, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
+use spunlaid::simulation::Flyer;
 use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{Fabric, LayControl};
+use spunlaid::web::{Fabric, LayControl, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SEEDS: usize = 24;
@@ -159,7 +158,7 @@ pub fn few_and_all() {
 }
 
 fn add<T>(all: &mut Vec<Told>, measures: &'static [Measure<T>], found: &T, of: &str) {
-    let rows = measured(measures, found).filter_map(|row| {
+    let rows = measure::measured(measures, found).filter_map(|row| {
         let name = format!("{}{of}", row.measure.entry());
         Some((name, row.value.as_ref()?.number(), row.error))
     });

@@ -29,6 +29,6 @@ pub(crate) use motion::{
     TIME_CONSTANT, Velocities, VelocityAt, VelocityTask, Way,
 };
 pub use record::{
-    Analysis, Component, IntegralRule, Interval, LONGEST_GAP, Layout, Reading, Record, Samples, Settings,
-    SpectrumSettings,
+    Analysis, Component, IntegralRule, LONGEST_GAP, Layout, OF_COMPONENTS, OF_RECORDS, Reading, Record,
+    Samples, Settings, SpectrumSettings,
 };

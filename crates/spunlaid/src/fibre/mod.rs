@@ -37,9 +37,9 @@ pub use energy::Energy;
 pub(crate) use flight::{Common, SurroundingRun};
 pub use flight::{EndNodeMotion, Flight, Job, LaidPoint, Snapshot};
 pub use line::{Contact, Line};
-pub use load::{Heat, Load, LoadPlace, WayPlace};
+pub use load::{Heat, Load, LoadPlace, OF_LOAD_PLACES, OF_LOADS, WayPlace};
 pub use spinline::{
-    AirChange, AirTable, End, Failure, FreezingCause, Law, Material, Melt, Polymer, PolymerFile,
-    PolymerSource, Solution, SpinSpec, Spinline, Station, Surroundings, ZERO_CELSIUS,
+    AirChange, AirTable, End, Failure, FreezingCause, Law, Material, Melt, OF_SPINLINES, Polymer,
+    PolymerFile, PolymerSource, Solution, SpinSpec, Spinline, Station, Surroundings, ZERO_CELSIUS,
 };
 pub(crate) use spinline::{Cooled, SolidFilament};

@@ -1,9 +1,9 @@
 //! What every other wing stands on, and what knows nothing of fibres: numbers side by side in lanes, vectors,
-//! transforms, chance; units, errors and their words; threads, tables, logs of keyed rows; statistics.
+//! transforms, chance; units, errors and their words; threads, tables, logs of keyed rows; statistics, measures.
 //!
 //! ```text
 //! named → lanes → vec3, fft, nodes, sort, random, place → error → units, threads, removed
-//!       → company, log → file, table → statistics → effects
+//!       → company, log → file, table → statistics → measure → effects
 //! ```
 
 #[macro_use]
@@ -34,6 +34,8 @@ pub mod table;
 
 pub mod statistics;
 
+pub mod measure;
+
 pub mod effects;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
@@ -48,10 +50,15 @@ pub(crate) use lanes::Plain;
 pub use lanes::{Isa, Lanes, WIDTH};
 pub(crate) use lanes::{Register, Simd, Singles, Sixteen, Task, Wide};
 pub use log::Log;
+pub use measure::{
+    Aggregate, ErrorRole, Figure, Formula, Group, HERTZ, KELVIN, Known, METRES_PER_SECOND, MILLIMETRES,
+    MILLINEWTONS, Measure, MeasureKind, Measured, OF_PERCENT, PER_METRE, PER_SQUARE_METRE, PERCENT, RATIO,
+    SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value,
+};
 pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
 pub(crate) use statistics::EvenSample;
-pub use statistics::{Difference, Estimate, NORMAL_95, Spectrum, Welch, Window};
+pub use statistics::{Difference, Estimate, Interval, NORMAL_95, Spectrum, Welch, Window};
 pub use table::Table;
 pub(crate) use table::{FORMS, FirstCell, Head, Meaning, ParquetTable, Stamp};
 pub use threads::OnDrop;

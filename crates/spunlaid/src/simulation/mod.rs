@@ -21,13 +21,7 @@ pub use ensemble::{
 };
 pub(crate) use layers::SAME;
 pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
-pub use observe::{
-    Aggregate, DECLARED, ErrorRole, Figure, Formula, Kind, LAYDOWN, MEASURES, Measure, Measured,
-    OF_COMPONENTS, OF_FABRIC_PATCHES, OF_FABRICS, OF_LOAD_PLACES, OF_LOADS, OF_PATCHES, OF_RECORDS,
-    OF_SCANNED_PATCHES, OF_SCANS, OF_SPINLINES, OF_STREAKS, OF_STRIPS, OF_THINNEST, OF_WEBS, Observation,
-    Observer, PERCENT, SURROGATE, Unit, Value,
-};
-pub(crate) use observe::{KELVIN, PER_SQUARE_METRE};
+pub use observe::{DECLARED, FibreMeasure, LAYDOWN, MEASURES, Observation, Observer, SURROGATE};
 pub(crate) use one_air::FewOfWeb;
 pub use one_air::{
     Beam, BeamCharge, BeamControl, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight,

@@ -21,7 +21,8 @@ pub use curtain::{Belt, Curtain, Filling, FlownCurves};
 pub(crate) use curtain::{Covariances, Library};
 pub(crate) use fabric::{ABOUT, NONE_FOUND, PATCHES};
 pub use fabric::{
-    Fabric, FabricKeys, FabricPatch, Known, Laid, Marked, Marks, Streak, StreakSource, StripPlace, Strips,
+    Fabric, FabricKeys, FabricPatch, Laid, Marked, Marks, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS,
+    OF_STRIPS, OF_THINNEST, Streak, StreakSource, StripPlace, Strips,
 };
 pub use laydown::{Footprint, LaidCurve, Trace, TraceSettings};
 pub(crate) use map::{
@@ -30,8 +31,11 @@ pub(crate) use map::{
 };
 pub use map::{
     ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres,
-    FlownFibres, LaidWeb, LayControl, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OneFibre, Row,
-    Sheet, Strand, TimeSpent, Web, Window,
+    FlownFibres, LaidWeb, LayControl, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OF_PATCHES,
+    OF_WEBS, OneFibre, Row, Sheet, Strand, TimeSpent, Web, Window,
 };
-pub use scan::{CELL, FEWEST, Format, Light, LightKind, Picture, ScanRequest, Settings, WEIGHT_OF_BLACK};
+pub use scan::{
+    CELL, FEWEST, Format, Light, LightKind, OF_SCANNED_PATCHES, OF_SCANS, Picture, ScanRequest, Settings,
+    WEIGHT_OF_BLACK,
+};
 pub use surrogate::{PathKey, Paths, Residual, Surrogate};

@@ -73,7 +73,7 @@ fn analysed(components: Vec<Vec<f64>>) -> Analysis {
 /// Share of the records whose interval holds the value [%], and the median of the estimates over the value.
 fn coverage(
     records: &[Analysis],
-    result: impl Fn(&Analysis) -> spunlaid::air::Interval,
+    result: impl Fn(&Analysis) -> spunlaid::ground::Interval,
     known: f64,
 ) -> (f64, f64) {
     let held = records.iter().filter(|record| result(record).holds(known)).count();

@@ -3,9 +3,9 @@
 use crate::normal::normal;
 use spunlaid::air::record::analyse;
 use spunlaid::air::{
-    Air, Analysis, IntegralRule, Interval, Record, Samples, Settings, SpectrumSettings, StreamKey, Wind,
+    Air, Analysis, IntegralRule, Record, Samples, Settings, SpectrumSettings, StreamKey, Wind,
 };
-use spunlaid::ground::{Isa, Window};
+use spunlaid::ground::{Interval, Isa, Window};
 use std::f64::consts::PI;
 
 fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {

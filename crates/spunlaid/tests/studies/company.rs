@@ -8,10 +8,10 @@ use spunlaid::experiment::study::fly_batches;
 use spunlaid::experiment::{Batch, Bundles, Point};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::{Error, Isa};
+use spunlaid::ground::{Error, Isa, Value as Measured};
 use spunlaid::input::{parse_case, parse_study, write_case};
 use spunlaid::simulation::ensemble::{fly, fly_together};
-use spunlaid::simulation::{Job, Keep, RunControl, Trajectory, Value as Measured};
+use spunlaid::simulation::{Job, Keep, RunControl, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

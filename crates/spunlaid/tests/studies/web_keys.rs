@@ -3,15 +3,12 @@
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::experiment::Batch;
 use spunlaid::experiment::study::fly_bundle;
-use spunlaid::ground::{Dimension, Isa};
+use spunlaid::ground::{Dimension, Isa, Known, Measure, Value, measure};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::simulation::layers::web_key;
-use spunlaid::simulation::observe::with_errors;
-use spunlaid::simulation::{
-    Flights, Flyer, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS, RunControl, Value,
-};
+use spunlaid::simulation::{Flights, Flyer, RunControl};
 use spunlaid::web::map::PatchFindings;
-use spunlaid::web::{Known, LayControl};
+use spunlaid::web::{LayControl, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -203,7 +200,7 @@ fn told<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
 
 /// The measures of patches that studies keep, in the order of their columns.
 fn patch_columns() -> impl Iterator<Item = &'static Measure<PatchFindings>> {
-    with_errors(OF_PATCHES).filter(|of| !of.name.is_empty())
+    measure::with_errors(OF_PATCHES).filter(|of| !of.name.is_empty())
 }
 
 /// What the two points of a study give, or why it is refused.

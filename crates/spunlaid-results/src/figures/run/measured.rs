@@ -2,7 +2,8 @@
 
 use crate::figures::with_unit;
 use crate::numbers::significant;
-use spunlaid::simulation::{Curve, CurveValue, Kind, Measure, Results, observe};
+use spunlaid::ground::{MeasureKind, measure};
+use spunlaid::simulation::{Curve, CurveValue, FibreMeasure, Results};
 use spunlaid_charts::palette::{BLUE, GREEN, PURPLE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Rose, Series, even};
 
@@ -14,13 +15,13 @@ const INSTANTS: usize = 250;
 
 /// The figures of all curves, in the order of their declarations.
 pub(super) fn figures(results: &Results) -> Vec<Figure> {
-    let mut declared: Vec<&'static observe::Figure> = Vec::new();
+    let mut declared: Vec<&'static measure::Figure> = Vec::new();
     for curve in &results.curves {
         if !declared.iter().any(|figure| figure.name == curve.measure.figure.name) {
             declared.push(curve.measure.figure);
         }
     }
-    let drawn = |figure: &'static observe::Figure| {
+    let drawn = |figure: &'static measure::Figure| {
         let curves: Vec<&Curve> =
             results.curves.iter().filter(|curve| curve.measure.figure.name == figure.name).collect();
         one(figure, &curves, results)
@@ -29,9 +30,9 @@ pub(super) fn figures(results: &Results) -> Vec<Figure> {
 }
 
 /// A figure of the curves that are declared for it.
-fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figure {
+fn one(declared: &measure::Figure, curves: &[&Curve], results: &Results) -> Figure {
     let first = curves[0].measure;
-    if first.kind == Kind::Direction {
+    if first.kind == MeasureKind::Direction {
         return rose(declared, curves[0], results.replicates());
     }
     let (along, value) = axes(first, curves.len() == 1);
@@ -41,15 +42,15 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
     for (i, curve) in curves.iter().enumerate() {
         let places = scaled(curve, unit);
         chart = match first.kind {
-            Kind::Profile => profile(chart, i, curve, &places, MARKED),
-            Kind::Way => profile(chart, i, curve, &places, places.len()),
-            Kind::Lag => correlation(chart, i, curve, &places),
-            Kind::Series => series(chart, i, curve, &places, results.replicates()),
-            Kind::Number | Kind::Spectrum | Kind::Direction => {
+            MeasureKind::Profile => profile(chart, i, curve, &places, MARKED),
+            MeasureKind::Way => profile(chart, i, curve, &places, places.len()),
+            MeasureKind::Lag => correlation(chart, i, curve, &places),
+            MeasureKind::Series => series(chart, i, curve, &places, results.replicates()),
+            MeasureKind::Number | MeasureKind::Spectrum | MeasureKind::Direction => {
                 chart.line(styled(i, curve.measure.series), places.iter().map(|place| (place.at, place.mean)))
             }
         };
-        if first.kind == Kind::Spectrum {
+        if first.kind == MeasureKind::Spectrum {
             chart = with_crossings(chart, i, curve.measure.series, results);
         }
     }
@@ -59,28 +60,28 @@ fn one(declared: &observe::Figure, curves: &[&Curve], results: &Results) -> Figu
 /// The axes of a curve: along and up.
 ///
 /// * `alone` – whether it is the only curve of its figure
-pub fn axes(first: &Measure, alone: bool) -> (Axis, Axis) {
+pub fn axes(first: &FibreMeasure, alone: bool) -> (Axis, Axis) {
     let declared = first.figure;
     let Some((column, abscissa, unit)) = first.kind.abscissa() else {
         return (Axis::linear(""), Axis::linear(""));
     };
     let label = with_unit(abscissa, unit.shown);
     let along = match first.kind {
-        Kind::Spectrum => Axis::logarithmic(&label),
+        MeasureKind::Spectrum => Axis::logarithmic(&label),
         _ => Axis::linear(&label),
     };
     let along = match first.kind {
-        Kind::Profile | Kind::Way | Kind::Lag => along.including(0.0),
-        Kind::Direction => along.tight(),
-        Kind::Series => along.tight().including(0.0),
-        Kind::Number | Kind::Spectrum => along.tight(),
+        MeasureKind::Profile | MeasureKind::Way | MeasureKind::Lag => along.including(0.0),
+        MeasureKind::Direction => along.tight(),
+        MeasureKind::Series => along.tight().including(0.0),
+        MeasureKind::Number | MeasureKind::Spectrum => along.tight(),
     };
     // The numbers beside a figure are in the units of its axes.
     let column = column.rsplit_once('_').map_or(column, |(name, _)| name);
     let shown = unit.shown.to_lowercase();
     let value = with_unit(if alone { first.label } else { declared.title }, first.unit.shown);
     let value = match (declared.logarithmic, first.kind) {
-        (true, Kind::Spectrum) => Axis::logarithmic(&value).decades(9),
+        (true, MeasureKind::Spectrum) => Axis::logarithmic(&value).decades(9),
         (true, _) => Axis::logarithmic(&value).steady(),
         (false, _) if declared.from_zero => Axis::linear(&value).zero_based(),
         (false, _) => Axis::linear(&value),
@@ -141,7 +142,7 @@ fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue]) -> 
 const MEASURED: usize = 2;
 
 /// Directions on the belt.
-fn rose(declared: &observe::Figure, curve: &Curve, replicates: usize) -> Figure {
+fn rose(declared: &measure::Figure, curve: &Curve, replicates: usize) -> Figure {
     let places = scaled(curve, 1.0);
     let rose = Rose {
         name: declared.name.to_owned(),
@@ -204,20 +205,25 @@ fn with_crossings(chart: Chart, i: usize, series: &str, results: &Results) -> Ch
     chart.vertical(line.dashed(dash).width(1.2), frequency)
 }
 
-fn caption(declared: &observe::Figure, kind: Kind, places: &[CurveValue], replicates: usize) -> String {
+fn caption(
+    declared: &measure::Figure,
+    kind: MeasureKind,
+    places: &[CurveValue],
+    replicates: usize,
+) -> String {
     let note = match (kind, replicates) {
-        (Kind::Spectrum, _) => {
+        (MeasureKind::Spectrum, _) => {
             " Dashed: the crossing frequency, half the number of sign changes per second.".to_owned()
         }
         (_, 0 | 1) => " There is a single replicate, so there are no error bars.".to_owned(),
-        (Kind::Lag, n) => {
+        (MeasureKind::Lag, n) => {
             format!(
                 " Mean over {n} replicates; bands: ± one standard error of the mean. Dashed: the surrogate."
             )
         }
-        (Kind::Direction, n) => mean_sentence(n),
-        (Kind::Profile | Kind::Way, n) => {
-            let marked = if kind == Kind::Profile && places.len() > MARKED {
+        (MeasureKind::Direction, n) => mean_sentence(n),
+        (MeasureKind::Profile | MeasureKind::Way, n) => {
+            let marked = if kind == MeasureKind::Profile && places.len() > MARKED {
                 format!(" {MARKED} of {} places carry a marker.", places.len())
             } else {
                 String::new()

@@ -4,15 +4,14 @@ use crate::figures::with_unit;
 use spunlaid::experiment::{Design, Factor, PointResults, Study, study};
 use spunlaid::fibre::ZERO_CELSIUS;
 use spunlaid::fibre::case::keys;
-use spunlaid::ground::Dimension;
+use spunlaid::ground::{Dimension, Unit, measure};
 use spunlaid::simulation::layers::{place_in_web, web_key};
-use spunlaid::simulation::{Unit, observe};
 use spunlaid_charts::Axis;
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    pub(super) figure: &'static observe::Figure,
+    pub(super) figure: &'static measure::Figure,
     pub(super) title: String,
     pub(super) unit: Unit,
     /// Indices into the quantities of the study, and the names of the series.

@@ -4,7 +4,8 @@ use super::web::{Web, WebNumber, are_alike, measure};
 use crate::numbers::significant;
 use crate::output::comparison::ComparedMeasure;
 use serde_json::Value as Json;
-use spunlaid::simulation::{Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS};
+use spunlaid::ground::Measure;
+use spunlaid::web::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS};
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;

@@ -6,7 +6,7 @@ use crate::Failure;
 use crate::figures::overlaid_figures;
 use crate::output::comparison::{ComparedMeasure, Comparison};
 use spunlaid::ground::{Difference, Estimate};
-use spunlaid::simulation::{MEASURES, Measure};
+use spunlaid::simulation::{FibreMeasure, MEASURES};
 use std::path::PathBuf;
 
 /// What two runs must have in common for their replicates to fly in the same turbulence: where it stands in
@@ -36,7 +36,7 @@ pub(super) fn compared(folders: &[PathBuf], names: Vec<String>) -> Result<Found,
 fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
     let differs = OF_TURBULENCE.iter().find(|path| first.at(path) != other.at(path));
     let pairs = differs.is_none().then(|| first.replicates().min(other.replicates()) as usize);
-    let measure = |measure: &&'static Measure| {
+    let measure = |measure: &&'static FibreMeasure| {
         let values_of_run = |run: &ComparedRun| run.values(measure.group.name, measure.column);
         let values = [values_of_run(first)?, values_of_run(other)?];
         let difference = match pairs {

@@ -2,8 +2,8 @@
 
 use super::half_width;
 use crate::numbers::decimals;
-use spunlaid::air::{Analysis, Interval};
-use spunlaid::ground::Dimension;
+use spunlaid::air::Analysis;
+use spunlaid::ground::{Dimension, Interval};
 
 /// The block; a comment after each value gives its interval and its origin.
 pub fn air_block(file: &str, analysis: &Analysis) -> String {

@@ -10,8 +10,8 @@ use crate::output::table::{self, number};
 use crate::output::versioned_json;
 pub use air::air_block;
 use serde_json::{Value as Json, json};
-use spunlaid::air::{Analysis, Component, Interval, Record};
-use spunlaid::simulation::{Measured, OF_COMPONENTS, OF_RECORDS, Value};
+use spunlaid::air::{Analysis, Component, OF_COMPONENTS, OF_RECORDS, Record};
+use spunlaid::ground::{Interval, Measured, Value};
 
 /// Half the width of an interval: the error of the value.
 pub fn half_width(interval: &Interval) -> f64 {

@@ -3,7 +3,7 @@
 use crate::numbers::plus_minus;
 use spunlaid::experiment::{Experiment, PointResults, Quantity, Study};
 use spunlaid::fibre::Case;
-use spunlaid::simulation::{DECLARED, Measure};
+use spunlaid::simulation::{DECLARED, FibreMeasure};
 
 /// The quantities that tables show, by their indices: those of a figure together, which are the patches of all sizes.
 pub fn quantities(study: &Study) -> Vec<usize> {
@@ -22,7 +22,7 @@ pub fn quantities(study: &Study) -> Vec<usize> {
 
 /// Whether a quantity has a meaning for a fibre.
 fn applies(quantity: &Quantity, case: &Case) -> bool {
-    let is_it = |measure: &Measure| measure.name == quantity.name;
+    let is_it = |measure: &FibreMeasure| measure.name == quantity.name;
     DECLARED.iter().any(|declared| (declared.applies)(case) && declared.measures.iter().any(is_it))
 }
 

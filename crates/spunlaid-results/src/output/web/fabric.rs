@@ -3,11 +3,8 @@
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
 use crate::output::measured::{joined, json, known};
 use serde_json::{Value as Json, json};
-use spunlaid::simulation::observe::measured;
-use spunlaid::simulation::{
-    Measure, Measured, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST, Value,
-};
-use spunlaid::web::{Fabric, Known};
+use spunlaid::ground::{Known, Measure, Measured, Value, measure};
+use spunlaid::web::{Fabric, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 
 /// The fabric in `summary.json`: all numbers that are known.
 pub(super) fn summary(fabric: &Fabric) -> Json {
@@ -25,7 +22,8 @@ pub(super) fn summary(fabric: &Fabric) -> Json {
 }
 
 fn entries<T>(measures: &'static [Measure<T>], of: &T) -> Json {
-    let known = measured(measures, of).filter_map(|row| Some((row.measure.entry(), json(row.value?))));
+    let known =
+        measure::measured(measures, of).filter_map(|row| Some((row.measure.entry(), json(row.value?))));
     known.collect()
 }
 
@@ -82,7 +80,7 @@ fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String
         let name = if before.is_empty() { label.to_owned() } else { before.to_owned() + &in_sentence(label) };
         Some([name, known_text(&row)?])
     };
-    measured(measures, of).filter_map(row).collect()
+    measure::measured(measures, of).filter_map(row).collect()
 }
 
 /// The number of a row in words, with its unit; none if it has none.

@@ -9,12 +9,14 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::Load;
-use spunlaid::ground::Estimate;
 use spunlaid::ground::statistics::interval_of_deviation;
-use spunlaid::simulation::{Measure, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS};
+use spunlaid::ground::{Estimate, Measure};
 use spunlaid::web::map::Findings;
 use spunlaid::web::scan::{self, Doubt};
-use spunlaid::web::{ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, Web};
+use spunlaid::web::{
+    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, OF_PATCHES,
+    OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS, Web,
+};
 
 /// What a layer was laid from.
 #[derive(Clone, Debug, Serialize)]

@@ -1,8 +1,8 @@
 //! What is found out about a record, and how it is analysed.
 
 use super::flat::FlatPart;
-use super::interval::Interval;
 use super::{Autocorrelation, IntegralRule, Trend};
+use crate::ground::Interval;
 use crate::ground::{Fault, Spectrum, Window};
 
 /// Fewest and most blocks of a record.

@@ -4,12 +4,12 @@ use super::analysis::{BLOCKS, SpectrumSettings, block_time};
 use super::artefacts::Artefacts;
 use super::doubts::warnings;
 use super::flat::FlatPart;
-use super::interval::{Interval, error};
+use super::interval::{error, jackknife};
 use super::jackknife::{Blocks, Estimates};
 use super::limits::{LEAST_SAMPLES, number, rate_fault, too_few_samples};
 use super::{Analysis, Autocorrelation, Component, IntegralRule, Moments, Record, Samples, Settings, Trend};
 use crate::ground::units::shortest;
-use crate::ground::{Dimension, Fault, FileError, Welch};
+use crate::ground::{Dimension, Fault, FileError, Interval, Welch};
 use std::ops::Range;
 
 /// Largest number of lags of an autocorrelation.
@@ -303,5 +303,5 @@ fn together(estimates: &[Estimates], mean_velocity: Option<f64>) -> (Interval, I
     let whole = found(&|e| (e.moments, e.autocorrelation.integral_time()));
     let blocks = estimates[0].left_out.len();
     let (intensities, lengths): (Vec<f64>, Vec<f64>) = (0..blocks).map(|b| found(&|e| e.left_out[b])).unzip();
-    (Interval::jackknife(whole.0, &intensities, true), Interval::jackknife(whole.1, &lengths, true))
+    (jackknife(whole.0, &intensities, true), jackknife(whole.1, &lengths, true))
 }

@@ -3,9 +3,9 @@
 use super::analysis::BLOCKS;
 use super::artefacts::Artefacts;
 use super::limits::{hertz, number, time};
-use super::{Analysis, Component, Interval, Reading, Record, Trend};
+use super::{Analysis, Component, Reading, Record, Trend};
 use crate::ground::error::{by_count, counted, listed};
-use crate::ground::{Dimension, Fault, WAS};
+use crate::ground::{Dimension, Fault, Interval, WAS};
 
 /// Largest share of an integral time that joints may take off, so that the record without its artefacts is told.
 const MOST_JOINED: f64 = 0.02;

@@ -1,8 +1,7 @@
 //! Finds the flat low-frequency part of a spectrum and the cut-off that keeps the energy.
 
-use super::Interval;
-use super::interval::chi_square;
-use crate::ground::{NORMAL_95, Spectrum};
+use super::interval::{chi_square, from_squares, logarithmic};
+use crate::ground::{Interval, NORMAL_95, Spectrum};
 use std::f64::consts::PI;
 
 /// By default the flat part ends at the cut-off over this. At this frequency the spectrum of an exponential correlation
@@ -76,10 +75,10 @@ impl FlatPart {
         let shared = 1.0 / (cutoff * duration);
         let error = (scatter + variance_error * variance_error - 2.0 * shared).max(0.25 * scatter).sqrt();
         Self {
-            density: Interval::logarithmic(density, scatter.sqrt(), NORMAL_95),
+            density: logarithmic(density, scatter.sqrt(), NORMAL_95),
             from: spectrum.step,
             until,
-            cutoff: Interval::logarithmic(cutoff, error, NORMAL_95),
+            cutoff: logarithmic(cutoff, error, NORMAL_95),
             independent,
             coarse: until > 0.5 * cutoff,
         }
@@ -113,9 +112,9 @@ impl FlatPart {
         // The variance shares some of the scatter of the plateau.
         let shared = 1.0 / (rough * duration);
         let error = (scatter + variance_error * variance_error - shared).max(0.25 * scatter).sqrt();
-        let inverse = Interval::from_squares(density / variance, median / variance, error);
+        let inverse = from_squares(density / variance, median / variance, error);
         Self {
-            density: Interval::from_squares(density, median, scatter.sqrt()),
+            density: from_squares(density, median, scatter.sqrt()),
             from: 1.0 / duration,
             until: end,
             cutoff: Interval { value: 1.0 / inverse.value, low: 1.0 / inverse.high, high: 1.0 / inverse.low },

@@ -1,72 +1,44 @@
 //! Computes 95 % confidence intervals, by the block jackknife or from the number of independent values.
 
-use crate::ground::NORMAL_95;
 use crate::ground::statistics::student_t_95;
+use crate::ground::{Interval, NORMAL_95};
 
 /// Half width of an interval from which that of the logarithm has no meaning: a factor of ten.
 const LARGEST_LOGARITHM: f64 = std::f64::consts::LN_10;
 
-/// A value with its 95 % confidence interval.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
-pub struct Interval {
-    /// The estimate.
-    pub value: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
+/// The interval of a positive quantity, given the standard error of its logarithm.
+pub(super) fn logarithmic(value: f64, error: f64, quantile: f64) -> Interval {
+    let factor = libm::exp(quantile * error);
+    Interval { value, low: value / factor, high: value * factor }
 }
 
-impl Interval {
-    /// A value without error.
-    pub const fn exactly(value: f64) -> Self {
-        Self { value, low: value, high: value }
-    }
+/// The interval of a mean of independent squares about `value`; `error` is the standard error of its logarithm.
+///
+/// The mean is distributed like a chi-square of `2/error²` degrees of freedom; `value` is the median estimate.
+pub(super) fn from_squares(mean: f64, value: f64, error: f64) -> Interval {
+    let share = |z: f64| chi_square(2.0 / (error * error), z);
+    Interval { value, low: mean / share(NORMAL_95), high: mean / share(-NORMAL_95) }
+}
 
-    /// Whether the interval holds a value.
-    pub fn holds(&self, value: f64) -> bool {
-        self.low <= value && value <= self.high
+/// The block jackknife: `left_out` are the estimates with each block left out in turn.
+///
+/// The standard error `s` follows from `s² = (B−1)/B Σ(θ_b − θ̄)²` (Künsch, Annals of Statistics 17, 1989);
+/// the interval is Student's with `B−1` degrees of freedom, of the logarithm if `positive`. Where an estimate is
+/// not positive, or the logarithms scatter too much to have a meaning, a positive quantity has as much room above
+/// as by its own scatter, and as large a factor below.
+pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Interval {
+    let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
+    let half = quantile * error(left_out);
+    if !(positive && value > 0.0) {
+        return Interval { value, low: value - half, high: value + half };
     }
-
-    /// Half the width over the value.
-    pub(crate) fn relative(&self) -> f64 {
-        0.5 * (self.high - self.low) / self.value.abs()
+    let logarithms: Vec<f64> = left_out.iter().map(|x| libm::log(x.max(0.0))).collect();
+    let of_logarithm = error(&logarithms);
+    if quantile * of_logarithm < LARGEST_LOGARITHM {
+        return logarithmic(value, of_logarithm, quantile);
     }
-
-    /// The interval of a positive quantity, given the standard error of its logarithm.
-    pub(super) fn logarithmic(value: f64, error: f64, quantile: f64) -> Self {
-        let factor = libm::exp(quantile * error);
-        Self { value, low: value / factor, high: value * factor }
-    }
-
-    /// The interval of a mean of independent squares about `value`; `error` is the standard error of its logarithm.
-    ///
-    /// The mean is distributed like a chi-square of `2/error²` degrees of freedom; `value` is the median estimate.
-    pub(super) fn from_squares(mean: f64, value: f64, error: f64) -> Self {
-        let share = |z: f64| chi_square(2.0 / (error * error), z);
-        Self { value, low: mean / share(NORMAL_95), high: mean / share(-NORMAL_95) }
-    }
-
-    /// The block jackknife: `left_out` are the estimates with each block left out in turn.
-    ///
-    /// The standard error `s` follows from `s² = (B−1)/B Σ(θ_b − θ̄)²` (Künsch, Annals of Statistics 17, 1989);
-    /// the interval is Student's with `B−1` degrees of freedom, of the logarithm if `positive`. Where an estimate is
-    /// not positive, or the logarithms scatter too much to have a meaning, a positive quantity has as much room above
-    /// as by its own scatter, and as large a factor below.
-    pub(super) fn jackknife(value: f64, left_out: &[f64], positive: bool) -> Self {
-        let quantile = student_t_95((left_out.len() as u64).saturating_sub(1));
-        let half = quantile * error(left_out);
-        if !(positive && value > 0.0) {
-            return Self { value, low: value - half, high: value + half };
-        }
-        let logarithms: Vec<f64> = left_out.iter().map(|x| libm::log(x.max(0.0))).collect();
-        let of_logarithm = error(&logarithms);
-        if quantile * of_logarithm < LARGEST_LOGARITHM {
-            return Self::logarithmic(value, of_logarithm, quantile);
-        }
-        let high = value + half;
-        Self { value, low: value * (value / high), high }
-    }
+    let high = value + half;
+    Interval { value, low: value * (value / high), high }
 }
 
 /// The chi-square distribution over its degrees of freedom, `z` standard deviations of a normal variable from its
@@ -134,7 +106,7 @@ mod tests {
         let left_out: Vec<f64> = values.iter().map(|x| (sum - x) / (n - 1.0)).collect();
         let variance = values.iter().map(|x| (x - sum / n).powi(2)).sum::<f64>() / (n - 1.0);
         assert!((error(&left_out) - (variance / n).sqrt()).abs() < 1e-12);
-        let interval = Interval::jackknife(sum / n, &left_out, false);
+        let interval = jackknife(sum / n, &left_out, false);
         assert!(interval.holds(sum / n) && !interval.holds(7.0));
     }
 
@@ -143,7 +115,7 @@ mod tests {
         for left_out in
             [[3.0, -1.0, 2.0, 0.5], [1e-9, 1.0, 2.0, 1.5], [0.0, 1.0, 2.0, 1.5], [1.0, 1.1, 0.9, 1.0]]
         {
-            let Interval { value, low, high } = Interval::jackknife(1.2, &left_out, true);
+            let Interval { value, low, high } = jackknife(1.2, &left_out, true);
             assert!(
                 0.0 < low && low <= value && value <= high && high < 20.0,
                 "{left_out:?}: {low} to {high}"

@@ -1,8 +1,9 @@
 //! Estimates from a record, with the error that leaving out one block after the other shows.
 
 use super::correlation::{lagged_products, pairs};
-use super::interval::{Interval, error};
+use super::interval::{error, jackknife};
 use super::{Autocorrelation, IntegralRule};
+use crate::ground::Interval;
 use crate::ground::statistics::student_t_95;
 use std::ops::Range;
 
@@ -106,7 +107,7 @@ impl Estimates {
 
     pub(super) fn moment(&self, moment: fn(&Moments) -> f64, positive: bool) -> Interval {
         let left_out: Vec<f64> = self.left_out.iter().map(|(moments, _)| moment(moments)).collect();
-        Interval::jackknife(moment(&self.moments), &left_out, positive)
+        jackknife(moment(&self.moments), &left_out, positive)
     }
 
     /// The interval is that of `asinh` of the skewness, whose error depends least on its value; without the bias
@@ -142,7 +143,7 @@ impl Estimates {
 
     pub(super) fn integral_time(&self) -> Interval {
         let left_out: Vec<f64> = self.left_out.iter().map(|(_, time)| *time).collect();
-        Interval::jackknife(self.autocorrelation.integral_time(), &left_out, true)
+        jackknife(self.autocorrelation.integral_time(), &left_out, true)
     }
 }
 

@@ -1,16 +1,18 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
-use crate::fibre::Solution;
+use crate::fibre::{OF_SPINLINES, Solution};
 use crate::ground::units::shortest;
-use crate::simulation::observe::with_errors;
-use crate::simulation::{
-    ErrorRole, Figure, Formula, KELVIN, MEASURES, Measure, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES,
-    OF_SPINLINES, OF_STRIPS, OF_WEBS, PER_SQUARE_METRE, Trajectory, Unit, Value, WebSpec,
+use crate::ground::{
+    ErrorRole, Figure, Formula, KELVIN, Known, Measure, PER_SQUARE_METRE, Unit, Value, measure,
 };
+use crate::simulation::{MEASURES, Trajectory, WebSpec};
 use crate::web::map::Findings;
-use crate::web::{ABOUT, Fabric, FabricPatch, Known, NONE_FOUND, PATCHES as FABRIC_PATCHES};
+use crate::web::{
+    ABOUT, Fabric, FabricPatch, NONE_FOUND, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS,
+    PATCHES as FABRIC_PATCHES,
+};
 
-/// A number that a study keeps, as its measure is declared in [`observe`](crate::simulation::observe). That of patches
+/// A number that a study keeps, as its [`Measure`] declares it. That of patches
 /// has their side in its name.
 #[derive(Clone, Debug)]
 pub struct Quantity {
@@ -142,7 +144,7 @@ const fn tells_its_error<T>(measure: &Measure<T>) -> bool {
 
 /// Adds the numbers of some measures, in the order of their quantities; NaN where there is nothing.
 fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&T>) {
-    for measure in with_errors(measures).filter(|measure| is_kept(measure)) {
+    for measure in measure::with_errors(measures).filter(|measure| is_kept(measure)) {
         match found.and_then(|found| measure.value(found)) {
             Some(Value::Told(known)) => all.extend(of_one_web(known, measure.unit)),
             value if tells_its_error(measure) => {

@@ -4,8 +4,8 @@ use super::journal::Journal;
 use super::measures::Quantity;
 use super::pack::Batch;
 use super::{Replicates, Study};
-use crate::ground::{Error, Estimate};
-use crate::simulation::{ErrorRole, MEASURES};
+use crate::ground::{Error, ErrorRole, Estimate};
+use crate::simulation::MEASURES;
 
 /// Statistics of a point over its replicates.
 #[derive(Clone, Debug, PartialEq)]

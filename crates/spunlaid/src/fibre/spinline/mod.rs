@@ -12,6 +12,7 @@
 mod cooling;
 mod integration;
 mod material;
+mod measures;
 mod shooting;
 mod solution;
 mod steady;
@@ -26,6 +27,7 @@ use crate::fibre::drag::{Drag, FrictionLaw};
 use crate::ground::Fault;
 pub(crate) use cooling::{Cooled, SolidFilament};
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
+pub use measures::OF_SPINLINES;
 pub use solution::{Freezing, FreezingCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
 

@@ -29,6 +29,34 @@ impl Estimate {
     }
 }
 
+/// A value with its 95 % confidence interval.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Interval {
+    /// The estimate.
+    pub value: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Interval {
+    /// A value without error.
+    pub const fn exactly(value: f64) -> Self {
+        Self { value, low: value, high: value }
+    }
+
+    /// Whether the interval holds a value.
+    pub fn holds(&self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// Half the width over the value.
+    pub fn relative(&self) -> f64 {
+        0.5 * (self.high - self.low) / self.value.abs()
+    }
+}
+
 /// The 95 % confidence interval of a standard deviation that has been found with a standard error.
 ///
 /// The square of a deviation with `ν = ½ (deviation/standard error)²` degrees of freedom is distributed as

@@ -5,13 +5,13 @@ mod profile;
 
 use crate::air::record::{analyse_fluctuation, read_record};
 use crate::air::{
-    FieldLayout, FileContent, Interval, LONGEST_GAP, Layout, Measured, ReadField, Record, RecordLayout,
-    RecordNumbers, Settings,
+    FieldLayout, FileContent, LONGEST_GAP, Layout, Measured, ReadField, Record, RecordLayout, RecordNumbers,
+    Settings,
 };
 use crate::fibre::Remark;
 use crate::fibre::case::keys::{Content, DataFile};
 use crate::ground::threads::lock;
-use crate::ground::{FileError, FileKind, Vec3, file};
+use crate::ground::{FileError, FileKind, Interval, Vec3, file};
 use crate::input::file::text as text_of;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};

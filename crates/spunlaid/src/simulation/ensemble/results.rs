@@ -3,8 +3,8 @@
 use super::Trajectory;
 use crate::fibre::WayPlace;
 use crate::ground::statistics::median;
-use crate::ground::{Error, Estimate};
-use crate::simulation::observe::{Aggregate, FIBRE_ON_WAY, FORCE_ON_AIR, Measure, Value};
+use crate::ground::{Aggregate, Error, Estimate, Value};
+use crate::simulation::observe::{FIBRE_ON_WAY, FORCE_ON_AIR, FibreMeasure};
 
 /// Results of an ensemble. They are collected trajectory by trajectory, so that memory does not grow with the
 /// replicates.
@@ -43,7 +43,7 @@ impl LostFibre {
 #[derive(Clone, Debug)]
 pub struct Number {
     /// Which measure.
-    pub measure: &'static Measure,
+    pub measure: &'static FibreMeasure,
     /// Mean and standard error over the replicates for which the measure is defined, and the values of all
     /// replicates in their order, NaN if not defined or if the fibre was lost. SI units.
     pub estimate: Estimate,
@@ -65,7 +65,7 @@ impl Number {
 #[derive(Clone, Debug)]
 pub struct Curve {
     /// Which measure.
-    pub measure: &'static Measure,
+    pub measure: &'static FibreMeasure,
     /// Its places along the fibre, times or frequencies, in their order.
     pub places: Vec<CurveValue>,
 }
@@ -88,8 +88,8 @@ pub struct CurveValue {
 pub struct Collector {
     keep: usize,
     /// The values of the numbers, and the places and sums of the curves.
-    numbers: Vec<(&'static Measure, Vec<f64>)>,
-    curves: Vec<(&'static Measure, Vec<f64>, Vec<RunningMoments>)>,
+    numbers: Vec<(&'static FibreMeasure, Vec<f64>)>,
+    curves: Vec<(&'static FibreMeasure, Vec<f64>, Vec<RunningMoments>)>,
     trajectories: Vec<Trajectory>,
     lost: Vec<LostFibre>,
 }

@@ -4,8 +4,8 @@ use super::{EndPath, RunControl, Shapes};
 use crate::air::Flow;
 use crate::fibre::{Case, Flight, Job, LaidPoint, SurroundingRun};
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Error, Isa, WIDTH};
-use crate::simulation::observe::{Measure, Observation, Observers, Sample, Value};
+use crate::ground::{Error, Isa, Value, WIDTH};
+use crate::simulation::observe::{FibreMeasure, Observation, Observers, Sample};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ pub struct Trajectory {
     /// Number of the replicate in its case, from 0.
     pub replicate: u64,
     /// Its measures, in the order of the declarations.
-    pub values: Vec<(&'static Measure, Value)>,
+    pub values: Vec<(&'static FibreMeasure, Value)>,
     /// End node and energies at the recorded instants, including the start; empty unless asked for.
     pub samples: Vec<Sample>,
     /// Where the free end was, of the first fibre of each flight; empty if curves are not measured, and of a fed fibre.

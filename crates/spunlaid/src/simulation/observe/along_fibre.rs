@@ -1,12 +1,13 @@
 //! Amplitude of each node of the fibre.
 
-use super::{
-    Declaration, FIBRE, Figure, Kind, MILLIMETRES, Measure, Observation, Observer, PER_METRE, Value, figure,
-    fixed, number_of_each,
-};
+use super::{Declaration, FIBRE, FibreMeasure, Observation, Observer, fixed, number_of_each};
 use crate::fibre::Flight;
 use crate::fibre::chain::forces::Element;
-use crate::ground::{Isa, Lanes, Register, Task, Vec3, WIDTH, Wide};
+use crate::ground::measure::figure;
+use crate::ground::{
+    Figure, Isa, Lanes, MILLIMETRES, Measure, MeasureKind, PER_METRE, Register, Task, Value, Vec3, WIDTH,
+    Wide,
+};
 
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
@@ -29,10 +30,10 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |flight| Box::new(Spread::new(flight)),
 };
 
-const AMPLITUDE: Measure = Measure {
+const AMPLITUDE: FibreMeasure = Measure {
     meaning: "standard deviation over time of each node’s position",
     unit: MILLIMETRES,
-    kind: Kind::Profile,
+    kind: MeasureKind::Profile,
     group: FIBRE,
     figure: &Figure {
         caption: "Amplitude of each node: the standard deviation of its y and z over time.",
@@ -91,7 +92,7 @@ pub(super) const CURVATURE: Declaration = Declaration {
         meaning: "root mean square over time of the curvature 2 sin(θ/2)/l at each node, with the angle θ \
             between its two elements",
         unit: PER_METRE,
-        kind: Kind::Profile,
+        kind: MeasureKind::Profile,
         group: FIBRE,
         figure: &Figure {
             caption: "Curvature at each node: the root mean square over time of one over the bending radius. \

@@ -1,13 +1,11 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
 use super::momentum::{MomentumBalance, NodeStates};
-use super::{
-    Declaration, FIBRE, Figure, Kind, MILLINEWTONS, Measure, Observation, Observer, RATIO, Unit, Value, fed,
-    figure, number_of_each,
-};
+use super::{Declaration, FIBRE, Observation, Observer, fed, number_of_each};
 use crate::fibre::Flight;
 use crate::fibre::chain::schemes::Scheme;
-use crate::ground::WIDTH;
+use crate::ground::measure::figure;
+use crate::ground::{Figure, MILLINEWTONS, Measure, MeasureKind, RATIO, Unit, Value, WIDTH};
 
 /// Classes of distance from the inlet.
 const CLASSES: usize = 50;
@@ -20,7 +18,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Speed on the way",
             meaning: "mean velocity of the fibre along x at each distance from the inlet",
             unit: Unit { shown: "m/s", per_si: 1.0 },
-            kind: Kind::Way,
+            kind: MeasureKind::Way,
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
@@ -36,7 +34,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Tension on the way",
             meaning: "mean tension at each distance from the inlet; negative in compression",
             unit: MILLINEWTONS,
-            kind: Kind::Way,
+            kind: MeasureKind::Way,
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
@@ -113,7 +111,7 @@ pub(super) const FORCES: Declaration = Declaration {
             meaning: "mean force along x with which the fibre drives the air between the inlet and each \
                  distance; negative where the air drives the fibre",
             unit: MILLINEWTONS,
-            kind: Kind::Way,
+            kind: MeasureKind::Way,
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
@@ -129,7 +127,7 @@ pub(super) const FORCES: Declaration = Declaration {
             label: "Fibre per length of the way",
             meaning: "mean length of fibre per length of the way; above one where the fibre swings and folds",
             unit: RATIO,
-            kind: Kind::Way,
+            kind: MeasureKind::Way,
             group: FIBRE,
             figure: &Figure {
                 caption: "Mean length of fibre per length of the way from the inlet to the belt. It is above one \

@@ -1,13 +1,14 @@
 //! The motion of the free end: amplitude, frequency and mean position from every step after the spin-up, its distance
 //! from the axis of the flow, and the circle in which it stays.
 
-use super::{
-    Declaration, Figure, HERTZ, Kind, MILLIMETRES, Measure, Observation, Observer,
-    SQUARE_MILLIMETRES_PER_HERTZ, Value, figure, fixed,
-};
+use super::{Declaration, END_NODE, FibreMeasure, Observation, Observer, fixed};
 use crate::fibre::{Flight, Run};
+use crate::ground::measure::figure;
 use crate::ground::statistics::quantile;
-use crate::ground::{EvenSample, WIDTH, Welch, Window};
+use crate::ground::{
+    EvenSample, Figure, HERTZ, MILLIMETRES, Measure, MeasureKind, SQUARE_MILLIMETRES_PER_HERTZ, Value, WIDTH,
+    Welch, Window,
+};
 
 pub(super) const MOTION: Declaration = Declaration {
     measures: &[
@@ -21,23 +22,25 @@ pub(super) const MOTION: Declaration = Declaration {
     observer: |_| Box::new(EndNode),
 };
 
-const AMPLITUDE: Measure = Measure {
+const NUMBER: FibreMeasure = Measure { group: END_NODE, ..Measure::NUMBER };
+
+const AMPLITUDE: FibreMeasure = Measure {
     is_main: true,
     meaning: "standard deviation over time of the free end’s position",
     unit: MILLIMETRES,
     figure: &figure("amplitude", "Amplitude", "amplitude"),
-    ..Measure::NUMBER
+    ..NUMBER
 };
 
-const FREQUENCY: Measure = Measure {
+const FREQUENCY: FibreMeasure = Measure {
     is_main: true,
     meaning: "half the number of sign changes of its position in a second",
     unit: HERTZ,
     figure: &figure("frequency", "Frequency", "frequency"),
-    ..Measure::NUMBER
+    ..NUMBER
 };
 
-const MEAN_X: Measure = Measure {
+const MEAN_X: FibreMeasure = Measure {
     name: "mean_x",
     is_main: true,
     column: "mean_x_m",
@@ -47,7 +50,7 @@ const MEAN_X: Measure = Measure {
     unit: MILLIMETRES,
     figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
     series: "*x*",
-    ..Measure::NUMBER
+    ..NUMBER
 };
 
 /// The flight itself takes the statistics of the free ends at every step.
@@ -85,10 +88,10 @@ pub(super) const DEFLECTIONS: Declaration = Declaration {
     observer: |_| Box::new(Deflection::default()),
 };
 
-const DEFLECTION: Measure = Measure {
+const DEFLECTION: FibreMeasure = Measure {
     unit: MILLIMETRES,
     figure: &figure("deflection", "Deflection of the free end", "deflection"),
-    ..Measure::NUMBER
+    ..NUMBER
 };
 
 /// Distances of the free ends from the axis at the recorded instants after the spin-up, and the largest ones [m].
@@ -145,7 +148,7 @@ pub(super) const RESIDENCE: Declaration = Declaration {
             "radius with 90 % of the positions",
         ),
         series: "radius",
-        ..Measure::NUMBER
+        ..NUMBER
     }],
     applies: fixed,
     observer: |_| Box::new(Residence::default()),
@@ -189,10 +192,10 @@ pub(super) const SPECTRA: Declaration = Declaration {
     observer: |flight| Box::new(EndPositions::new(flight)),
 };
 
-const SPECTRUM: Measure = Measure {
+const SPECTRUM: FibreMeasure = Measure {
     meaning: "one-sided power spectral density of its position (Welch’s method)",
     unit: SQUARE_MILLIMETRES_PER_HERTZ,
-    kind: Kind::Spectrum,
+    kind: MeasureKind::Spectrum,
     figure: &Figure {
         logarithmic: true,
         from_zero: false,
@@ -200,7 +203,7 @@ const SPECTRUM: Measure = Measure {
                   (Welch’s method). The area under a curve is the square of the amplitude.",
         ..figure("motion_spectrum", "Spectrum of the motion", "spectrum of the motion")
     },
-    ..Measure::NUMBER
+    ..NUMBER
 };
 
 /// Most instants in a segment. A longer run has more segments, so that its spectrum is smoother.

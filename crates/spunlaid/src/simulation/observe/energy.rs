@@ -1,13 +1,11 @@
 //! The errors of the two energy checks.
 
-use super::{
-    Aggregate, Declaration, ENERGY, Figure, Kind, Measure, OF_PERCENT, Observation, Observer, Sample, Value,
-    always, figure,
-};
+use super::{Declaration, ENERGY, FibreMeasure, Observation, Observer, Sample, always};
 use crate::fibre::Flight;
 use crate::fibre::chain::schemes::Scheme;
+use crate::ground::measure::figure;
 use crate::ground::statistics::median;
-use crate::ground::{EvenSample, WIDTH};
+use crate::ground::{Aggregate, EvenSample, Figure, Measure, MeasureKind, OF_PERCENT, Value, WIDTH};
 
 /// The paper's work check. Under implicit tension it does not apply: there it is tens of per cent where the amplitudes
 /// agree with those of the other schemes.
@@ -83,9 +81,9 @@ pub(super) const DISSIPATION: Declaration = Declaration {
     observer: |_| Errors::observer(Sample::tension_dissipation_percent, false),
 };
 
-const TYPICAL: Measure = Measure { aggregate: Aggregate::Median, figure: &FIGURE, ..ERROR };
+const TYPICAL: FibreMeasure = Measure { aggregate: Aggregate::Median, figure: &FIGURE, ..ERROR };
 
-const AT_END: Measure = Measure {
+const AT_END: FibreMeasure = Measure {
     figure: &Figure {
         name: "energy_error_at_end",
         title: "Energy error at the end",
@@ -95,9 +93,9 @@ const AT_END: Measure = Measure {
     ..ERROR
 };
 
-const OVER_TIME: Measure = Measure {
+const OVER_TIME: FibreMeasure = Measure {
     meaning: "the error at up to 4096 recorded instants; not defined at rest",
-    kind: Kind::Series,
+    kind: MeasureKind::Series,
     figure: &Figure {
         name: "energy_errors",
         title: "Energy errors over time",
@@ -108,12 +106,12 @@ const OVER_TIME: Measure = Measure {
     ..ERROR
 };
 
-const TAKEN_OUT: Measure = Measure {
+const TAKEN_OUT: FibreMeasure = Measure {
     figure: &figure("tension_dissipation", "Axial waves damped by the scheme", "dissipation of the scheme"),
     ..ERROR
 };
 
-const ERROR: Measure = Measure { unit: OF_PERCENT, group: ENERGY, ..Measure::NUMBER };
+const ERROR: FibreMeasure = Measure { unit: OF_PERCENT, group: ENERGY, ..Measure::NUMBER };
 
 const FIGURE: Figure =
     Figure { logarithmic: true, from_zero: false, ..figure("energy_error", "Energy error", "energy error") };

@@ -1,11 +1,9 @@
 //! The laid fibre: how wide it lies, in which directions, and the surrogate that describes it.
 
-use super::{
-    Declaration, Figure, Group, Kind, MILLIMETRES, Measure, Observation, Observer, RATIO, Unit, Value, fed,
-    figure, number_of_each,
-};
+use super::{Declaration, FibreMeasure, Observation, Observer, fed, number_of_each};
 use crate::fibre::{Case, Flight};
-use crate::ground::WIDTH;
+use crate::ground::measure::figure;
+use crate::ground::{Figure, Group, MILLIMETRES, Measure, MeasureKind, RATIO, Unit, Value, WIDTH};
 use crate::web::surrogate::identify;
 use crate::web::{LaidCurve, Trace, TraceSettings};
 
@@ -129,7 +127,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             label: "Directions of the laid fibre",
             meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: \
                  one without orientation",
-            kind: Kind::Direction,
+            kind: MeasureKind::Direction,
             group: LAYDOWN,
             figure: &Figure {
                 caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the direction in \
@@ -143,7 +141,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
     observer: |flight| Box::new(LaidFibres::new(flight)),
 };
 
-const SPREAD: Measure = Measure {
+const SPREAD: FibreMeasure = Measure {
     is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
@@ -151,14 +149,14 @@ const SPREAD: Measure = Measure {
     ..Measure::NUMBER
 };
 
-const SURROGATE_SPREAD: Measure = Measure {
+const SURROGATE_SPREAD: FibreMeasure = Measure {
     is_main: false,
     group: SURROGATE,
     figure: &figure("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
     ..SPREAD
 };
 
-const HALF_LENGTH: Measure = Measure {
+const HALF_LENGTH: FibreMeasure = Measure {
     is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
@@ -166,12 +164,12 @@ const HALF_LENGTH: Measure = Measure {
     ..Measure::NUMBER
 };
 
-const RATIO_OF: Measure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
+const RATIO_OF: FibreMeasure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
 
-const CORRELATION: Measure = Measure {
+const CORRELATION: FibreMeasure = Measure {
     meaning: "autocorrelation of the place about the straight trace, over the length of fibre between two \
          points",
-    kind: Kind::Lag,
+    kind: MeasureKind::Lag,
     group: LAYDOWN,
     figure: &Figure {
         from_zero: false,

@@ -8,46 +8,34 @@
 //! [`DECLARED`]. The summary, the tables, the report with its figures and CSV files, and the studies loop over the
 //! declarations.
 //!
-//! A measure of anything else is a [`Measure`] with its [`Formula`] in a list: [`OF_WEBS`] and
-//! [`OF_PATCHES`], [`OF_SCANS`] and [`OF_SCANNED_PATCHES`], [`OF_FABRICS`] and others beside it,
-//! [`OF_RECORDS`] and [`OF_COMPONENTS`], [`OF_SPINLINES`], [`OF_LOADS`] and [`OF_LOAD_PLACES`].
+//! A measure of anything else stands beside it, in `measures.rs` of its room.
 
 mod along_fibre;
 mod along_way;
 mod end_node;
 mod energy;
-mod fabric;
 mod laydown;
-mod measure;
 mod momentum;
-mod record;
 mod sample;
-mod scan;
-mod spinline;
 mod strain;
-mod web;
 
 use crate::fibre::{Case, Flight, LaidPoint, Snapshot};
-use crate::ground::WIDTH;
+use crate::ground::{Group, Measure, MeasureKind, Value, WIDTH};
 pub(crate) use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
-pub use fabric::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
 pub use laydown::{LAYDOWN, SURROGATE};
-use measure::figure;
-pub use measure::{
-    Aggregate, END_NODE, ENERGY, ErrorRole, FIBRE, Figure, Formula, Group, Kind, Measure, Measured, PERCENT,
-    RATIO, Unit, Value, measured, with_errors,
-};
-pub(crate) use measure::{
-    HERTZ, KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
-    SQUARE_MILLIMETRES_PER_HERTZ,
-};
 pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
-pub use record::{OF_COMPONENTS, OF_RECORDS};
 pub use sample::Sample;
-pub use scan::{OF_SCANNED_PATCHES, OF_SCANS};
-pub use spinline::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
 use std::sync::LazyLock;
-pub use web::{OF_PATCHES, OF_WEBS};
+
+/// A measure of the fibres of a flight, which observers look at.
+pub type FibreMeasure = Measure<Flight>;
+
+/// Motion of the free end.
+pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
+/// The fibre as a whole.
+pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
+/// The energy checks.
+pub const ENERGY: Group = Group { name: "energy", title: "energy" };
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
@@ -73,7 +61,7 @@ pub const DECLARED: &[&Declaration] = &[
 #[derive(Debug)]
 pub struct Declaration {
     /// The measures, in the order of the observer's values.
-    pub measures: &'static [Measure],
+    pub measures: &'static [FibreMeasure],
     /// Whether they have a meaning for a case.
     pub applies: fn(&Case) -> bool,
     /// The observer of the fibres of a flight. Their cases may differ, so it takes what it needs of each lane's own,
@@ -113,8 +101,8 @@ impl Observers {
     /// * `curves` – whether to measure curves too. A study does without; observers of curves alone are then left
     ///   out.
     pub(crate) fn new(flight: &Flight, curves: bool) -> Self {
-        let has = |d: &Declaration, wanted: fn(&Measure) -> bool| d.measures.iter().any(wanted);
-        let wanted = |d: &&Declaration| curves || has(d, |m| m.kind == Kind::Number);
+        let has = |d: &Declaration, wanted: fn(&FibreMeasure) -> bool| d.measures.iter().any(wanted);
+        let wanted = |d: &&Declaration| curves || has(d, |m| m.kind == MeasureKind::Number);
         let any = |d: &&Declaration| (0..WIDTH).any(|lane| applies(d, flight, lane));
         let declared = DECLARED.iter().copied().filter(wanted).filter(any);
         Self(declared.map(|declared| (declared, (declared.observer)(flight))).collect())
@@ -130,7 +118,7 @@ impl Observers {
         &self,
         lane: usize,
         flight: &Flight,
-    ) -> impl Iterator<Item = (&'static Measure, Value)> {
+    ) -> impl Iterator<Item = (&'static FibreMeasure, Value)> {
         let of_lane = self.0.iter().filter(move |(declared, _)| applies(declared, flight, lane));
         of_lane
             .flat_map(move |(declared, observer)| declared.measures.iter().zip(observer.finish(lane, flight)))
@@ -138,9 +126,9 @@ impl Observers {
 }
 
 /// All measures that are numbers, whether they apply to a case or not. A study stores these for each fibre.
-pub static MEASURES: LazyLock<Vec<&Measure>> = LazyLock::new(|| {
+pub static MEASURES: LazyLock<Vec<&FibreMeasure>> = LazyLock::new(|| {
     let all = DECLARED.iter().flat_map(|declared| declared.measures);
-    all.filter(|measure| measure.kind == Kind::Number).collect()
+    all.filter(|measure| measure.kind == MeasureKind::Number).collect()
 });
 
 /// Whether measures have a meaning for the fibre in a lane.

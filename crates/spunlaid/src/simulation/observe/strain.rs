@@ -1,13 +1,11 @@
 //! Strain of the fibre, tension at its root, and its time outside the given flow.
 
-use super::{
-    Aggregate, Declaration, FIBRE, Figure, MILLINEWTONS, Measure, Observation, Observer, PERCENT, Value,
-    figure, fixed, number_of_each,
-};
+use super::{Declaration, FIBRE, FibreMeasure, Observation, Observer, fixed, number_of_each};
 use crate::air::Flow;
 use crate::fibre::{Flight, Root};
+use crate::ground::measure::figure;
 use crate::ground::statistics::quantile;
-use crate::ground::{EvenSample, Lanes, WIDTH};
+use crate::ground::{Aggregate, EvenSample, Figure, Lanes, MILLINEWTONS, Measure, PERCENT, Value, WIDTH};
 use std::collections::VecDeque;
 
 /// The strain that does not depend on the time step.
@@ -50,7 +48,7 @@ const fn measure(
     meaning: &'static str,
     aggregate: Aggregate,
     series: &'static str,
-) -> Measure {
+) -> FibreMeasure {
     Measure {
         name,
         column: name,
@@ -167,7 +165,7 @@ pub(super) const ROOT_TENSION: Declaration = Declaration {
     },
 };
 
-const TENSION: Measure = Measure {
+const TENSION: FibreMeasure = Measure {
     unit: MILLINEWTONS,
     group: FIBRE,
     figure: &figure("root_tension", "Tension at the root", "tension at the root"),

@@ -1,6 +1,13 @@
 //! Every measure has names, a label, a meaning and a unit, and stands in `docs/measures.md`.
 
 use super::*;
+use crate::air::{OF_COMPONENTS, OF_RECORDS};
+use crate::fibre::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
+use crate::ground::{Formula, KELVIN, Unit, measure};
+use crate::web::{
+    OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAKS, OF_STRIPS,
+    OF_THINNEST, OF_WEBS,
+};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -50,9 +57,9 @@ fn check<T: 'static>(measures: impl Iterator<Item = &'static Measure<T>>) {
 /// Fails unless this holds for measures with formulas and for their errors. Studies keep an error only beside
 /// its measure.
 fn check_list<T>(measures: &'static [Measure<T>]) {
-    check(with_errors(measures));
+    check(measure::with_errors(measures));
     check_names(measures.iter().map(|measure| measure.label));
-    assert!(with_errors(measures).all(|measure| !matches!(measure.formula, Formula::Observed)));
+    assert!(measure::with_errors(measures).all(|measure| !matches!(measure.formula, Formula::Observed)));
     let left_out = measures.iter().filter(|measure| measure.name.is_empty());
     let mut errors = left_out.flat_map(|measure| measure.errors);
     assert!(errors.all(|error| error.name.is_empty()));
@@ -63,7 +70,7 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
     check(observed());
     assert!(observed().all(|measure| measure.column.starts_with(measure.name) && !measure.label.is_empty()));
-    assert!(MEASURES.iter().all(|measure| measure.kind == Kind::Number));
+    assert!(MEASURES.iter().all(|measure| measure.kind == MeasureKind::Number));
     check_list(OF_PATCHES);
     check_list(OF_WEBS);
     check_list(OF_SCANS);
@@ -85,7 +92,7 @@ fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item
     let mut rows: Vec<(Vec<String>, Vec<String>, &str)> = Vec::new();
     for measure in measures {
         let name = if measure.entry().is_empty() { measure.column } else { measure.entry() };
-        let is_kept = !measure.name.is_empty() && measure.kind == Kind::Number;
+        let is_kept = !measure.name.is_empty() && measure.kind == MeasureKind::Number;
         let kept = match measure.column.replace('#', part) {
             column if is_kept && column != name => Some(format!("`{column}`")),
             _ => is_kept.then(String::new),
@@ -117,7 +124,7 @@ fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item
 #[test]
 fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
-        (`crates/spunlaid/src/simulation/observe/`). Names are those of `summary.json`, of a velocity record those \
+        (`simulation/observe/` of the library, `measures.rs` of other rooms). Names are those of `summary.json`, of a velocity record those \
         of `analysis.json`, and end with the unit; a name without one is that of a ratio or a count. Studies keep \
         those marked *study*, some under another name, here of patches of 10 mm and of strips along MD. \
         [results.md](results.md) says where they stand.\n"
@@ -132,20 +139,20 @@ fn every_measure_stands_in_the_docs() {
     for group in groups {
         list(&mut text, group.title, observed().filter(|measure| measure.group == group));
     }
-    list(&mut text, "The patches of a web", with_errors(OF_PATCHES));
-    list(&mut text, "A web", with_errors(OF_WEBS));
-    list(&mut text, "The fabric of a web", with_errors(OF_FABRICS));
-    list(&mut text, "The patches of a fabric", with_errors(OF_FABRIC_PATCHES));
-    list(&mut text, "The thinnest places of a fabric", with_errors(OF_THINNEST));
-    list(&mut text, "Strips of a fabric", with_errors(OF_STRIPS));
-    list(&mut text, "Streaks of a fabric, of the defects of its line", with_errors(OF_STREAKS));
-    list(&mut text, "A scan", with_errors(OF_SCANS));
-    list(&mut text, "The patches of a scan", with_errors(OF_SCANNED_PATCHES));
-    list(&mut text, "A velocity record", with_errors(OF_RECORDS));
-    list(&mut text, "A component of a velocity record", with_errors(OF_COMPONENTS));
-    list(&mut text, "A spinline", with_errors(OF_SPINLINES));
-    list(&mut text, "The load of the filaments on their air", with_errors(OF_LOADS));
-    list(&mut text, "The load between the inlet and a place", with_errors(OF_LOAD_PLACES));
+    list(&mut text, "The patches of a web", measure::with_errors(OF_PATCHES));
+    list(&mut text, "A web", measure::with_errors(OF_WEBS));
+    list(&mut text, "The fabric of a web", measure::with_errors(OF_FABRICS));
+    list(&mut text, "The patches of a fabric", measure::with_errors(OF_FABRIC_PATCHES));
+    list(&mut text, "The thinnest places of a fabric", measure::with_errors(OF_THINNEST));
+    list(&mut text, "Strips of a fabric", measure::with_errors(OF_STRIPS));
+    list(&mut text, "Streaks of a fabric, of the defects of its line", measure::with_errors(OF_STREAKS));
+    list(&mut text, "A scan", measure::with_errors(OF_SCANS));
+    list(&mut text, "The patches of a scan", measure::with_errors(OF_SCANNED_PATCHES));
+    list(&mut text, "A velocity record", measure::with_errors(OF_RECORDS));
+    list(&mut text, "A component of a velocity record", measure::with_errors(OF_COMPONENTS));
+    list(&mut text, "A spinline", measure::with_errors(OF_SPINLINES));
+    list(&mut text, "The load of the filaments on their air", measure::with_errors(OF_LOADS));
+    list(&mut text, "The load between the inlet and a place", measure::with_errors(OF_LOAD_PLACES));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
     if std::env::var_os("SPUNLAID_RENEW").is_some() {
         std::fs::write(&path, &text).unwrap();

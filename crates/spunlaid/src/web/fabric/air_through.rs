@@ -1,6 +1,6 @@
 //! Air that is blown through the fabric.
 
-use super::Known;
+use crate::ground::Known;
 
 /// Viscosity [Pa s] and density [kg/m³] of air at 20 °C and 1013 hPa, the climate of the test.
 const VISCOSITY: f64 = 1.82e-5;

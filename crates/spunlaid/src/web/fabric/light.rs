@@ -1,7 +1,7 @@
 //! How opaque the fabric is.
 
-use super::Known;
 use super::patches::weights;
+use crate::ground::Known;
 use crate::web::map::uniformity::Unevenness;
 use crate::web::map::{Map, straight_fibres};
 

@@ -1,6 +1,6 @@
 //! Thin and thick places: how often a patch of the web is much lighter or heavier than the mean.
 
-use super::Known;
+use crate::ground::Known;
 use crate::web::map::Map;
 use crate::web::map::uniformity::{boxes, places_of_patches};
 

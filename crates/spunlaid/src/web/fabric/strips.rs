@@ -1,9 +1,9 @@
 //! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its
 //! lightest section.
 
-use super::{Known, Marked};
-use crate::ground::Estimate;
+use super::Marked;
 use crate::ground::statistics::quantile;
+use crate::ground::{Estimate, Known};
 use crate::web::map::Map;
 
 /// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.

@@ -4,7 +4,7 @@
 
 use super::light::local_weights;
 use super::*;
-use crate::ground::{Estimate, NORMAL_95};
+use crate::ground::{Estimate, Known, NORMAL_95};
 use crate::web::map::uniformity::{Unevenness, unevenness};
 use crate::web::map::{Canvas, Edges, Map, Sheet, straight_fibres};
 use crate::web::scan::{Format, Light, Picture, Settings, analyse};

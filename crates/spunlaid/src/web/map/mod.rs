@@ -27,6 +27,7 @@ mod few_findings;
 mod findings;
 mod laid_web;
 mod lay;
+mod measures;
 mod one_fibre;
 mod orientation;
 mod plan;
@@ -56,6 +57,7 @@ pub use laid_web::{
     TimeSpent,
 };
 pub use lay::{lay, pieces, strands};
+pub use measures::{OF_PATCHES, OF_WEBS};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 use std::sync::Arc;

@@ -4,15 +4,20 @@
 //! a list of measures + what was found → rows of values with their errors → JSON, tables, studies, Python
 //! ```
 
-use crate::air::Interval;
-use crate::fibre::Flight;
-use crate::ground::units::{si_unit_of, udunits};
-use crate::web::Known;
+mod known;
+mod unit;
+
+use crate::ground::Interval;
+pub use known::Known;
 use std::fmt;
+pub use unit::{
+    HERTZ, KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
+    PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit,
+};
 
 /// Something measured of a `T`: of a web, of its patches of one size, of a scan, of a velocity record or a
 /// component of it, of a spinline; of the fibres of a flight, which observers look at.
-pub struct Measure<T: 'static = Flight> {
+pub struct Measure<T: 'static> {
     /// Name in a study file, `amplitude_y`; empty if studies leave it out. Of patches, `#` stands for their
     /// side in millimetres.
     pub name: &'static str,
@@ -41,7 +46,7 @@ pub struct Measure<T: 'static = Flight> {
     /// Whether the tables of studies show it.
     pub is_main: bool,
     /// Number or curve.
-    pub kind: Kind,
+    pub kind: MeasureKind,
     /// Its group.
     pub group: Group,
     /// The statistic over the replicates that is shown.
@@ -167,7 +172,7 @@ impl<T> fmt::Debug for Measure<T> {
 
 impl<T> Measure<T> {
     /// The mean over the replicates of a number that has no name yet.
-    pub(crate) const NUMBER: Self = Self {
+    pub const NUMBER: Self = Self {
         name: "",
         column: "",
         entry: None,
@@ -180,8 +185,8 @@ impl<T> Measure<T> {
         digits: None,
         is_shown: |_| true,
         is_main: false,
-        kind: Kind::Number,
-        group: END_NODE,
+        kind: MeasureKind::Number,
+        group: Group { name: "", title: "" },
         aggregate: Aggregate::Mean,
         figure: &figure("", "", ""),
         series: "",
@@ -191,17 +196,12 @@ impl<T> Measure<T> {
     };
 
     /// A measure by its name in files, its label in tables, the unit in which it is shown, and its formula.
-    pub(super) const fn new(
-        column: &'static str,
-        label: &'static str,
-        unit: Unit,
-        formula: Formula<T>,
-    ) -> Self {
+    pub const fn new(column: &'static str, label: &'static str, unit: Unit, formula: Formula<T>) -> Self {
         Self { column, label, unit, formula, ..Self::NUMBER }
     }
 
     setters! {
-        pub(super) fn:
+        pub fn:
         /// Another one that an observer takes: its name in a study file, in tables, and its label.
         observed(name: &'static str, column: &'static str, label: &'static str) { name, column, label }
         /// Sets its definition in words.
@@ -237,7 +237,7 @@ impl<T> Measure<T> {
     }
 
     /// Puts it into studies under a name, in a column that has another name than in `summary.json`.
-    pub(super) const fn kept(self, name: &'static str, column: &'static str) -> Self {
+    pub const fn kept(self, name: &'static str, column: &'static str) -> Self {
         Self { name, column, entry: Some(self.column), ..self }
     }
 
@@ -305,71 +305,9 @@ pub struct Group {
     pub title: &'static str,
 }
 
-/// Motion of the free end.
-pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
-/// The fibre as a whole.
-pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
-/// The energy checks.
-pub const ENERGY: Group = Group { name: "energy", title: "energy" };
-
-/// A unit to show values in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
-    /// As it is written; empty for a plain number.
-    pub shown: &'static str,
-    /// Factor from the SI unit to this unit.
-    pub per_si: f64,
-}
-
-/// Counts over an area: large ones are easier to read over a smaller area.
-pub(crate) const PER_SQUARE_METRE: Unit = Unit { shown: "1/m²", per_si: 1.0 };
-const SMALLER_AREAS: [Unit; 2] =
-    [Unit { shown: "1/mm²", per_si: 1e-6 }, Unit { shown: "1/cm²", per_si: 1e-4 }];
-
-impl Unit {
-    /// This unit, or the one in which numbers of this size are easier to read.
-    ///
-    /// * `value` – of the size of the numbers, in the SI unit
-    pub fn readable(self, value: f64) -> Self {
-        let smaller = SMALLER_AREAS.into_iter().filter(|_| self == PER_SQUARE_METRE);
-        smaller.into_iter().find(|unit| value * unit.per_si >= 1.0).unwrap_or(self)
-    }
-
-    /// The unit of the values as they are kept, before they are shown, in the spelling of [`udunits`].
-    pub fn of_values(self) -> String {
-        match self.shown.split_once(' ') {
-            // After a power of ten.
-            Some((_, unit)) => udunits(unit),
-            None if self.per_si == 1.0 => udunits(self.shown),
-            None => udunits(&si_unit_of(self.shown)),
-        }
-    }
-}
-
-/// Millimetres.
-pub(crate) const MILLIMETRES: Unit = Unit { shown: "mm", per_si: 1e3 };
-/// Hertz.
-pub(crate) const HERTZ: Unit = Unit { shown: "Hz", per_si: 1.0 };
-/// Metres per second.
-pub(crate) const METRES_PER_SECOND: Unit = Unit { shown: "m/s", per_si: 1.0 };
-/// Kelvin.
-pub(crate) const KELVIN: Unit = Unit { shown: "K", per_si: 1.0 };
-/// Millinewtons.
-pub(crate) const MILLINEWTONS: Unit = Unit { shown: "mN", per_si: 1e3 };
-/// A plain number.
-pub const RATIO: Unit = Unit { shown: "", per_si: 1.0 };
-/// Per metre.
-pub(crate) const PER_METRE: Unit = Unit { shown: "1/m", per_si: 1.0 };
-/// Square millimetres per hertz.
-pub(crate) const SQUARE_MILLIMETRES_PER_HERTZ: Unit = Unit { shown: "mm²/Hz", per_si: 1e6 };
-/// Per cent, of a ratio.
-pub const PERCENT: Unit = Unit { shown: "%", per_si: 1e2 };
-/// Per cent, of a value that is already in per cent.
-pub(crate) const OF_PERCENT: Unit = Unit { shown: "%", per_si: 1.0 };
-
 /// What kind of result a measure is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum MeasureKind {
     /// A number.
     Number,
     /// A curve along the fibre, over the distance from the root [m].
@@ -386,7 +324,7 @@ pub enum Kind {
     Direction,
 }
 
-impl Kind {
+impl MeasureKind {
     /// The abscissa of the curve: its name with the SI unit in a table, its label on an axis, and its unit.
     pub const fn abscissa(self) -> Option<(&'static str, &'static str, Unit)> {
         match self {
@@ -432,6 +370,6 @@ pub struct Figure {
 }
 
 /// A figure of numbers without a caption of its own, whose axis begins at zero.
-pub(super) const fn figure(name: &'static str, title: &'static str, words: &'static str) -> Figure {
+pub const fn figure(name: &'static str, title: &'static str, words: &'static str) -> Figure {
     Figure { name, title, words, logarithmic: false, from_zero: true, caption: "" }
 }

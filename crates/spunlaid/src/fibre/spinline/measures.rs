@@ -1,11 +1,9 @@
 //! What is measured of a spinline. `summary.json`, the terminal, the report, Python and the studies follow from it.
 
-use super::Formula::{Known, Mean, Number};
-use super::{KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, PERCENT, RATIO, Unit, figure};
-use crate::fibre::{FreezingCause, Heat, Load, LoadPlace, Solution, ZERO_CELSIUS};
-
-type OfLoad = Measure<Load>;
-type OfPlace = Measure<LoadPlace>;
+use super::{FreezingCause, Solution, ZERO_CELSIUS};
+use crate::ground::Formula::Number;
+use crate::ground::measure::figure;
+use crate::ground::{KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, RATIO, Unit};
 
 /// The measures of a spinline, in the order of its tables and of studies.
 pub const OF_SPINLINES: &[Measure<Solution>] = &[
@@ -141,85 +139,3 @@ const MEGAPASCALS: Unit = Unit { shown: "MPa", per_si: 1e-6 };
 const GIGAPASCALS: Unit = Unit { shown: "GPa", per_si: 1e-9 };
 const PER_SECOND: Unit = Unit { shown: "1/s", per_si: 1.0 };
 const KELVIN_PER_SECOND: Unit = Unit { shown: "K/s", per_si: 1.0 };
-
-const NEWTONS_PER_METRE: Unit = Unit { shown: "N/m", per_si: 1.0 };
-const PASCALS: Unit = Unit { shown: "Pa", per_si: 1.0 };
-const KILOWATTS_PER_METRE: Unit = Unit { shown: "kW/m", per_si: 1e-3 };
-const KILOGRAMS_PER_SECOND_AND_METRE: Unit = Unit { shown: "kg/s/m", per_si: 1.0 };
-
-/// The measures of a load, in the order of its table.
-pub const OF_LOADS: &[Measure<Load>] = &[
-    OfLoad::new("filaments_per_m", "Filaments per metre of width", super::PER_METRE, Number(|load| {
-        load.filaments_per_metre
-    }))
-    .meaning("filaments of all rows, per metre of width")
-    .digits(4),
-    OfLoad::new("slot_m", "Size of the slot in machine direction", MILLIMETRES, Known(|load| {
-        Some(load.air?.slot)
-    }))
-    .meaning("line.depth, through which the filaments and their air come")
-    .digits(4),
-    OfLoad::new(
-        "air_kg_s_m",
-        "Air from the slot",
-        KILOGRAMS_PER_SECOND_AND_METRE,
-        Known(|load| Some(load.air?.mass_flow)),
-    )
-    .meaning("density times mean velocity at the inlet times slot, per metre of width")
-    .digits(3),
-    OfLoad::new("mass_loading", "Mass loading", PERCENT, Known(Load::mass_loading))
-        .meaning("mass flow of the filaments over that of the air at the inlet")
-        .digits(3),
-    OfLoad::new("momentum_loading", "Momentum loading", PERCENT, Known(Load::momentum_loading))
-        .meaning("momentum flux of the filaments over that of the air at the inlet")
-        .digits(3),
-    OfLoad::new("eddy_damping", "Damping of the eddies, at most", super::RATIO, Known(|load| load.damping))
-        .meaning(
-            "upper bound of how the filaments damp the eddies down to the belt: their amplitude falls by less than \
-             the factor exp(−this number)",
-        )
-        .digits(2),
-    OfLoad::new("heat_w_per_m", "Heat of the filaments", KILOWATTS_PER_METRE, Known(|load| {
-        Some(load.heat?.given)
-    }))
-    .meaning("heat given up between the die and the end of the spinline, per metre of width")
-    .remark(|load| {
-        let left_out = load.heat.as_ref().and_then(|heat: &Heat| heat.of_crystals)?;
-        Some(format!("without up to {:.1} kW/m of crystallisation, which this spinline leaves out", left_out * 1e-3))
-    })
-    .digits(3),
-    OfLoad::new("warming_k", "Warming of the slot's air, at most", KELVIN, Known(|load| load.heat?.warming))
-        .meaning("warming of the air of the slot by all of this heat")
-        .digits(3),
-];
-
-/// The measures of a load between the inlet and a place, in the order of its table.
-pub const OF_LOAD_PLACES: &[Measure<LoadPlace>] = &[
-    OfPlace::new("x_m", "Distance from the inlet", MILLIMETRES, Number(|place| place.distance))
-        .meaning("place on the way from the inlet to the belt")
-        .digits(4),
-    OfPlace::new(
-        "force_n_per_m",
-        "Force on the air",
-        NEWTONS_PER_METRE,
-        Mean(|place| (place.force, place.standard_error)),
-    )
-    .meaning(
-        "force with which the filaments drive the air between the inlet and here, per metre of width; \
-         negative where the air drives them",
-    ),
-    OfPlace::new("share_of_momentum", "of the air’s momentum", PERCENT, Known(LoadPlace::share_of_momentum))
-        .meaning("this force over the mass flow of the slot times the mean velocity here")
-        .digits(2),
-    OfPlace::new(
-        "change_of_velocity",
-        "Change of a free stream",
-        PERCENT,
-        Known(LoadPlace::change_of_velocity),
-    )
-    .meaning("share by which a free stream of the same width would be faster than the given air")
-    .digits(2),
-    OfPlace::new("pressure_pa", "Pressure between walls", PASCALS, Known(|place| place.pressure))
-        .meaning("rise of pressure between the inlet and here if walls keep the given velocity")
-        .digits(2),
-];

@@ -1,8 +1,9 @@
 //! What is measured of a web. `summary.json`, the tables of the terminal and of the report, Python and the
 //! studies follow from it.
 
-use super::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit, figure};
-use crate::web::map::{Findings, PatchFindings};
+use super::{Findings, PatchFindings};
+use crate::ground::measure::figure;
+use crate::ground::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
 use ErrorRole::{Further, OfOne};
 use Formula::{Known, Mean, Number};
 

@@ -1,7 +1,7 @@
 //! What is measured of a scanned web. `summary.json`, the report, the terminal and Python follow from it.
 
-use super::{ErrorRole, Formula, Measure, PERCENT, RATIO, Unit};
-use crate::web::scan::{Findings, PatchFindings};
+use super::{Findings, PatchFindings};
+use crate::ground::{ErrorRole, Formula, Measure, PERCENT, RATIO, Unit};
 use Formula::{Count, Known, Number};
 
 type OfScan = Measure<Findings>;

@@ -1,8 +1,10 @@
 //! What is measured of a velocity record. `analysis.json`, the terminal, the report and Python follow from it.
 
-use super::{Formula, HERTZ, METRES_PER_SECOND, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
-use crate::air::{self, Analysis, Component};
-use crate::ground::Dimension;
+use super::{Analysis, Component};
+use crate::ground;
+use crate::ground::{
+    Dimension, Formula, HERTZ, METRES_PER_SECOND, MILLIMETRES, Measure, PERCENT, RATIO, Unit,
+};
 use Formula::{Interval, Number};
 
 type OfRecord = Measure<Analysis>;
@@ -107,7 +109,7 @@ const fn result(
     column: &'static str,
     label: &'static str,
     unit: Unit,
-    found: fn(&Analysis) -> air::Interval,
+    found: fn(&Analysis) -> ground::Interval,
 ) -> Measure<Analysis> {
     OfRecord::new(column, label, unit, Interval(found))
 }

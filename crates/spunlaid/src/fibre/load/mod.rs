@@ -7,10 +7,13 @@
 //! The flights are in the air as it is given; a load says by how much the filaments would change it.
 //!                                                                            theory.md (116) to (119)
 
+mod measures;
+
 use crate::air::{HEAT_CAPACITY_OF_AIR, Hint};
 use crate::fibre::case::Case;
 use crate::fibre::spinline::Solution;
 use crate::ground::Vec3;
+pub use measures::{OF_LOAD_PLACES, OF_LOADS};
 
 /// Number of places at which a load is told, at equal distances from the inlet to the belt.
 const PLACES: usize = 10;

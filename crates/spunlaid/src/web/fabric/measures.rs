@@ -1,9 +1,10 @@
 //! What is told of a fabric, of its patches and strips.
 
-use super::Formula::Told;
-use super::{Figure, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit, figure};
-use crate::web::Known::Exact;
-use crate::web::{Fabric, FabricPatch, Marked, Streak, Strips};
+use super::{Fabric, FabricPatch, Marked, Streak, Strips};
+use crate::ground::Formula::Told;
+use crate::ground::Known::Exact;
+use crate::ground::measure::figure;
+use crate::ground::{Figure, MILLIMETRES, Measure, PER_SQUARE_METRE, PERCENT, RATIO, Unit};
 
 type OfFabric = Measure<Fabric>;
 type OfPatch = Measure<FabricPatch>;
