@@ -1,6 +1,6 @@
 //! What must hold whatever the readers are given: of the fuzzers' inputs, and of their findings in the tests.
 
-use spunlaid::air::record::{parse_csv, parse_parquet};
+use spunlaid::air::record::parse_record;
 use spunlaid::air::{Field, Hint, Layout, record};
 use spunlaid::input::{parse_case, parse_spinline, parse_web, starter_case, write_case, write_spinline};
 use spunlaid::web::{Light, scan};
@@ -52,18 +52,13 @@ pub fn case(data: &[u8]) -> bool {
     }
 }
 
-/// A velocity record, CSV or Parquet, is read or refused; what is read can be analysed or is refused for a
+/// A velocity record is read or refused; what is read can be analysed or is refused for a
 /// reason. Gives whether it was read.
 pub fn record(data: &[u8]) -> bool {
     let rate = Layout { rate: Some(1e4), velocity_unit: Some("m/s".to_owned()), ..Layout::default() };
     let mut any = false;
     for layout in [Layout::default(), rate] {
-        let read = if data.starts_with(b"PAR1") {
-            parse_parquet(data.to_vec(), "fuzz.parquet", &layout)
-        } else {
-            parse_csv(data, "fuzz.csv", &layout)
-        };
-        match read {
+        match parse_record(data, "fuzz.csv", &layout) {
             Ok(found) => {
                 for component in &found.components {
                     assert_eq!(component.values.len(), found.samples());

@@ -133,7 +133,7 @@ def test_identical_figures_to_those_of_the_program(short: Case, program: Path, t
 @pytest.mark.parametrize(
     ("options", "error", "says"),
     [
-        ({"figures": ["gif"]}, ValueError, "figures: write svg, png or pdf"),
+        ({"figures": ["gif"]}, ValueError, "figures: write one of svg, png, pdf"),
         ({"figures": 3}, TypeError, "write the names of formats"),
         ({"figure_width": "90"}, ValueError, "figure_width: write one-column"),
         ({"figure_width": 0.9}, ValueError, "figure_width: write one-column"),

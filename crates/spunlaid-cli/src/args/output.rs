@@ -53,13 +53,13 @@ impl Threads {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Figures and tables")]
 pub(crate) struct Figures {
-    /// Formats of the figures, as pdf,svg,png [default: svg,png]
-    #[arg(long = "figures", value_name = "FORMATS", value_delimiter = ',', value_parser = Format::named)]
+    #[arg(long = "figures", value_name = "FORMATS", value_delimiter = ',', value_parser = Format::named,
+          help = format!("Formats of the figures: {}, or several with commas [default: svg,png]", Format::names()))]
     formats: Vec<&'static Format>,
     #[command(flatten)]
     width: FigureWidth,
-    /// Formats in which the folder tables/ holds the tables too: tsv, csv, parquet
-    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = TableFormat::named)]
+    #[arg(long, value_name = "FORMATS", value_delimiter = ',', value_parser = TableFormat::named,
+          help = format!("Formats in which the folder tables/ holds the tables too: {}", TableFormat::names()))]
     tables: Vec<&'static TableFormat>,
 }
 

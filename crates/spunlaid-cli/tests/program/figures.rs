@@ -106,7 +106,9 @@ fn rejects_unknown_formats_and_widths_with_what_is_allowed() {
     let desk = Desk::new();
     let refused = |options: &[&str]| refusal(desk.spunlaid("run").arg(case("table1.toml")).args(options), 1);
     let format = refused(&["--figures", "eps"]);
-    assert!(format.contains("eps") && format.contains("write svg, png or pdf"), "{format}");
+    assert!(format.contains("eps") && format.contains("write one of svg, png, pdf"), "{format}");
+    let help = success(&mut desk.spunlaid("run --help"));
+    assert!(help.contains("Formats of the figures: svg, png, pdf"), "{help}");
     let width = refused(&["--figure-width", "5 mm"]);
     assert!(
         width.contains("one-column (84 mm), two-columns (174 mm), or a width from 60 to 400 mm"),

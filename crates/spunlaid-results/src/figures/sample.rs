@@ -15,10 +15,10 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
             diameter: 50e-6,
             density: 950.0,
             youngs_modulus: 2e9,
-            bending_viscosity_time: 0.0,
             elements,
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),
+            ..Fibre::UNKNOWN
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
@@ -27,16 +27,13 @@ pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {
         run: Run {
             time_step: 1e-3,
             steps: instants as u64 - 1,
-            spin_up_steps: 0,
-            rarer_looks: 1.0,
             output_steps: 1,
             replicates,
             seed: 1,
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
-            shapes: None,
-            checks: spunlaid::fibre::Checks::default(),
+            ..Run::UNKNOWN
         },
     }
 }

@@ -38,8 +38,12 @@ impl Format {
     /// What to write, if there is none.
     pub fn named(name: &str) -> Result<&'static Self, String> {
         let known = FORMATS.iter().find(|format| format.name.eq_ignore_ascii_case(name.trim()));
-        known
-            .ok_or_else(|| "write svg, png or pdf, or several of them with commas, as pdf,svg,png".to_owned())
+        known.ok_or_else(|| format!("write one of {}, or several of them with commas", Self::names()))
+    }
+
+    /// The names of all formats.
+    pub fn names() -> String {
+        FORMATS.each_ref().map(|format| format.name).join(", ")
     }
 }
 

@@ -3,7 +3,7 @@
 use super::table::{Row, Table};
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::output::measured::text;
-use spunlaid::ground::{ErrorRole, Measure};
+use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
 use spunlaid::web::OF_PATCHES;
 use spunlaid::web::map::{Findings, PatchFindings};
 
@@ -16,7 +16,7 @@ pub(super) fn patch_table(findings: &Findings) -> Table {
     };
     let declared = columns(findings);
     let row = |patch: &PatchFindings| {
-        let cells = declared.iter().map(|measure| cell(text(&measure.of(patch))));
+        let cells = declared.iter().map(|measure| cell(text(&measure.of(patch)), measure.unit));
         Row::from(cells_of_map(patch).into_iter().chain(cells).collect::<Vec<_>>())
     };
     let heads = of_map.into_iter().chain(declared.iter().map(|measure| measure.terse()));
@@ -36,9 +36,13 @@ fn columns(findings: &Findings) -> Vec<&'static Measure<PatchFindings>> {
     OF_PATCHES.iter().flat_map(of_measure).skip(1).filter(is_shown).collect()
 }
 
-/// A number in per cent, or a dash.
-fn cell(number: Option<String>) -> String {
-    number.map_or_else(|| "–".to_owned(), |number| format!("{number}{THIN}%"))
+/// A number with its unit, or a dash.
+fn cell(number: Option<String>, unit: Unit) -> String {
+    match (number, unit.shown) {
+        (None, _) => "–".to_owned(),
+        (Some(number), "") => number,
+        (Some(number), unit) => format!("{number}{THIN}{unit}"),
+    }
 }
 
 /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
@@ -49,8 +53,21 @@ fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
     let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
     [
         format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),
-        cell(told.map(|told| plus_minus(100.0 * told.cv, whole.map(|error| 100.0 * error)))),
-        cell(error.chance.map(|error| significant(100.0 * error, 2))),
-        cell(patch.interval().map(ends)),
+        cell(told.map(|told| plus_minus(100.0 * told.cv, whole.map(|error| 100.0 * error))), PERCENT),
+        cell(error.chance.map(|error| significant(100.0 * error, 2)), PERCENT),
+        cell(patch.interval().map(ends), PERCENT),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PERCENT, cell};
+    use spunlaid::ground::RATIO;
+
+    #[test]
+    fn a_cell_has_the_unit_of_its_measure() {
+        let number = |text: &str| Some(text.to_owned());
+        assert_eq!(cell(number("5.3"), PERCENT), "5.3\u{202f}%");
+        assert_eq!([cell(number("1.4"), RATIO), cell(None, RATIO)], ["1.4", "–"]);
+    }
 }

@@ -212,10 +212,10 @@ pub fn beam() {
         diameter: 1e-3,
         density: 1000.0,
         youngs_modulus: 1e9,
-        bending_viscosity_time: 0.0,
         elements,
         root: Root::Clamped,
         direction: X,
+        ..Fibre::UNKNOWN
     };
     let bending = |fibre: &Fibre| {
         let (n, l) = (fibre.elements, fibre.rest_length());

@@ -40,7 +40,7 @@ pub struct Fibre {
 
 impl Fibre {
     /// A fibre of which nothing is known yet; its keys are set one after another.
-    pub(crate) const UNKNOWN: Self = Self {
+    pub const UNKNOWN: Self = Self {
         length: f64::NAN,
         diameter: f64::NAN,
         density: f64::NAN,

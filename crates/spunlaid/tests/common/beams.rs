@@ -12,10 +12,10 @@ pub fn slender_beam(elements: usize) -> Fibre {
         diameter: 2e-3,
         density: 1000.0,
         youngs_modulus: 1e9,
-        bending_viscosity_time: 0.0,
         elements,
         root: Root::Clamped,
         direction: Y,
+        ..Fibre::UNKNOWN
     }
 }
 

@@ -85,7 +85,7 @@ impl Thread {
             bending_viscosity_time: self.viscosity * (self.height / GRAVITY).sqrt(),
             elements: (1.0 / self.element).round() as usize,
             root: Root::Clamped,
-            direction: super::X,
+            ..Fibre::UNKNOWN
         }
     }
 
@@ -97,16 +97,12 @@ impl Thread {
         let run = Run {
             time_step: 1.0,
             steps: 1,
-            spin_up_steps: 0,
-            rarer_looks: 1.0,
             output_steps: 100,
-            replicates: 1,
             seed: 1,
             scheme: self.scheme,
             gravity: GRAVITY,
             damping: Self::DAMPING * (GRAVITY / self.height).sqrt(),
-            shapes: None,
-            checks: spunlaid::fibre::Checks::default(),
+            ..Run::UNKNOWN
         };
         let line = Line {
             feed_speed,

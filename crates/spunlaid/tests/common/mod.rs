@@ -30,10 +30,10 @@ pub fn table1_fibre() -> Fibre {
         diameter: 50e-6,
         density: 950.0,
         youngs_modulus: 2e9,
-        bending_viscosity_time: 0.0,
         elements: 20,
         root: Root::Pinned,
         direction: X,
+        ..Fibre::UNKNOWN
     }
 }
 
@@ -51,16 +51,13 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
     let run = Run {
         time_step,
         steps: (duration / time_step).round() as u64,
-        spin_up_steps: 0,
-        rarer_looks: 1.0,
         output_steps: ((1e-3 / time_step).round() as u64).max(1),
         replicates,
         seed: 1,
         scheme,
         gravity: 9.81,
         damping: 0.0,
-        shapes: None,
-        checks: spunlaid::fibre::Checks::default(),
+        ..Run::UNKNOWN
     };
     Case { fibre: table1_fibre(), air: table1_air(), drag: paper_drag(), line: None, spinline: None, run }
 }

@@ -6,7 +6,6 @@ use spunlaid::air::record::{analyse, read_record};
 use spunlaid::air::{Air, Flow, Layout, Settings};
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
-use spunlaid::ground::Vec3;
 use spunlaid::input::{parse_case, read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
@@ -78,7 +77,7 @@ fn table_1_is_read_in_si_units() {
             bending_viscosity_time: 0.0,
             elements: 20,
             root: Root::Pinned,
-            direction: Vec3::new(1.0, 0.0, 0.0),
+            ..Fibre::UNKNOWN
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
@@ -88,7 +87,6 @@ fn table_1_is_read_in_si_units() {
             time_step: 1e-6,
             steps: 1_000_000,
             spin_up_steps: 0,
-            rarer_looks: 1.0,
             output_steps: 1000,
             replicates: 10,
             seed: 1,
@@ -97,6 +95,7 @@ fn table_1_is_read_in_si_units() {
             damping: 0.0,
             shapes: None,
             checks: spunlaid::fibre::Checks::default(),
+            ..Run::UNKNOWN
         },
     };
     assert_eq!(bits(&case), bits(&meant));

@@ -30,10 +30,10 @@ prop_compose! {
             diameter,
             density,
             youngs_modulus,
-            bending_viscosity_time: 0.0,
             elements,
             root,
             direction,
+            ..Fibre::UNKNOWN
         }
     }
 }
@@ -68,9 +68,9 @@ prop_compose! {
         let spin_up_steps = (spin_up * steps as f64) as u64;
         let output_steps = 1 + (output * (steps - 1) as f64) as u64;
         let run = Run {
-            rarer_looks: 1.0,
             time_step: 1.0, steps, spin_up_steps, output_steps, replicates, seed, scheme, gravity, damping,
             shapes: leapfrog.then_some(seed % 20_001), checks: Checks::ALL[(seed % 3) as usize],
+            ..Run::UNKNOWN
         };
         let drag = Drag { along, across };
         let mut case = Case { fibre, air, drag, line: None, spinline: None, run };

@@ -145,10 +145,10 @@ fn analytic_clamped_beam() {
         diameter: 1e-3,
         density: 1000.0,
         youngs_modulus: 1e9,
-        bending_viscosity_time: 0.0,
         elements: 24,
         root: Root::Clamped,
         direction: X,
+        ..Fibre::UNKNOWN
     };
     let bending = |fibre: &Fibre| {
         // Turn at node i: (y_{i−1} − 2y_i + y_{i+1})/l; at the clamped root y_1/l with twice the spring.

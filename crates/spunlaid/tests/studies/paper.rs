@@ -12,7 +12,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
 }
 
-/// With `SPUNLAID_RENEW=1` it writes the copies.
+/// With `BLESS=1` it writes the copies.
 #[test]
 fn identical_to_the_files_of_the_repository() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -21,11 +21,11 @@ fn identical_to_the_files_of_the_repository() {
     assert!(copied.len() >= 9, "{copied:?}");
     for copy in copied {
         let original = fs::read_to_string(originals.join(copy.strip_prefix(&copies).unwrap())).unwrap();
-        if std::env::var_os("SPUNLAID_RENEW").is_some() {
+        if std::env::var_os("BLESS").is_some() {
             fs::write(&copy, &original).unwrap();
         }
         let same = fs::read_to_string(&copy).unwrap() == original;
-        assert!(same, "{} is not up to date: the test writes it with SPUNLAID_RENEW=1", copy.display());
+        assert!(same, "{} is not up to date: the test writes it with BLESS=1", copy.display());
     }
 }
 

@@ -168,16 +168,22 @@ impl Default for Layout {
 /// # Errors
 /// When the file cannot be read or is not an evenly sampled velocity record; the message says where and why.
 pub fn read_record(path: &Path, layout: &Layout) -> Result<Record, FileError> {
-    let name = path.display().to_string();
-    let mut file = file::open(path, FileKind::Record)?;
-    let failed = |source| file::unreadable(&source, path, FileKind::Record);
+    parse_record(file::open(path, FileKind::Record)?, &path.display().to_string(), layout)
+}
+
+/// Reads what [`read_record`] reads from any source; messages call it `name`.
+///
+/// # Errors
+/// The errors of [`read_record`].
+pub fn parse_record(mut source: impl Read, name: &str, layout: &Layout) -> Result<Record, FileError> {
+    let failed = |error| file::unreadable(&error, name.as_ref(), FileKind::Record);
     let mut start = Vec::new();
-    file.by_ref().take(4).read_to_end(&mut start).map_err(failed)?;
+    source.by_ref().take(4).read_to_end(&mut start).map_err(failed)?;
     if start != parquet::MAGIC {
-        return parse_csv(start.chain(file), &name, layout);
+        return parse_csv(start.chain(source), name, layout);
     }
-    file.read_to_end(&mut start).map_err(failed)?;
-    parse_parquet(start, &name, layout)
+    source.read_to_end(&mut start).map_err(failed)?;
+    parse_parquet(start, name, layout)
 }
 
 /// Reads a Parquet file held in memory; messages call it `name`.

@@ -13,10 +13,10 @@ pub(crate) fn table1() -> Case {
             diameter: 50e-6,
             density: 950.0,
             youngs_modulus: 2e9,
-            bending_viscosity_time: 0.0,
             elements: 20,
             root: Root::Pinned,
             direction: Vec3::new(1.0, 0.0, 0.0),
+            ..Fibre::UNKNOWN
         },
         air: Air::uniform(10.0, 0.1, 0.05, 100.0),
         drag: Drag { along: FrictionLaw::Matsui { factor: 0.9 }, across: NormalLaw::JuShambaugh },
@@ -25,16 +25,13 @@ pub(crate) fn table1() -> Case {
         run: Run {
             time_step: 2e-5,
             steps: 1000,
-            spin_up_steps: 0,
-            rarer_looks: 1.0,
             output_steps: 50,
             replicates: 10,
             seed: 1,
             scheme: Scheme::SemiImplicitEuler,
             gravity: 9.81,
             damping: 0.0,
-            shapes: None,
-            checks: crate::fibre::Checks::default(),
+            ..Run::UNKNOWN
         },
     }
 }

@@ -79,7 +79,7 @@ pub struct Run {
 
 impl Run {
     /// A run of which nothing is known yet; its keys are set one after another.
-    const UNKNOWN: Self = Self {
+    pub const UNKNOWN: Self = Self {
         time_step: f64::NAN,
         steps: 0,
         spin_up_steps: 0,

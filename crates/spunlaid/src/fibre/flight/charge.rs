@@ -32,7 +32,7 @@ impl Flight {
 mod tests {
     use crate::air::{Air, Eddies, StreamKey, Wind};
     use crate::fibre::body::{Fibre, Root};
-    use crate::fibre::case::{Case, Checks, Run};
+    use crate::fibre::case::{Case, Run};
     use crate::fibre::chain::Strand;
     use crate::fibre::chain::schemes::Scheme;
     use crate::fibre::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, SheetField, Sheets};
@@ -50,10 +50,10 @@ mod tests {
         diameter: 18e-6,
         density: 910.0,
         youngs_modulus: 2e9,
-        bending_viscosity_time: 0.0,
         elements: 95,
         root: Root::Free,
         direction: Vec3::new(1.0, 0.0, 0.0),
+        ..Fibre::UNKNOWN
     };
     /// Three nodes in each step of the height.
     const SPACING: f64 = HEIGHT / 96.0;
@@ -213,16 +213,12 @@ mod tests {
         let run = Run {
             time_step: 4e-5,
             steps: 2000,
-            spin_up_steps: 0,
-            rarer_looks: 1.0,
             output_steps: 100,
-            replicates: 1,
             seed: 1,
             scheme: Scheme::ImplicitTension,
             gravity: 9.81,
             damping: 0.0,
-            shapes: None,
-            checks: Checks::default(),
+            ..Run::UNKNOWN
         };
         Case {
             fibre,

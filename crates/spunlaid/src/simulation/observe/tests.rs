@@ -120,7 +120,7 @@ fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item
     }
 }
 
-/// With `SPUNLAID_RENEW=1` it writes the page.
+/// With `BLESS=1` it writes the page.
 #[test]
 fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
@@ -154,9 +154,9 @@ fn every_measure_stands_in_the_docs() {
     list(&mut text, "The load of the filaments on their air", measure::with_errors(OF_LOADS));
     list(&mut text, "The load between the inlet and a place", measure::with_errors(OF_LOAD_PLACES));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
-    if std::env::var_os("SPUNLAID_RENEW").is_some() {
+    if std::env::var_os("BLESS").is_some() {
         std::fs::write(&path, &text).unwrap();
     }
     let page = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(page == text, "docs/measures.md is not up to date: the test writes it with SPUNLAID_RENEW=1");
+    assert!(page == text, "docs/measures.md is not up to date: the test writes it with BLESS=1");
 }
