@@ -26,7 +26,7 @@ mod vtk;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use vtk::{ASCII, Mesh, Place, Squeeze, Style};
+use vtk::{ASCII, DataPlace, Mesh, Squeeze, Style};
 
 /// A plane diffuser, in m and m/s.
 struct Diffuser {
@@ -139,7 +139,7 @@ fn vtu(diffuser: &Diffuser, size: [usize; 3]) -> Vec<u8> {
         ],
         cell_data: Vec::new(),
     };
-    let (place, squeeze) = (Place::AppendedRaw, Squeeze::Zlib);
+    let (place, squeeze) = (DataPlace::AppendedRaw, Squeeze::Zlib);
     let style = Style { place, squeeze, block: 1 << 15, float: "Float32", integer: "Int32", ..ASCII };
     vtk::vtu(&[mesh], style)
 }

@@ -281,7 +281,7 @@ fn cube(side: usize) -> (Vec<[f64; 3]>, [vtk::Data; 3]) {
     (points, data)
 }
 
-const RAW: vtk::Style = vtk::Style { place: vtk::Place::AppendedRaw, ..vtk::ASCII };
+const RAW: vtk::Style = vtk::Style { place: vtk::DataPlace::AppendedRaw, ..vtk::ASCII };
 
 /// Bytes of a field when it is ready, and at most while it is made, without those of its file.
 fn memory_of_field(file: &[u8], name: &str) -> (f64, f64, usize) {

@@ -10,7 +10,7 @@ use spunlaid::air::{Lateral, LocalAir};
 use spunlaid::fibre::{Case, Note};
 use spunlaid::ground::{Error, Fault, FileKind, Problem, Vec3};
 use spunlaid::input::{Resources, WebFile, kind_of, read_points, read_web};
-use spunlaid::simulation::{Curtain, Sources};
+use spunlaid::simulation::{LineFilaments, Sources};
 use spunlaid_results::folders::products::{AirFolder, SourcesFolder};
 use spunlaid_results::folders::run::lost;
 use spunlaid_results::numbers::significant;
@@ -121,7 +121,7 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
             };
             (case, file.spec.curtain(0), Input::Web(&file.spec), &file.notes)
         }
-        LineFile::Case(case, notes) => (&**case, Curtain::of_spinline(case), Input::Case(case), notes),
+        LineFile::Case(case, notes) => (&**case, LineFilaments::of_spinline(case), Input::Case(case), notes),
     };
     if let Some(fault) = Sources::fault(case) {
         return Err(refuse(fault).into());

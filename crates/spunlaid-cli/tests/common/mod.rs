@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 
 /// A folder with `case.toml` and `study.toml`, gone when dropped.
-pub struct Place {
+pub struct StudyFolder {
     pub folder: tempfile::TempDir,
 }
 
@@ -21,7 +21,7 @@ pub fn case(duration: f64) -> String {
     )
 }
 
-impl Place {
+impl StudyFolder {
     pub fn new(case: &str, study: &str) -> Self {
         let place = Self { folder: tempfile::tempdir().unwrap() };
         fs::write(place.path("case.toml"), case).unwrap();

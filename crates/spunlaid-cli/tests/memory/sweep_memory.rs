@@ -1,6 +1,6 @@
 //! The memory of a study does not grow with its points.
 
-use crate::common::{Place, case};
+use crate::common::{StudyFolder, case};
 use std::fs;
 use std::process::Stdio;
 
@@ -19,7 +19,7 @@ fn peak(points: u64, replicates: u64) -> Peak {
         "case = 'case.toml'\ndesign = 'latin-hypercube'\npoints = {points}\nreplicates = {replicates}\n[vary]\n\
          'air.velocity' = {{ from = '5 m/s', to = '20 m/s' }}\n'fibre.diameter' = {{ from = '30 µm', to = '60 µm' }}\n"
     );
-    let place = Place::new(&case, &study);
+    let place = StudyFolder::new(&case, &study);
     // The allocator gives back at once what is free, so that the peak is what is in use.
     let mut sweep = place.sweep("out", &["--threads", "1"]);
     sweep.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536");

@@ -1,7 +1,7 @@
 //! `spunlaid sweep`: what it writes, and what it refuses before anything is flown. What it does with a folder in
 //! which a study is already stands in `sweep_again.rs`.
 
-use crate::common::{Place, assert_same, case, results, said};
+use crate::common::{StudyFolder, assert_same, case, results, said};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use spunlaid::simulation::{LAYDOWN, MEASURES, SURROGATE};
@@ -15,11 +15,11 @@ replicates = 3
 'fibre.diameter' = ['20 µm', '50 µm']
 ";
 
-pub(super) fn place() -> Place {
-    Place::new(&case(0.02), STUDY)
+pub(super) fn place() -> StudyFolder {
+    StudyFolder::new(&case(0.02), STUDY)
 }
 
-fn csv(place: &Place, out: &str) -> Vec<Vec<String>> {
+fn csv(place: &StudyFolder, out: &str) -> Vec<Vec<String>> {
     let text = fs::read_to_string(place.path(out).join("results.csv")).unwrap();
     text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
@@ -81,7 +81,7 @@ fn writes_what_it_says() {
 
 #[test]
 fn the_numbers_of_a_figure_are_those_of_the_results() {
-    let place = Place::new(&case(0.02), &STUDY.replace("'fibre.diameter' = ['20 µm', '50 µm']\n", ""));
+    let place = StudyFolder::new(&case(0.02), &STUDY.replace("'fibre.diameter' = ['20 µm', '50 µm']\n", ""));
     place.swept("out", &[]);
     let points = csv(&place, "out");
     let column = |name: &str| points[0].iter().position(|head| head == name).unwrap();
@@ -119,7 +119,7 @@ fn of_run(summary: &str, name: &str, key: &str) -> f64 {
 #[test]
 fn identical_to_single_runs_of_its_points() {
     for common in ["true", "false"] {
-        let place = Place::new(&case(0.02), &format!("common_phases = {common}\n{STUDY}"));
+        let place = StudyFolder::new(&case(0.02), &format!("common_phases = {common}\n{STUDY}"));
         place.swept("out", &[]);
         let rows = csv(&place, "out");
         for number in [1, 6] {
@@ -159,7 +159,7 @@ fn rejects_points_that_are_not_there() {
 
 #[test]
 fn rejects_bad_studies_before_anything_is_written() {
-    let place = Place::new(&case(0.02), &STUDY.replace("'20 m/s'", "'20 m'"));
+    let place = StudyFolder::new(&case(0.02), &STUDY.replace("'20 m/s'", "'20 m'"));
     assert!(place.refused("out", &[]).contains("study.toml:5: air.velocity = '20 m' is a length"));
     assert!(!place.path("out").exists());
 }
@@ -168,7 +168,7 @@ fn rejects_bad_studies_before_anything_is_written() {
 fn words_are_words_in_every_result() {
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '10 m/s']\n\
                  'drag.along' = ['sakiadis', 'matsui']\n'air.spectrum' = ['flat', 'von-karman']\n";
-    let place = Place::new(&case(0.02), study);
+    let place = StudyFolder::new(&case(0.02), study);
     let output = said(&place.swept("out", &[]));
     assert!(output.contains("  sakiadis  von-karman  "), "{output}");
     let rows = csv(&place, "out");
@@ -207,7 +207,7 @@ fn words_are_words_in_every_result() {
 fn words_of_two_factors_are_told_apart_by_the_legend() {
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'drag.along' = ['sakiadis', 'matsui']\n\
                  'drag.across' = ['ju-shambaugh', 'marheineke-wegener']\n";
-    let place = Place::new(&case(0.02), study);
+    let place = StudyFolder::new(&case(0.02), study);
     place.swept("out", &[]);
     let name = "out/figures/amplitude_over_drag_across";
     let picture = fs::read_to_string(place.path(&format!("{name}.svg"))).unwrap();
@@ -282,7 +282,7 @@ fn points_of_a_belt_at_several_speeds_are_those_of_runs_alone() {
         cutoff_frequency = '700 Hz'\n[drag]\nacross = 'marheineke-wegener'\n[run]\nduration = '40 ms'\n";
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n\
         'belt.speed' = ['1 m/s', '3 m/s', '8 m/s']\n";
-    let place = Place::new(case, study);
+    let place = StudyFolder::new(case, study);
     let output = said(&place.swept("out", &[]));
     assert!(output.contains("Spread in machine direction (mm)") && !output.contains("Amplitude"), "{output}");
     let rows = csv(&place, "out");

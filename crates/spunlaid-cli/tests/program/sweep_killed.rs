@@ -1,6 +1,6 @@
 //! A study that is killed at any moment continues, and ends with the same bits.
 
-use crate::common::{Place, assert_same, case, results, said};
+use crate::common::{StudyFolder, assert_same, case, results, said};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -19,13 +19,13 @@ impl Moments {
 }
 
 /// Number of records in a journal.
-fn records(place: &Place, out: &str) -> u64 {
+fn records(place: &StudyFolder, out: &str) -> u64 {
     let record = 8 * (6 + spunlaid::simulation::MEASURES.len() as u64);
     fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / record)
 }
 
 /// Kills sweeps at random moments until one completes or the limit is reached; returns the number of kills.
-fn killed(place: &Place, out: &str, most_kills: u32, most_ms: u64) -> u32 {
+fn killed(place: &StudyFolder, out: &str, most_kills: u32, most_ms: u64) -> u32 {
     let mut moments = Moments(42);
     let mut kept = 0;
     for kills in 0..most_kills {
@@ -57,7 +57,7 @@ until = { amplitude_y = '8 %' }
 
 #[test]
 fn identical_after_many_kills() {
-    let place = Place::new(&case(0.5), STUDY);
+    let place = StudyFolder::new(&case(0.5), STUDY);
     place.swept("whole", &["--threads", "2"]);
     let expected = results(&place.path("whole"));
     let kills = killed(&place, "killed", 25, 60);
@@ -72,7 +72,7 @@ fn identical_after_many_kills() {
 #[test]
 fn identical_when_killed_while_files_are_begun_and_written() {
     let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
-    let place = Place::new(&case(0.002), &study);
+    let place = StudyFolder::new(&case(0.002), &study);
     place.swept("whole", &[]);
     let mut moments = Moments(7);
     for round in 0..60 {
@@ -88,7 +88,7 @@ fn identical_when_killed_while_files_are_begun_and_written() {
 #[test]
 fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
     let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
-    let place = Place::new(&case(0.02), &study);
+    let place = StudyFolder::new(&case(0.02), &study);
     place.swept("out", &["--threads", "2"]);
     let earlier = results(&place.path("out"));
     let changed = study.replace("'20 m/s'", "'25 m/s'");
@@ -140,7 +140,7 @@ fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
 fn identical_when_killed_while_complete_results_replace_earlier_ones() {
     let study = STUDY.replace("steps = 6", "steps = 2").replace("'100 mm', ", "");
     let changed = study.replace("'20 m/s'", "'25 m/s'");
-    let place = Place::new(&case(0.002), &study);
+    let place = StudyFolder::new(&case(0.002), &study);
     let write = |study: &str| fs::write(place.path("study.toml"), study).unwrap();
     let [out, hidden] = ["out", "out/.spunlaid-replacement"].map(|folder| place.path(folder));
     let entries = |folder: &Path| -> Vec<_> {
@@ -170,7 +170,7 @@ fn identical_when_killed_while_complete_results_replace_earlier_ones() {
 
 #[test]
 fn rejects_a_second_process_and_forgets_the_lock_of_a_dead_one() {
-    let place = Place::new(&case(20.0), STUDY);
+    let place = StudyFolder::new(&case(20.0), STUDY);
     let mut child = place.under_way("out", &[]);
     while !place.path("out").join("journal").exists() {
         sleep(Duration::from_millis(5));
@@ -194,7 +194,7 @@ fn rejects_a_second_process_and_forgets_the_lock_of_a_dead_one() {
 #[cfg(unix)]
 #[test]
 fn interrupted_it_says_how_to_go_on() {
-    let place = Place::new(&case(2.0), STUDY);
+    let place = StudyFolder::new(&case(2.0), STUDY);
     let child = place
         .sweep("out", &[])
         .stdout(std::process::Stdio::piped())

@@ -1,6 +1,6 @@
 //! Spinlines for tests, as a user would write them.
 
-use spunlaid::fibre::spinline::Curtain;
+use spunlaid::fibre::spinline::HoleRows;
 use spunlaid::fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
 use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried};
 use spunlaid::input::{Influence, OfFilament};
@@ -30,7 +30,7 @@ pub fn spinline() -> Spinline {
 
 /// The same with ten rows of filaments.
 pub fn curtain() -> Spinline {
-    Spinline { curtain: Some(Curtain { rows: 10, filaments_per_metre: 250.0 }), ..spinline() }
+    Spinline { curtain: Some(HoleRows { rows: 10, filaments_per_metre: 250.0 }), ..spinline() }
 }
 
 /// The same with crystals.

@@ -38,9 +38,9 @@ const ENERGY: &[(Fibres, Column)] = &[
 ];
 
 /// A number of a sample: its name, and the place where it stands.
-pub type Field = (&'static str, Place);
+pub type Field = (&'static str, SampleField);
 /// Where a number stands in a sample.
-pub type Place = fn(&mut Sample) -> &mut f64;
+pub type SampleField = fn(&mut Sample) -> &mut f64;
 
 /// Everything that a sample has, apart from the time, which is the same for all fibres.
 pub const FIELDS: [Field; 15] = [

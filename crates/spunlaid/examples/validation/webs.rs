@@ -73,7 +73,7 @@ fn octaves(map: &Map, bands: &[[f64; 2]]) -> Vec<f64> {
     sums
 }
 
-struct Kind {
+struct WebKind {
     name: &'static str,
     web: Web,
 }
@@ -81,21 +81,21 @@ struct Kind {
 pub fn intervals() {
     let wide = [0.5, 0.5];
     let kinds = [
-        Kind {
+        WebKind {
             name: "random places",
             web: web(Filaments::AtRandom { per_metre: 2000.0 }, wide, Edges::Periodic),
         },
-        Kind {
+        WebKind {
             name: "random places, wide",
             web: web(Filaments::AtRandom { per_metre: 2000.0 }, [1.0, 0.25], Edges::Periodic),
         },
-        Kind { name: "rows, even", web: web(rows(0.5e-3, 1000), wide, Edges::Periodic) },
-        Kind { name: "rows, 50 mm apart", web: web(rows(50e-3, 10), wide, Edges::Periodic) },
-        Kind {
+        WebKind { name: "rows, even", web: web(rows(0.5e-3, 1000), wide, Edges::Periodic) },
+        WebKind { name: "rows, 50 mm apart", web: web(rows(50e-3, 10), wide, Edges::Periodic) },
+        WebKind {
             name: "random places, cut",
             web: web(Filaments::AtRandom { per_metre: 2000.0 }, wide, Edges::Cut),
         },
-        Kind { name: "rows, cut", web: web(rows(0.5e-3, 1000), wide, Edges::Cut) },
+        WebKind { name: "rows, cut", web: web(rows(0.5e-3, 1000), wide, Edges::Cut) },
     ];
     for kind in &kinds {
         title(&format!("Errors of webs: {}, {} webs", kind.name, SEEDS));

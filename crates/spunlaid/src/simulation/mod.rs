@@ -15,8 +15,8 @@ pub mod one_air;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use ensemble::{
-    CellSource, Change, Curtain, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans,
-    Job, Keep, KeepShapes, LaidCurves, LostFibre, Number, Recorder, Refinement, Results, RunControl,
+    CellSource, Change, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
+    KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorder, Refinement, Results, RunControl,
     RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub(crate) use layers::SAME;

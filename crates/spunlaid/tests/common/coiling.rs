@@ -50,7 +50,7 @@ const SETTLED: f64 = 1e-11;
 
 /// One place of the thread, in a frame that turns with the coil.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct RodState {
     /// Distance from the root along the thread [H].
     pub s: f64,
     /// [H]
@@ -73,7 +73,7 @@ pub struct Coil {
     /// With which the root holds the thread, negative where it pushes it [EI/H²]
     pub root_tension: f64,
     /// From the root to the touch-down, evenly spaced.
-    pub shape: Vec<Place>,
+    pub shape: Vec<RodState>,
 }
 
 impl Coil {
@@ -147,7 +147,7 @@ impl Thread {
             }
             assert!(stride > 1e-6, "no coil of {self:?} beyond {done} of the way");
         }
-        let mut shape: Vec<Place> = (0..PIECES)
+        let mut shape: Vec<RodState> = (0..PIECES)
             .flat_map(|piece| self.piece(&unknowns, piece, steps).into_iter().skip(usize::from(piece > 0)))
             .collect();
         shape.reverse();
@@ -206,10 +206,10 @@ impl Thread {
     }
 
     /// One piece of the thread, upwards; the first starts at the touch-down.
-    fn piece(&self, unknowns: &[f64], piece: usize, steps: usize) -> Vec<Place> {
+    fn piece(&self, unknowns: &[f64], piece: usize, steps: usize) -> Vec<RodState> {
         let (radius, length) = (unknowns[3], unknowns[4]);
         let start = if piece == 0 {
-            Place {
+            RodState {
                 s: length,
                 position: V::new(1.0, radius, 0.0),
                 tangent: V::new(0.0, 0.0, 1.0),
@@ -218,7 +218,7 @@ impl Thread {
             }
         } else {
             let s = length * (PIECES - piece) as f64 / PIECES as f64;
-            Place::new(s, above(unknowns, piece - 1))
+            RodState::new(s, above(unknowns, piece - 1))
         };
         let step = -length / steps as f64;
         let mut places = vec![start];
@@ -235,13 +235,13 @@ impl Thread {
     }
 
     /// How a place changes along the thread.
-    fn slope(&self, at: &Place, radius: f64) -> Place {
-        let Place { position: r, tangent: t, moment: m, force: n, .. } = *at;
+    fn slope(&self, at: &RodState, radius: f64) -> RodState {
+        let RodState { position: r, tangent: t, moment: m, force: n, .. } = *at;
         let turning = X * (-1.0 / radius);
         let bent = m.cross(t);
         let velocity = t + turning.cross(r);
         let acceleration = bent + turning.cross(t + velocity);
-        Place {
+        RodState {
             s: 1.0,
             position: t,
             tangent: bent,
@@ -256,7 +256,7 @@ fn above(unknowns: &[f64], piece: usize) -> &[f64] {
     &unknowns[5 + 12 * piece..17 + 12 * piece]
 }
 
-impl Place {
+impl RodState {
     /// All but `s`, in a row.
     fn state(&self) -> [f64; 12] {
         let (r, t, m, n) = (self.position, self.tangent, self.moment, self.force);

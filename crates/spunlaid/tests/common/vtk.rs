@@ -8,7 +8,7 @@ use std::io::Write as _;
 
 /// Where the bytes of arrays are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum DataPlace {
     Ascii,
     Inline,
     AppendedRaw,
@@ -25,7 +25,7 @@ pub enum Squeeze {
 /// How a file is written.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
-    pub place: Place,
+    pub place: DataPlace,
     pub squeeze: Squeeze,
     /// Size of compressed blocks [bytes].
     pub block: usize,
@@ -36,7 +36,7 @@ pub struct Style {
 }
 
 pub const ASCII: Style = Style {
-    place: Place::Ascii,
+    place: DataPlace::Ascii,
     squeeze: Squeeze::None,
     // So small that there are several.
     block: 100,
@@ -144,17 +144,17 @@ impl File {
         };
         let offset = self.appended.len();
         match self.style.place {
-            Place::Ascii => {
+            DataPlace::Ascii => {
                 let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
                 writeln!(self.head, "{start} format=\"ascii\">\n{}\n</DataArray>", words.join(" ")).unwrap();
                 return;
             }
-            Place::Inline => {
+            DataPlace::Inline => {
                 writeln!(self.head, "{start} format=\"binary\">\n  {encoded}\n</DataArray>").unwrap();
                 return;
             }
-            Place::AppendedRaw => self.appended.extend([header, bytes].concat()),
-            Place::AppendedBase64 => self.appended.extend(encoded.as_bytes()),
+            DataPlace::AppendedRaw => self.appended.extend([header, bytes].concat()),
+            DataPlace::AppendedBase64 => self.appended.extend(encoded.as_bytes()),
         }
         writeln!(self.head, "{start} format=\"appended\" offset=\"{offset}\"/>").unwrap();
     }
@@ -176,7 +176,7 @@ impl File {
     fn finish(self) -> Vec<u8> {
         let mut file = self.head.into_bytes();
         if !self.appended.is_empty() {
-            let encoding = if self.style.place == Place::AppendedRaw { "raw" } else { "base64" };
+            let encoding = if self.style.place == DataPlace::AppendedRaw { "raw" } else { "base64" };
             file.extend(format!("<AppendedData encoding=\"{encoding}\">\n _").as_bytes());
             file.extend(self.appended);
             file.extend(b"\n</AppendedData>\n");

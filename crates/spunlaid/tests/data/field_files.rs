@@ -3,7 +3,7 @@
 use crate::air::{mesh, samples, values};
 use crate::meshes;
 use crate::meshes::Made;
-use crate::vtk::{ASCII, Data, Legacy, Mesh, Place, Squeeze, Style, legacy, vti, vtr, vts, vtu};
+use crate::vtk::{ASCII, Data, DataPlace, Legacy, Mesh, Squeeze, Style, legacy, vti, vtr, vts, vtu};
 use spunlaid::air::{Description, Field, Hint, Local};
 use spunlaid::ground::{Fault, Vec3};
 use std::path::Path;
@@ -14,7 +14,7 @@ fn read(bytes: &[u8], name: &str) -> (Field, Vec<Fault>) {
 
 fn styles() -> Vec<Style> {
     let mut styles = Vec::new();
-    for place in [Place::Ascii, Place::Inline, Place::AppendedRaw, Place::AppendedBase64] {
+    for place in [DataPlace::Ascii, DataPlace::Inline, DataPlace::AppendedRaw, DataPlace::AppendedBase64] {
         for squeeze in [Squeeze::None, Squeeze::Zlib, Squeeze::Lz4] {
             for (big_endian, wide_header, float, integer) in [
                 (false, false, "Float64", "Int64"),

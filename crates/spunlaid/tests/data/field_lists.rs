@@ -3,7 +3,7 @@
 
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Made, noise};
-use crate::vtk::{ASCII, Mesh, Place, Squeeze, Style, vti, vtu};
+use crate::vtk::{ASCII, DataPlace, Mesh, Squeeze, Style, vti, vtu};
 use spunlaid::air::{Description, Field, Hint};
 use spunlaid::ground::{Fault, Vec3};
 use std::fs;
@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 const SURFACES: &str = "the list names surfaces too (.vtp: 1), perhaps the boundary; they are left out";
 
-const ZLIB: Style = Style { place: Place::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
+const ZLIB: Style = Style { place: DataPlace::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
 
 /// A folder of files.
 fn folder(files: &[(&str, &[u8])]) -> TempDir {

@@ -3,7 +3,7 @@
 
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Block, Made};
-use crate::vtk::{ASCII, Place, Squeeze, Style, legacy, vti, vtu};
+use crate::vtk::{ASCII, DataPlace, Squeeze, Style, legacy, vti, vtu};
 use proptest::prelude::*;
 use spunlaid::air::Field;
 use std::path::Path;
@@ -143,7 +143,7 @@ fn rejects_grids_with_place_and_way_out() {
 fn rejects_bytes_that_cannot_be_decoded() {
     let mesh = mesh(Made::Hexahedra, 0.0);
     let squeezed =
-        |squeeze| vtu(std::slice::from_ref(&mesh), Style { place: Place::AppendedRaw, squeeze, ..ASCII });
+        |squeeze| vtu(std::slice::from_ref(&mesh), Style { place: DataPlace::AppendedRaw, squeeze, ..ASCII });
     let plain = squeezed(Squeeze::None);
     assert_eq!(
         refused(&plain[..plain.len() - 200]),
@@ -314,8 +314,8 @@ fn rejects_what_is_no_file() {
 #[test]
 fn any_part_and_any_change_is_read_or_refused() {
     let mesh = mesh(Made::Mixed, 0.0);
-    let zlib = Style { place: Place::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
-    let lz4 = Style { place: Place::Inline, squeeze: Squeeze::Lz4, ..ASCII };
+    let zlib = Style { place: DataPlace::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
+    let lz4 = Style { place: DataPlace::Inline, squeeze: Squeeze::Lz4, ..ASCII };
     let meshes = std::slice::from_ref(&mesh);
     let files = [
         vtu(meshes, ASCII),

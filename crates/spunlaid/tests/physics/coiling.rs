@@ -1,7 +1,7 @@
 //! The reference for threads that coil on a plane, against solutions of others and against the balance of its
 //! own pieces.
 
-use crate::common::coiling::{Coil, Place, Thread, coil, coil_from_a_pin};
+use crate::common::coiling::{Coil, RodState, Thread, coil, coil_from_a_pin};
 use crate::common::{V, X, Y};
 
 /// Feed speed 0.05 √(gH), damping 0.1 √(g/H).
@@ -71,7 +71,7 @@ fn invariant_whole_threads_are_in_balance() {
             for place in &found.shape {
                 let moment = (place.moment + place.position.cross(place.force)).x;
                 assert!(moment.abs() < 1e-6, "G = {g}: moment {moment} about x at s = {}", place.s);
-                let sum = |at: &Place| {
+                let sum = |at: &RodState| {
                     at.force.dot(at.tangent) + 0.5 * at.moment.dot(at.moment) + g * at.position.x
                 };
                 let off = sum(place) - sum(&root);
@@ -95,7 +95,7 @@ fn unbalanced(thread: Thread, coil: &Coil) -> [f64; 3] {
             (turned(at[0].position, -1.0), at[1].position, turned(at[2].position, 1.0));
         let velocity = (after - before) * (0.5 / step);
         let acceleration = (after - now * 2.0 + before) * (1.0 / (step * step));
-        let slope = |of: fn(&Place) -> V| (of(&at[2]) - of(&at[0])) * (0.5 / step);
+        let slope = |of: fn(&RodState) -> V| (of(&at[2]) - of(&at[0])) * (0.5 / step);
         let moved = (acceleration * thread.froude + velocity * thread.damping) * thread.g;
         let missing = [
             slope(|p| p.force) + X * thread.g - moved,

@@ -1,6 +1,6 @@
 //! Spinlines, from the case file to the filament, against values from outside the code.
 
-use spunlaid::fibre::spinline::Curtain;
+use spunlaid::fibre::spinline::HoleRows;
 use spunlaid::fibre::{AirChange, Solution, Station, Surroundings};
 use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
 use std::collections::BTreeMap;
@@ -173,7 +173,7 @@ fn consistent_factors_of_the_air() {
     air.temperature.iter_mut().for_each(|t| *t += change.temperature_offset);
     numbers.spec.spinline.air = Surroundings::Behind(air);
     for file in [&mut factors, &mut numbers] {
-        file.spec.spinline.curtain = Some(Curtain { rows: 3, filaments_per_metre: 200.0 });
+        file.spec.spinline.curtain = Some(HoleRows { rows: 3, filaments_per_metre: 200.0 });
     }
     let unchanged = solve("pp_slot").final_diameter;
     for (row, (a, b)) in factors.solve().unwrap().iter().zip(numbers.solve().unwrap()).enumerate() {

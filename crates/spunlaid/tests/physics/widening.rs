@@ -4,7 +4,7 @@ use spunlaid::air::{
     Air, AirAtPlaces, Extent, FileContent, Flow, Hint, Lateral, Profile, StreamKey, Widening,
 };
 use spunlaid::fibre::{Case, Flight, Job, Snapshot};
-use spunlaid::ground::place::Place;
+use spunlaid::ground::place::Inlet;
 use spunlaid::ground::{Isa, Vec3};
 use spunlaid::input::parse_case;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ fn case(widening: Widening) -> Case {
 
 /// The last instant of the fibres at [`PLACES`], side by side.
 fn flown(case: &Case) -> Snapshot {
-    let jobs = PLACES.map(|y| Job { place: Place { y, z: 0.0 }, ..Job::new(case, 0) });
+    let jobs = PLACES.map(|y| Job { place: Inlet { y, z: 0.0 }, ..Job::new(case, 0) });
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
     flight.advance(case.run.steps);
     flight.snapshot()

@@ -1,9 +1,9 @@
 //! Charged filaments of a web in one air: nothing without charge, and the square of the charge with it.
 
-use super::beam::{case_in, sheet};
+use super::one_air::{case_in, sheet};
 use spunlaid::fibre::{Case, Charge};
 use spunlaid::ground::Isa;
-use spunlaid::ground::place::Place;
+use spunlaid::ground::place::Inlet;
 use spunlaid::input::read_case;
 use spunlaid::simulation::{Beam, BeamCharge, BeamControl, BeamFindings};
 use spunlaid::web::{LaidWeb, Window};
@@ -13,23 +13,23 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 const COLUMNS: usize = 24;
 
 /// Filaments in a slot 20 mm deep, half of them behind its middle and as many before it.
-fn slot(count: usize) -> Vec<Place> {
+fn slot(count: usize) -> Vec<Inlet> {
     let place = |i: usize| {
         let turn = (i / 2) as f64 * 0.618_033_988_749_894_9;
         let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
-        Place { y: side * 10e-3 * turn.fract(), z: (i as f64 + 0.5) * 1e-3 * COLUMNS as f64 / count as f64 }
+        Inlet { y: side * 10e-3 * turn.fract(), z: (i as f64 + 0.5) * 1e-3 * COLUMNS as f64 / count as f64 }
     };
     (0..count).map(place).collect()
 }
 
-fn charge(per_mass: f64, places: &[Place]) -> BeamCharge {
+fn charge(per_mass: f64, places: &[Inlet]) -> BeamCharge {
     let charge = Charge { per_mass, walls: None };
     BeamCharge { charge, per_metre: 5000.0, weights: vec![1; places.len()] }
 }
 
 fn lay(
     case: &Case,
-    (places, charge): (&[Place], Option<&BeamCharge>),
+    (places, charge): (&[Inlet], Option<&BeamCharge>),
     (isa, threads): (Isa, usize),
 ) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));

@@ -1,6 +1,6 @@
 //! Filaments that are filled in between flown ones, against the same filaments as they are flown.
 
-use super::beam::{case_in, cv, lay_by, row, sheet as sheet_of};
+use super::one_air::{case_in, cv, lay_by, row, sheet as sheet_of};
 use spunlaid::ground::Isa;
 use spunlaid::web::curtain::lay;
 use spunlaid::web::{Belt, Curtain, FlownCurves, Map, Window};

@@ -2,14 +2,14 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 mod advice;
-mod beam;
 mod charge;
 mod curtain;
 mod defects;
-mod few;
+mod few_filaments;
 mod fit;
 mod guesses;
 mod neighbours;
+mod one_air;
 mod same_air;
 mod surrogate;
 mod two_filaments;

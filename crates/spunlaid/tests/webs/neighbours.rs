@@ -1,12 +1,12 @@
 //! The correlation of neighbours in a web whose filaments fly together.
 
-use super::beam::{case_in, lay_by, row, sheet};
+use super::one_air::{case_in, lay_by, row, sheet};
 use spunlaid::ground::Isa;
-use spunlaid::ground::place::Place;
+use spunlaid::ground::place::Inlet;
 use spunlaid::simulation::BeamFindings;
 use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
-fn flown(lateral: &str, sheet: &Sheet, places: &[Place], threads: usize) -> BeamFindings {
+fn flown(lateral: &str, sheet: &Sheet, places: &[Inlet], threads: usize) -> BeamFindings {
     lay_by((&case_in(lateral), sheet), places, Isa::detect(), threads).1
 }
 
@@ -35,8 +35,8 @@ fn limit_neighbours_in_the_same_air_have_a_correlation_of_one() {
 fn analytic_rows_have_neighbours_of_their_own() {
     let sheet = sheet(24, 100);
     let rows = [Row::new(0.5e-3, 2e-3, 12), Row { md: -5e-3, ..Row::new(1.5e-3, 2e-3, 12) }];
-    let place = |row: &Row, i: u64| Place { y: row.md, z: row.offset + i as f64 * row.pitch };
-    let mut places: Vec<Place> =
+    let place = |row: &Row, i: u64| Inlet { y: row.md, z: row.offset + i as f64 * row.pitch };
+    let mut places: Vec<Inlet> =
         rows.iter().flat_map(|row| (0..row.filaments).map(move |i| place(row, i))).collect();
     places.sort_by(|a, b| a.z.total_cmp(&b.z));
     let flown = flown("uniform", &sheet, &places, 2);

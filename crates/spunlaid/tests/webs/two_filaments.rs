@@ -1,6 +1,6 @@
 //! The unevenness of a web in one air from what two of its filaments have in common.
 
-use crate::beam::{case_in, cv, lay_by, row, sheet};
+use crate::one_air::{case_in, cv, lay_by, row, sheet};
 use spunlaid::air::Lateral;
 use spunlaid::fibre::LaidPoint;
 use spunlaid::ground::Isa;

@@ -25,7 +25,7 @@ const NEARLY: f64 = 0.01;
 const GIVEN: usize = 9;
 
 /// The numbers of a line, in SI units.
-pub(super) struct Line {
+pub(super) struct NewLine {
     polymer: Polymer,
     throughput: f64,
     /// As it was given: a titre, or a diameter.
@@ -61,7 +61,7 @@ enum Size {
     Diameter(f64),
 }
 
-impl Line {
+impl NewLine {
     /// The line of complete numbers.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::args::{New, is_standard};
 use crate::failure::Failure;
 use crate::say;
 use ask::complete;
-use line::Line;
+use line::NewLine;
 use spunlaid::ground::{Error, Fault};
 use spunlaid::input::{read_web, starter_case, starter_case_of_fed, starter_study};
 use std::fs::{OpenOptions, remove_file};
@@ -36,7 +36,7 @@ pub(crate) fn new(new: &New) -> Result<(), Failure> {
 fn web(new: &New) -> Result<(), Failure> {
     let numbers = complete(new.line.clone(), &mut stdin().lock())?;
     numbers.remarks().for_each(|remark| say::remark(false, &remark));
-    let line = Line::new(&numbers)?;
+    let line = NewLine::new(&numbers)?;
     let path = &new.file;
     need_file(path, "a web is written with the table of its air beside it")?;
     let name = super::stem(path, "line");

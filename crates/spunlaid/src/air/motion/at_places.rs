@@ -213,7 +213,7 @@ mod tests {
     use super::*;
     use crate::air::motion::in_space::AirInSpace;
     use crate::air::motion::{EddyModel, Lateral};
-    use crate::ground::place::Place;
+    use crate::ground::place::Inlet;
     use crate::ground::{PerLane, Plain};
     use std::sync::Arc;
 
@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn identical_to_the_air_around_a_fibre() {
-        let place = Place { y: 3e-3, z: -7e-3 };
+        let place = Inlet { y: 3e-3, z: -7e-3 };
         let field = EddyField::new(&air(), DISTANCE, EXTENT, 8.0, KEY);
         let lanes = PerLane::new(vec![(air(), place, Arc::new(field), DISTANCE)]).unwrap();
         let mut around = AirInSpace::new(&lanes, 20, 1);

@@ -8,7 +8,7 @@
 use super::eddy_field::EddyFields;
 use super::{Air, EddyField, Surroundings};
 use crate::air::field::Hint;
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Lanes, Nodes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 use std::array::from_fn;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ const PIECES: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct AirInSpace {
     fields: PerLane<Field>,
-    places: PerLane<Place>,
+    places: PerLane<Inlet>,
     means: PerLane<WayFlow>,
     pub(super) elements: AirAtElements,
 }
@@ -66,7 +66,7 @@ impl AirInSpace {
     /// * `lanes` – of each fibre: its air, its place, its field, and the distance to the end of its way [m]
     /// * `every` – steps from one look to the next
     pub(crate) fn new(
-        lanes: &PerLane<(Air, Place, Arc<EddyField>, f64)>,
+        lanes: &PerLane<(Air, Inlet, Arc<EddyField>, f64)>,
         elements: usize,
         every: u64,
     ) -> Self {
@@ -224,7 +224,7 @@ impl ElementAir {
 impl AirAtElements {
     /// * `in_field` – air and place of each fibre in a CFD field
     /// * `every` – steps from one look to the next
-    pub(super) fn new(in_field: Option<PerLane<(Air, Place)>>, (elements, every): (usize, u64)) -> Self {
+    pub(super) fn new(in_field: Option<PerLane<(Air, Inlet)>>, (elements, every): (usize, u64)) -> Self {
         let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
         let field = in_field.map(|airs| Surroundings::around_elements(airs, elements, every));
         Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false, field }

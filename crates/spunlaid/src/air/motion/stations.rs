@@ -12,7 +12,7 @@ use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::air::field::Hint;
 use crate::ground::company::shared;
 use crate::ground::lanes::indices;
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Lanes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 
 /// Looks in the time in which fibre or air passes a length scale.
@@ -64,7 +64,7 @@ impl Stations {
     pub(crate) fn new(
         way: Way,
         lanes: &PerLane<(Air, StationGrid)>,
-        places: &PerLane<Place>,
+        places: &PerLane<Inlet>,
         elements: usize,
     ) -> Self {
         let mut hint = Hint::default();

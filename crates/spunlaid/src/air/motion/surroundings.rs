@@ -2,7 +2,7 @@
 
 use super::Air;
 use crate::air::field::{AirAround, Hint};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Error, Lanes, Nodes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 
 /// Mean velocity and rms where an element is, of eight fibres.
@@ -44,7 +44,7 @@ const UNKNOWN: LinearAir = LinearAir {
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    airs: PerLane<(Air, Place)>,
+    airs: PerLane<(Air, Inlet)>,
     places: Nodes<FlowAtElement>,
     nearby: Nodes<LinearAir>,
     /// Where each fibre's element was found last.
@@ -64,11 +64,11 @@ impl Surroundings {
     /// # Errors
     /// No air or more than eight.
     pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, Error> {
-        let middle = |air| (air, Place::default());
+        let middle = |air| (air, Inlet::default());
         Ok(Self::around_elements(PerLane::new(airs.into_iter().map(middle).collect())?, elements, every))
     }
 
-    pub(crate) fn around_elements(airs: PerLane<(Air, Place)>, elements: usize, every: u64) -> Self {
+    pub(crate) fn around_elements(airs: PerLane<(Air, Inlet)>, elements: usize, every: u64) -> Self {
         let every = every.max(1);
         let places = vec![FlowAtElement::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();

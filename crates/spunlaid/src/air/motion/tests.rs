@@ -6,7 +6,7 @@ use crate::air::motion::{
     Air, Atmosphere, EddyModel, FileContent, Flow, Instant, Profile, Stream, StreamKey, Velocities, Widening,
     Wind,
 };
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Isa, Lanes, PerLane, Plain, Vec3, WIDTH};
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ impl Fluctuations {
             .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
             .collect();
         let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
-        let middle = PerLane::new(vec![Place::default()]).unwrap();
+        let middle = PerLane::new(vec![Inlet::default()]).unwrap();
         let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &middle, position.len() - 1);
         Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
     }
@@ -141,7 +141,7 @@ fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
         let wind = Wind::along(Isa::detect(), vec![stream], 1.0).unwrap();
         let roots = [0.01, -0.004];
         let lanes = PerLane::new(vec![(air.clone(), grid); 2]).unwrap();
-        let places = PerLane::new(roots.map(|y| Place { y, z: 0.0 }).to_vec()).unwrap();
+        let places = PerLane::new(roots.map(|y| Inlet { y, z: 0.0 }).to_vec()).unwrap();
         // Elements of a fibre that leans, between the first and the last station.
         let position: Vec<_> =
             (1..25).map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3))).collect();

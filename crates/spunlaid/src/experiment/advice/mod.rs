@@ -7,13 +7,13 @@
 //! ```
 
 mod aim;
-mod few;
 mod setting;
+mod web_of_few;
 
 pub use aim::judged_by;
 pub use setting::ChangedWeb;
 
-use self::few::WebOfFew;
+use self::web_of_few::WebOfFew;
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;

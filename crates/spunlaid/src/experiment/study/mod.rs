@@ -12,6 +12,7 @@
 //! [`run`] makes the replicates that the journal does not hold yet. The record of a replicate has the same bits for any
 //! number of threads, any packing and any interruption, and equals the result of `ensemble::fly` or `web::find`.
 
+mod batch;
 mod claims;
 mod design;
 mod effects;
@@ -19,12 +20,12 @@ mod experiment;
 mod journal;
 mod keys;
 mod measures;
-mod pack;
 mod rounds;
 mod run;
 mod spinlines;
 mod webs;
 
+pub use batch::{Batch, Bundles, fly_batches};
 pub use claims::{Statement, StudyClaim, Way, judge};
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Contrast, Ranking, Rankings, Refusal, Term, rankings};
@@ -33,7 +34,6 @@ pub use journal::{Header, Journal, JournalState, foreign, in_use, unsynced};
 pub use keys::STUDY;
 pub(crate) use keys::{MOST_POINTS, MOST_REPLICATES, RANGE};
 pub use measures::{Quantity, Record, ReplicateOutcome, measured};
-pub use pack::{Batch, Bundles, fly_batches};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
 pub(crate) use webs::seed_of_web;

@@ -1,8 +1,8 @@
 //! Statistics of the points of a study, and how many replicates each of them still needs.
 
+use super::batch::Batch;
 use super::journal::Journal;
 use super::measures::Quantity;
-use super::pack::Batch;
 use super::{Replicates, Study};
 use crate::ground::{Error, ErrorRole, Estimate};
 use crate::simulation::MEASURES;

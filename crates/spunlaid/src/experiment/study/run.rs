@@ -1,8 +1,8 @@
 //! Makes the missing replicates of a study: flies its fibres, lays its webs or solves its spinlines.
 
+use super::batch::{Batch, LostReplicate, fly_and_land};
 use super::journal::{Journal, unsynced};
 use super::measures::{Record, ReplicateOutcome, measured};
-use super::pack::{Batch, LostReplicate, fly_and_land};
 use super::rounds::Rounds;
 use super::{Point, Study, spinlines, webs};
 use crate::ground::Error;

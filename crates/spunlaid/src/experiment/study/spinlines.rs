@@ -1,8 +1,8 @@
 //! Solves the spinlines of a study.
 
 use super::Point;
+use super::batch::Batch;
 use super::measures::{Record, ReplicateOutcome, measured_of_spinline};
-use super::pack::Batch;
 use crate::ground::Error;
 use crate::simulation::RunControl;
 use crate::simulation::ensemble::in_order;

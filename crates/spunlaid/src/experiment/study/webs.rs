@@ -1,7 +1,7 @@
 //! Lays the webs of a study, one after another.
 
+use super::batch::Batch;
 use super::measures::{Record, ReplicateOutcome, measured_of_web};
-use super::pack::Batch;
 use super::{Point, seed_of_point};
 use crate::ground::Error;
 use crate::simulation::{Flights, Flyer, RunControl, WebSpec};

@@ -11,7 +11,7 @@
 mod sheets;
 
 pub use sheets::SheetHeight;
-pub(crate) use sheets::{ChargedNode, Curtain, Sheets};
+pub(crate) use sheets::{ChargedNode, CurtainScale, Sheets};
 
 /// Permittivity of the vacuum `ε₀` [F/m], which is that of air within a thousandth.
 pub(crate) const PERMITTIVITY: f64 = 8.854_187_812_8e-12;

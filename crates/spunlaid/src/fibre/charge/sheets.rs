@@ -41,7 +41,7 @@ pub struct SheetHeight {
 
 /// The filaments of a curtain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Curtain {
+pub(crate) struct CurtainScale {
     /// Number of filaments per metre of width [1/m].
     pub(crate) per_metre: f64,
     /// Mass of an element, which is that of a node [kg].
@@ -71,8 +71,8 @@ pub(crate) struct Sheets {
 
 impl Sheets {
     /// A curtain of which nothing has come down yet.
-    pub(crate) fn new(charge: &Charge, curtain: &Curtain) -> Self {
-        let Curtain { per_metre, node_mass, element, distance, weights } = *curtain;
+    pub(crate) fn new(charge: &Charge, curtain: &CurtainScale) -> Self {
+        let CurtainScale { per_metre, node_mass, element, distance, weights } = *curtain;
         let step = distance / HEIGHTS as f64;
         // The charge of a node for each metre of width, over the length of a step and a unit of weight.
         let sheet = per_metre * charge.per_mass * node_mass / (weights as f64 * step);
@@ -194,8 +194,8 @@ impl Sheets {
 mod tests {
     use super::*;
 
-    const CURTAIN: Curtain =
-        Curtain { per_metre: 5000.0, node_mass: 1e-9, element: 2e-3, distance: 0.5, weights: 100 };
+    const CURTAIN: CurtainScale =
+        CurtainScale { per_metre: 5000.0, node_mass: 1e-9, element: 2e-3, distance: 0.5, weights: 100 };
     const PLAIN: Charge = Charge { per_mass: 1e-3, walls: None };
 
     /// A hundred straight filaments with a node every 2 mm, at places in machine direction.

@@ -35,11 +35,11 @@ mod tests {
     use crate::fibre::case::{Case, Run};
     use crate::fibre::chain::Strand;
     use crate::fibre::chain::schemes::Scheme;
-    use crate::fibre::charge::{Charge, ChargedNode, Curtain, PERMITTIVITY, SheetField, Sheets};
+    use crate::fibre::charge::{Charge, ChargedNode, CurtainScale, PERMITTIVITY, SheetField, Sheets};
     use crate::fibre::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
     use crate::fibre::flight::{Flight, Job};
     use crate::fibre::line::{Contact, Line};
-    use crate::ground::place::Place;
+    use crate::ground::place::Inlet;
     use crate::ground::{Isa, Lanes, Vec3, WIDTH};
     use std::sync::Arc;
 
@@ -62,7 +62,7 @@ mod tests {
     fn sheets(weights: u64) -> Sheets {
         let node_mass = FIBRE.element_mass();
         let curtain =
-            Curtain { per_metre: PER_METRE, node_mass, element: SPACING, distance: HEIGHT, weights };
+            CurtainScale { per_metre: PER_METRE, node_mass, element: SPACING, distance: HEIGHT, weights };
         Sheets::new(&Charge { per_mass: PER_MASS, walls: None }, &curtain)
     }
 
@@ -179,7 +179,7 @@ mod tests {
     }
 
     fn balance(case: &Case, charge: f64) -> Balance {
-        let place = Place { y: 12e-3, z: 0.0 };
+        let place = Inlet { y: 12e-3, z: 0.0 };
         let jobs = [0, 1].map(|replicate| Job { case, replicate, place });
         let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
         if charge != 0.0 {

@@ -39,7 +39,7 @@ pub use crate::fibre::chain::laying::LaidPoint;
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
 use crate::fibre::energy::Energy;
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Isa, Lanes, Register, Vec3, WIDTH, Wide};
 pub(crate) use start::{Clock, Common};
 use std::sync::Arc;
@@ -52,13 +52,13 @@ pub struct Job<'a> {
     /// Which replicate of it.
     pub replicate: u64,
     /// Where its root is.
-    pub place: Place,
+    pub place: Inlet,
 }
 
 impl<'a> Job<'a> {
     /// A replicate whose root is in the middle.
     pub fn new(case: &'a Case, replicate: u64) -> Self {
-        Self { case, replicate, place: Place::default() }
+        Self { case, replicate, place: Inlet::default() }
     }
 
     /// How its fibre is fed and laid; `None` for a fibre of fixed length. The first ends of successive
@@ -127,7 +127,7 @@ pub struct Flight {
 struct Entry {
     case: Case,
     replicate: u64,
-    place: Place,
+    place: Inlet,
 }
 
 impl Entry {

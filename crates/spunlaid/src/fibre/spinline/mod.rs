@@ -71,7 +71,7 @@ pub struct Spinline {
     /// Stress at which the thread breaks [Pa]; infinite if it is not known.
     pub break_stress: f64,
     /// The rows of holes, if they share the air that crosses them.
-    pub curtain: Option<Curtain>,
+    pub curtain: Option<HoleRows>,
     /// Whether Young's modulus of the flown fibre is the estimate; a case that writes the modulus does not want it.
     pub gives_modulus: bool,
 }
@@ -143,7 +143,7 @@ named! {
 
 /// The rows of holes that one stream of air crosses, the quenched side first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Curtain {
+pub struct HoleRows {
     /// Number of rows.
     pub rows: u64,
     /// Filaments per width in each row [1/m].
@@ -266,7 +266,7 @@ fn solve(line: &Spinline, friction: FrictionLaw) -> Result<Vec<Solution>, Failur
 /// The air goes towards the temperature and the speed of the filaments, and it never goes beyond them,
 /// however slowly it crosses the row. Where no air crosses it stays as it is. Radiation does not warm the
 /// air.
-fn behind(row: &Solution, curtain: Curtain) -> AirTable {
+fn behind(row: &Solution, curtain: HoleRows) -> AirTable {
     let mut air = AirTable::default();
     for station in &row.stations {
         let crossing = density_at(station.air_temperature) * station.air_cross_velocity;

@@ -20,7 +20,7 @@ pub use finer::{
 pub use order::in_order;
 pub use results::{Collector, Curve, CurveValue, LostFibre, Number, Results};
 pub use shapes::{Shape, Shapes};
-pub use sources::{CellSource, Curtain, HeatSums, Sources};
+pub use sources::{CellSource, HeatSums, LineFilaments, Sources};
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -13,7 +13,7 @@ use crate::fibre::Case;
 use crate::fibre::case::keys::{self as case_keys, Value};
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Error, Fault, Finding, Problem};
-use crate::simulation::ensemble::Curtain;
+use crate::simulation::ensemble::LineFilaments;
 use crate::web::map::{Filaments, inlets};
 use crate::web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
 pub use full_names::{place_in_web, web_key};
@@ -301,12 +301,15 @@ pub(crate) fn too_small(
 
 impl WebSpec {
     /// The filaments of a layer per metre of width, and where they are fed; None if there is no such layer.
-    pub fn curtain(&self, layer: usize) -> Option<Curtain> {
+    pub fn curtain(&self, layer: usize) -> Option<LineFilaments> {
         let filaments = &self.layers.get(layer)?.filaments;
         let places = inlets(&self.sheet, self.seed, layer, filaments);
         let mut inlets: Vec<f64> = places.iter().map(|place| place.y).collect();
         inlets.sort_unstable_by(f64::total_cmp);
-        Some(Curtain { filaments_per_metre: filaments.count(&self.sheet) as f64 / self.sheet.width, inlets })
+        Some(LineFilaments {
+            filaments_per_metre: filaments.count(&self.sheet) as f64 / self.sheet.width,
+            inlets,
+        })
     }
 }
 

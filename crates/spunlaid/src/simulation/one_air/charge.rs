@@ -1,10 +1,10 @@
 //! What the charge of all filaments of a beam does to each of them, found anew after every block of time.
 
 use super::Beam;
-use super::few::FewPlan;
-use crate::fibre::charge::Curtain;
+use super::sampled::FewPlan;
+use crate::fibre::charge::CurtainScale;
 use crate::fibre::{Charge, ChargedNode, Flight, SheetField, Sheets};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::simulation::WebSpec;
 use crate::web::map::Filaments;
 use crate::web::{Arrangement, ChargedCurtain};
@@ -45,7 +45,7 @@ impl BeamField {
     pub(super) fn new(beam: &Beam<'_>) -> Option<Self> {
         let of_beam = beam.charge.filter(|of_beam| of_beam.charge.per_mass != 0.0)?;
         let BeamCharge { charge, per_metre, weights } = of_beam;
-        let curtain = Curtain {
+        let curtain = CurtainScale {
             per_metre: *per_metre,
             node_mass: beam.element_mass(),
             element: beam.case.fibre.rest_length(),
@@ -116,13 +116,13 @@ impl WebSpec {
     pub(super) fn beam_charge(
         &self,
         layer: usize,
-        flown: (&[Place], Option<&FewPlan>),
+        flown: (&[Inlet], Option<&FewPlan>),
     ) -> Option<BeamCharge> {
         let (places, few) = flown;
         let spec = self.layers.get(layer)?;
         let charge = spec.charged()?;
         let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;
-        let weight = |place: &Place| match (&spec.filaments, few) {
+        let weight = |place: &Inlet| match (&spec.filaments, few) {
             (Filaments::Rows(rows), Some(FewPlan { arrangement: Arrangement::Rows, .. })) => {
                 let same = || rows.iter().filter(|row| row.md == place.y);
                 let all: u64 = same().map(|row| row.filaments).sum();

@@ -6,9 +6,9 @@
 //!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
 //! ```
 
-use super::abreast::{fly_abreast, memory_abreast};
-use super::few::Compared;
 use super::layer_beam::{LayerBeam, beam_on};
+use super::sampled::Compared;
+use super::shared_air::{fly_abreast, memory_abreast};
 use super::{Beam, BeamControl, BeamFindings, Flyer};
 use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::each;

@@ -1,8 +1,8 @@
 //! The filaments of a beam while they fly.
 
 use super::charge::BeamField;
+use super::lane_group::{BeltStretch, Pack, Reach, side_by_side};
 use super::neighbours::Neighbours;
-use super::pack::{BeltStretch, Pack, Reach, side_by_side};
 use super::{Beam, BeamControl, BeamFindings};
 use crate::air::EddyField;
 use crate::fibre::Line;

@@ -1,10 +1,10 @@
 //! Webs whose filaments all fly in one air, and lay the sheet as they come down.
 
-use super::few::{FewPlan, FlownSheet};
+use super::sampled::{FewPlan, FlownSheet};
 use super::{Beam, BeamCharge, BeamFindings};
 use crate::fibre::{Case, LaidPoint};
-use crate::ground::error::Place as ErrorPlace;
-use crate::ground::place::Place;
+use crate::ground::error::Place;
+use crate::ground::place::Inlet;
 use crate::ground::threads::each;
 use crate::ground::{Dimension, Error, Estimate, Fault, Problem};
 use crate::simulation::{LaydownSource, WebSpec};
@@ -43,7 +43,7 @@ pub(super) struct LayerBeam<'a> {
     /// The sheet on which they are laid, and whether they are a few of all.
     pub(super) sheet: Sheet,
     pub(super) few: Option<FewPlan>,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Inlet>,
     /// Size of the slot in machine direction [m].
     depth: f64,
     /// What they carry.
@@ -207,7 +207,7 @@ impl WebSpec {
             },
         );
         let value = Some(memory(self.memory_limit));
-        Some(Problem { place: ErrorPlace::Code, key: "web.memory_limit".to_owned(), value, what })
+        Some(Problem { place: Place::Code, key: "web.memory_limit".to_owned(), value, what })
     }
 }
 

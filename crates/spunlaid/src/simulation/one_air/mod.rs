@@ -17,29 +17,29 @@
 //!                              └ no point of the start lies behind here
 //! ```
 
-mod abreast;
 mod charge;
 mod comparison;
-mod few;
-mod flyer;
 mod flying;
+mod laid_curves;
+mod lane_group;
 mod layer_beam;
 mod neighbours;
-mod pack;
+mod sampled;
+mod shared_air;
 
 use crate::fibre::{Case, LaidPoint, WayPlace};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa};
 use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
-use abreast::SharedAir;
 pub use charge::BeamCharge;
 pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
-pub use few::Compared;
-pub use flyer::{Flights, FlownWeb, Flyer};
 use flying::Sink;
+pub use laid_curves::{Flights, FlownWeb, Flyer};
 pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
+pub use sampled::Compared;
+use shared_air::SharedAir;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
@@ -56,7 +56,7 @@ pub struct Beam<'a> {
     /// The case of each. The seed of its run is the key of the air.
     pub case: &'a Case,
     /// Where they are fed, in order across the web.
-    pub places: &'a [Place],
+    pub places: &'a [Inlet],
     /// Size in machine direction of the slot in which the places lie [m]. All filaments of a slot fly in the
     /// same air, however many of them there are and wherever in its depth they hang.
     pub depth: f64,
@@ -96,7 +96,7 @@ pub struct BeamFindings {
 
 impl<'a> Beam<'a> {
     /// Filaments without charge at these places, in a slot that is as deep as they need.
-    pub fn new(case: &'a Case, places: &'a [Place]) -> Self {
+    pub fn new(case: &'a Case, places: &'a [Inlet]) -> Self {
         let y = || places.iter().map(|place| place.y);
         let depth = y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min);
         Self { case, places, depth: depth.max(0.0), charge: None }

@@ -8,7 +8,7 @@
 //! Nothing but the sums is kept, so the memory does not grow with the points.
 
 use super::Beam;
-use crate::ground::place::{Place, rows};
+use crate::ground::place::{Inlet, rows};
 use crate::web::{Correlation, Edges, NeighbourCorrelation, Sheet};
 
 /// Farthest neighbours, in parts of the distance after which the air repeats itself at least, which is ten
@@ -287,7 +287,7 @@ impl Moments {
 /// The pairs at some distances: once, twice, five, ten, twenty, forty … times the pitch.
 ///
 /// * `farthest` – largest distance [m]
-fn distances(places: &[Place], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
+fn distances(places: &[Inlet], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
     let rows = rows(places);
     let turn = (sheet.edges == Edges::Periodic).then_some(sheet.width);
     let width = rows.iter().filter_map(|row| Some(places[*row.last()?].z - places[*row.first()?].z));

@@ -231,7 +231,7 @@ mod tests {
     use super::super::FlownCurves;
     use super::super::synthetic::{BELT_RATIO, Field, SPACING, row};
     use super::*;
-    use crate::ground::place::Place;
+    use crate::ground::place::Inlet;
 
     const CELL: f64 = 1e-3;
     const ELEMENT: f64 = 1e-9;
@@ -244,8 +244,8 @@ mod tests {
     #[test]
     fn analytic_straight_lines() {
         let (width, points) = (12e-3, 2000);
-        let places: Vec<Place> =
-            (0..4).map(|i| Place { y: 1e-3 * f64::from(i), z: 3e-3 * f64::from(i) + 0.5e-3 }).collect();
+        let places: Vec<Inlet> =
+            (0..4).map(|i| Inlet { y: 1e-3 * f64::from(i), z: 3e-3 * f64::from(i) + 0.5e-3 }).collect();
         // The last one is laid beyond the edge and comes in at the other side.
         let curve = |i: usize| vec![[0.0, if i == 3 { 3e-3 } else { 0.0 }]; points];
         let curves: Vec<_> = (0..4).map(curve).collect();

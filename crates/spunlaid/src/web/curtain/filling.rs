@@ -2,7 +2,7 @@
 
 use super::covariance::Covariance;
 use super::{Curtain, FlownCurves};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::statistics::solve_positive;
 use crate::ground::threads::each;
@@ -43,7 +43,7 @@ impl Covariances {
 #[derive(Clone, Debug)]
 pub struct Filling<'a> {
     flown: &'a FlownCurves,
-    places: Vec<Place>,
+    places: Vec<Inlet>,
     /// Of each filament, in machine and in cross direction.
     curves: Vec<[Estimate; 2]>,
     missing: [f64; 2],
@@ -62,12 +62,12 @@ impl FlownCurves {
     /// Fills in filaments.
     ///
     /// * `wanted` – where they are fed
-    pub fn fill(&self, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
+    pub fn fill(&self, wanted: Vec<Inlet>, threads: usize) -> Filling<'_> {
         self.fill_by(&Covariances::fit(self, threads), wanted, threads)
     }
 
     /// As [`FlownCurves::fill`], with known covariances.
-    pub(crate) fn fill_by(&self, by: &Covariances, wanted: Vec<Place>, threads: usize) -> Filling<'_> {
+    pub(crate) fn fill_by(&self, by: &Covariances, wanted: Vec<Inlet>, threads: usize) -> Filling<'_> {
         let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &by.smooth[d], wanted[i]));
         let curves = each(threads, wanted.len(), curve);
         let step = wanted.len().div_ceil(TOLD).max(1);
@@ -79,9 +79,9 @@ impl FlownCurves {
         Filling { flown: self, places: wanted, curves, missing }
     }
 
-    fn estimate(&self, direction: usize, covariance: &Covariance, wanted: Place) -> Estimate {
+    fn estimate(&self, direction: usize, covariance: &Covariance, wanted: Inlet) -> Estimate {
         let places = self.places();
-        let correlation = |from: Place, to: Place| covariance.correlation(self.apart(from, to));
+        let correlation = |from: Inlet, to: Inlet| covariance.correlation(self.apart(from, to));
         let mut near: Vec<(f64, usize)> =
             places.iter().map(|place| correlation(wanted, *place)).zip(0..).collect();
         if near.len() > NEAREST {
@@ -106,15 +106,15 @@ impl FlownCurves {
     }
 
     /// The part of the variance that is not in the curve of a filament, `1 − 2 w·k + w·(K + ε) w`.
-    fn missing(&self, covariance: &Covariance, wanted: Place, estimate: &Estimate) -> f64 {
+    fn missing(&self, covariance: &Covariance, wanted: Inlet, estimate: &Estimate) -> f64 {
         if covariance.variance() <= 0.0 {
             return 0.0;
         }
-        let correlation = |from: Place, to: Place| covariance.correlation(self.apart(from, to));
+        let correlation = |from: Inlet, to: Inlet| covariance.correlation(self.apart(from, to));
         let weights =
             || estimate.weights.iter().map(|(i, weight)| (self.places()[*i as usize], f64::from(*weight)));
         let known: f64 = weights().map(|(place, weight)| weight * correlation(wanted, place)).sum();
-        let both = |(one, a): (Place, f64)| {
+        let both = |(one, a): (Inlet, f64)| {
             weights().map(move |(other, b)| a * b * correlation(one, other)).sum::<f64>()
         };
         let own: f64 = weights().map(|(_, weight)| OWN * weight * weight).sum();
@@ -140,7 +140,7 @@ impl Filling<'_> {
 }
 
 impl Curtain for Filling<'_> {
-    fn places(&self) -> &[Place] {
+    fn places(&self) -> &[Inlet] {
         &self.places
     }
 
@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     /// Flown and wanted filaments of a field: those of even and of odd numbers.
-    fn parts(field: &Field, places: &[Place]) -> [FlownCurves; 2] {
+    fn parts(field: &Field, places: &[Inlet]) -> [FlownCurves; 2] {
         let all = field.curves(places);
         [0, 1].map(|first| {
             let some = places.iter().copied().skip(first).step_by(2).collect();
@@ -223,7 +223,7 @@ mod tests {
     }
 
     /// Rows whose pitch is 2.1 and 1.6 scales, and a slot.
-    fn fields() -> [(Field, Vec<Place>); 3] {
+    fn fields() -> [(Field, Vec<Inlet>); 3] {
         let row_of = |scale: f64| Field { scales: [scale, f64::INFINITY], points: 1500, ..Field::default() };
         let in_slot = Field { scales: [12e-3, 6e-3], points: 600, ..Field::default() };
         let turn = in_slot.turn;
@@ -291,7 +291,7 @@ mod tests {
         let curves: Vec<_> = (1..=32).map(curve).collect();
         let flown = field.flown_of(row(field.turn, 32), &curves);
         // In the middle between two flown ones.
-        let between = flown.places().iter().map(|place| Place { z: place.z + field.turn / 64.0, ..*place });
+        let between = flown.places().iter().map(|place| Inlet { z: place.z + field.turn / 64.0, ..*place });
         let filling = flown.fill(between.collect(), 2);
         assert!(mean(filling.missing()) > 0.95, "{:?}", filling.missing());
         let squares = filling.compute(2).concat().concat().iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
@@ -304,7 +304,7 @@ mod tests {
     fn analytic_a_mean_that_is_linear_in_the_depth_is_kept() {
         let field = Field { points: 400, ..Field::default() };
         let places = slot(field.turn, 48, 20e-3);
-        let mut curves = field.curves(&vec![Place::default(); 48]);
+        let mut curves = field.curves(&vec![Inlet::default(); 48]);
         for (curve, place) in curves.iter_mut().zip(&places) {
             curve.iter_mut().for_each(|point| point[0] += 0.01 + 1.5 * place.y);
         }

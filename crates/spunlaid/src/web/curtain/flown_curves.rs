@@ -2,12 +2,12 @@
 
 use super::Curtain;
 use crate::ground::Fault;
-use crate::ground::place::{Place, rows};
+use crate::ground::place::{Inlet, rows};
 
 /// Curves that some filaments of a curtain have laid in one air.
 #[derive(Clone, Debug)]
 pub struct FlownCurves {
-    places: Vec<Place>,
+    places: Vec<Inlet>,
     turn: Option<f64>,
     spacing: f64,
     belt_ratio: f64,
@@ -27,7 +27,7 @@ struct Mean {
 }
 
 impl Mean {
-    fn of(places: &[Place], means: &[[f64; 2]]) -> Self {
+    fn of(places: &[Inlet], means: &[[f64; 2]]) -> Self {
         let count = places.len() as f64;
         let middle = places.iter().map(|place| place.y).sum::<f64>() / count;
         let squares: f64 = places.iter().map(|place| (place.y - middle).powi(2)).sum();
@@ -52,7 +52,7 @@ impl FlownCurves {
     /// # Errors
     /// Without filaments or without points, if places and curves differ in number, or with a number that is not finite.
     pub fn new(
-        places: Vec<Place>,
+        places: Vec<Inlet>,
         turn: Option<f64>,
         (spacing, belt_ratio): (f64, f64),
         curves: &[Vec<[f64; 2]>],
@@ -66,7 +66,7 @@ impl FlownCurves {
 
     /// As [`FlownCurves::new`], of curves of equal length whose directions lie apart.
     pub(super) fn of_components(
-        places: Vec<Place>,
+        places: Vec<Inlet>,
         turn: Option<f64>,
         (spacing, belt_ratio): (f64, f64),
         curves: Vec<[Vec<f32>; 2]>,
@@ -110,7 +110,7 @@ impl FlownCurves {
     }
 
     /// Distance of one place from another across and along the machine direction, the shorter way round [m].
-    pub(super) fn apart(&self, from: Place, to: Place) -> [f64; 2] {
+    pub(super) fn apart(&self, from: Inlet, to: Inlet) -> [f64; 2] {
         let z = to.z - from.z;
         [z - self.turn.map_or(0.0, |turn| turn * (z / turn).round()), to.y - from.y]
     }
@@ -155,7 +155,7 @@ impl FlownCurves {
 }
 
 impl Curtain for FlownCurves {
-    fn places(&self) -> &[Place] {
+    fn places(&self) -> &[Inlet] {
         &self.places
     }
 
@@ -207,8 +207,8 @@ mod tests {
     /// Two rows beside each other keep every second filament each, and not one row of the two.
     #[test]
     fn every_second_filament_is_left_of_each_row() {
-        let place = |i: usize| Place { y: if i.is_multiple_of(2) { -5e-3 } else { 5e-3 }, z: (i / 2) as f64 };
-        let places: Vec<Place> = (0..8).map(place).collect();
+        let place = |i: usize| Inlet { y: if i.is_multiple_of(2) { -5e-3 } else { 5e-3 }, z: (i / 2) as f64 };
+        let places: Vec<Inlet> = (0..8).map(place).collect();
         let curves: Vec<Vec<[f64; 2]>> = (0..8).map(|i| vec![[f64::from(i), 0.0]; 2]).collect();
         let all = FlownCurves::new(places, Some(4.0), (1.0, 0.1), &curves).unwrap();
         let few = all.every_second().unwrap();

@@ -4,7 +4,7 @@ use super::filling::Covariances;
 use super::flown_curves::farthest;
 use super::{Curtain, FlownCurves};
 use crate::ground::Fault;
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 
 /// Most places along the machine direction that are rows; more are a slot.
 const ROWS: usize = 8;
@@ -124,7 +124,7 @@ impl Library {
         }
         let columns = (turn / (COLUMN * flown.mean_distance())).ceil() as usize;
         let levels = Levels::of(flown);
-        let place = |y: f64, column: usize| Place { y, z: column as f64 * turn / columns as f64 };
+        let place = |y: f64, column: usize| Inlet { y, z: column as f64 * turn / columns as f64 };
         let lattice = levels.y.iter().flat_map(|y| (0..columns).map(|column| place(*y, column)));
         let filling = flown.fill_by(&covariances, lattice.collect(), threads);
         let mut curves = filling.compute(threads);
@@ -201,7 +201,7 @@ fn cubic(at: f64) -> [f64; 4] {
 fn half_lag(flown: &FlownCurves) -> f64 {
     let [md, cd] = [0, 1].map(|d| {
         let product = |lag: usize| {
-            let of = |(filament, place): (usize, &Place)| {
+            let of = |(filament, place): (usize, &Inlet)| {
                 let (values, mean) = (flown.deviations(filament, d), flown.mean(d, place.y));
                 let pairs = values.iter().zip(&values[lag..]);
                 pairs.map(|(a, b)| (f64::from(*a) - mean) * (f64::from(*b) - mean)).sum::<f64>()

@@ -23,12 +23,12 @@ pub use filling::Filling;
 pub use flown_curves::FlownCurves;
 pub(crate) use library::Library;
 
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 
 /// All filaments of a curtain, whose curves are given block by block.
 pub trait Curtain: Sync {
     /// Where the filaments are fed.
-    fn places(&self) -> &[Place];
+    fn places(&self) -> &[Inlet];
 
     /// Number of points of each curve.
     fn points(&self) -> usize;

@@ -1,7 +1,7 @@
 //! Synthetic curves for tests: a normal field with a known covariance.
 
 use super::{Curtain, FlownCurves};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::f64::consts::TAU;
@@ -38,7 +38,7 @@ fn normal(random: &mut ChaCha8Rng) -> f64 {
 
 impl Field {
     /// Deviations at some places, in both directions [m].
-    pub(super) fn curves(&self, places: &[Place]) -> Vec<Vec<[f64; 2]>> {
+    pub(super) fn curves(&self, places: &[Inlet]) -> Vec<Vec<[f64; 2]>> {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let [z, y] = self.scales;
         // Waves across, and along the machine direction on a period of six scales beyond all places.
@@ -80,7 +80,7 @@ impl Field {
         curves
     }
 
-    pub(super) fn flown(&self, places: Vec<Place>) -> FlownCurves {
+    pub(super) fn flown(&self, places: Vec<Inlet>) -> FlownCurves {
         let curves = self.curves(&places);
         self.flown_of(places, &curves)
     }
@@ -97,19 +97,19 @@ impl Field {
         self.flown_of(flown.places().to_vec(), &curves)
     }
 
-    pub(super) fn flown_of(&self, places: Vec<Place>, curves: &[Vec<[f64; 2]>]) -> FlownCurves {
+    pub(super) fn flown_of(&self, places: Vec<Inlet>, curves: &[Vec<[f64; 2]>]) -> FlownCurves {
         FlownCurves::new(places, Some(self.turn), (SPACING, BELT_RATIO), curves).unwrap()
     }
 }
 
 /// Filaments at an even pitch.
-pub(super) fn row(turn: f64, count: usize) -> Vec<Place> {
-    (0..count).map(|i| Place { y: 0.0, z: (i as f64 + 0.5) * turn / count as f64 }).collect()
+pub(super) fn row(turn: f64, count: usize) -> Vec<Inlet> {
+    (0..count).map(|i| Inlet { y: 0.0, z: (i as f64 + 0.5) * turn / count as f64 }).collect()
 }
 
 /// Filaments at an even pitch across, at random places of a slot.
-pub(super) fn slot(turn: f64, count: usize, depth: f64) -> Vec<Place> {
+pub(super) fn slot(turn: f64, count: usize, depth: f64) -> Vec<Inlet> {
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let mut uniform = || (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
-    row(turn, count).into_iter().map(|place| Place { y: depth * (uniform() - 0.5), ..place }).collect()
+    row(turn, count).into_iter().map(|place| Inlet { y: depth * (uniform() - 0.5), ..place }).collect()
 }

@@ -4,7 +4,7 @@ use super::Curtain;
 use super::filling::add;
 use super::library::Library;
 use crate::ground::Fault;
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::random::{stream, uniform};
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) struct Tiles<'a> {
     source: &'a Library,
-    places: Vec<Place>,
+    places: Vec<Inlet>,
     /// Of each filament: levels of the library with their weights.
     levels: Vec<Vec<(usize, f64)>>,
     points: usize,
@@ -61,12 +61,12 @@ impl Library {
     /// If a filament hangs in a row that was not flown.
     pub(crate) fn tiles(
         &self,
-        places: Vec<Place>,
+        places: Vec<Inlet>,
         around: f64,
         length: f64,
         key: [u64; 2],
     ) -> Result<Tiles<'_>, Fault> {
-        let level = |place: &Place| {
+        let level = |place: &Inlet| {
             self.levels.around(place.y).ok_or_else(|| {
                 Fault::plain(format!(
                     "a filament hangs {:.3} mm from the middle of the slot, where no row was flown",
@@ -123,7 +123,7 @@ impl Tiles<'_> {
 }
 
 impl Curtain for Tiles<'_> {
-    fn places(&self) -> &[Place] {
+    fn places(&self) -> &[Inlet] {
         &self.places
     }
 
@@ -303,7 +303,7 @@ mod tests {
         let field = field();
         let [sine, cosine] = [0, 1].map(|seed| Field { seed, ..field }.curves(&row(field.turn, 1)).remove(0));
         let wave = 4.0 * std::f64::consts::TAU / field.turn;
-        let curve = |place: &Place| -> Vec<[f64; 2]> {
+        let curve = |place: &Inlet| -> Vec<[f64; 2]> {
             let (sin, cos) = (wave * place.z).sin_cos();
             let point = |(a, b): (&[f64; 2], &[f64; 2])| [a[0] * sin + b[0] * cos, a[0] * cos - b[0] * sin];
             sine.iter().zip(&cosine).map(point).collect()
@@ -312,7 +312,7 @@ mod tests {
         let curves: Vec<_> = places.iter().map(curve).collect();
         let library = Library::new(&field.flown_of(places, &curves), 1).unwrap();
         let apart = 1e-3;
-        let around = [0.05, 0.05 + apart].map(|z| Place { y: 0.0, z });
+        let around = [0.05, 0.05 + apart].map(|z| Inlet { y: 0.0, z });
         let tiles = library.tiles(around.to_vec(), field.turn, 5.0, [9, 0]).unwrap();
         let [one, other] = [0, 1].map(|filament| whole(&tiles, filament));
         let (mut off, mut squares) = (0.0, 0.0);
@@ -331,8 +331,8 @@ mod tests {
         let flown = field.flown(slot(field.turn, 64, 10e-3));
         let library = Library::new(&flown, 3).unwrap();
         let around = 0.5;
-        let place = Place { y: 1.3e-3, z: 0.25 };
-        let places = vec![place, Place { z: place.z + around, ..place }];
+        let place = Inlet { y: 1.3e-3, z: 0.25 };
+        let places = vec![place, Inlet { z: place.z + around, ..place }];
         let tiles = |key| library.tiles(places.clone(), around, 0.5, key).unwrap();
         let curve = whole(&tiles([1, 0]), 0);
         for block in [1, 37, 1024] {
@@ -381,7 +381,7 @@ mod tests {
         assert!(message(&narrow).contains("fly a width of"), "{}", message(&narrow));
         let flown = field.flown(row(field.turn, 32));
         let library = Library::new(&flown, 1).unwrap();
-        let elsewhere = vec![Place { y: 5e-3, z: 0.0 }];
+        let elsewhere = vec![Inlet { y: 5e-3, z: 0.0 }];
         let fault = library.tiles(elsewhere, 0.3, 0.5, [0, 0]).unwrap_err().to_string();
         assert!(fault.contains("5.000 mm"), "{fault}");
     }

@@ -2,7 +2,7 @@
 
 use super::canvas::Canvas;
 use super::{Filaments, Row, Sheet};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::random::{stream, uniform};
 use crate::ground::sort::sort_by_key;
 use std::collections::BTreeMap;
@@ -144,9 +144,9 @@ const DEPTHS: u64 = 6;
 ///
 /// * `seed` – of the web
 /// * `number` – of the layer
-pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Place> {
+pub(crate) fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Inlet> {
     let nozzles = sorted_nozzles(sheet, seed, number, filaments).into_iter();
-    nozzles.map(|Nozzle { at: [z, y], .. }| Place { y, z }).collect()
+    nozzles.map(|Nozzle { at: [z, y], .. }| Inlet { y, z }).collect()
 }
 
 /// Where a filament comes from.

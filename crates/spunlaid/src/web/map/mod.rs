@@ -9,7 +9,7 @@
 //! | what is chance | where | theory |
 //! |---|---|---|
 //! | the waves of one sheet, of independent filaments or of one air | [`uniformity`] | "Chance in a map" |
-//! | which of the filaments were flown | `few` | (83d), (83e), "The error of few filaments" |
+//! | which of the filaments were flown | `few_filaments` | (83d), (83e), "The error of few filaments" |
 //! | the mean over filaments that share gusts | `shared_error` | (72a) |
 //! | the curves of single fibres, of a web of independent filaments | `expected` | scatter between the fibres |
 //! | when neighbours come down together | `simulation::one_air` | "The error of a correlation of neighbours" |
@@ -22,7 +22,7 @@ mod clouds;
 mod defects;
 mod doubt;
 mod expected;
-mod few;
+mod few_filaments;
 mod few_findings;
 mod findings;
 mod laid_web;
@@ -44,7 +44,7 @@ pub use defects::Defect;
 pub(crate) use defects::{Brush, Titres, holes, inlets};
 pub use doubt::Doubt;
 pub(crate) use expected::{ExpectedCv, expected_cv, inner_columns};
-pub(crate) use few::{
+pub(crate) use few_filaments::{
     Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, FilledMaps, blocks_on, small_patch,
 };
 pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};

@@ -18,7 +18,7 @@ use crate::air::motion::temperature_of;
 use crate::air::{FieldCells, Flow, PlacedField};
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::{Case, SolidFilament};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};
 use merged::Merged;
 use watch::{CellSums, fly_each};
@@ -34,7 +34,7 @@ const FAR_OF_FEW: f64 = 0.25;
 
 /// The filaments of a line.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curtain {
+pub struct LineFilaments {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
     /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The flown ones
@@ -128,7 +128,7 @@ impl Sources {
     /// # Errors
     /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason
     /// of the first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
-    pub fn fly(case: &Case, curtain: &Curtain, by: RunControl<'_>) -> Result<Self, Error> {
+    pub fn fly(case: &Case, curtain: &LineFilaments, by: RunControl<'_>) -> Result<Self, Error> {
         let fitting = fitting(case).map_err(Error::Flight)?;
         let mut merged = Merged::new(case, &fitting);
         let each = WIDTH as u64;
@@ -183,7 +183,7 @@ impl Sources {
     }
 }
 
-impl Curtain {
+impl LineFilaments {
     /// The curtain of a case whose spinline has one; None of any other.
     pub fn of_spinline(case: &Case) -> Option<Self> {
         let curtain = case.spinline.as_ref()?.curtain?;
@@ -194,7 +194,7 @@ impl Curtain {
     fn job<'a>(&self, case: &'a Case, replicate: u64) -> Job<'a> {
         let share = (replicate as f64 + 0.5) / case.run.replicates as f64;
         let inlet = (share * self.inlets.len() as f64) as usize;
-        let place = Place { y: self.inlets.get(inlet).copied().unwrap_or_default(), z: 0.0 };
+        let place = Inlet { y: self.inlets.get(inlet).copied().unwrap_or_default(), z: 0.0 };
         Job { case, replicate, place }
     }
 }

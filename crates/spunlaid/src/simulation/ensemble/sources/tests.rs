@@ -106,7 +106,7 @@ fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64)
 
 fn fly(case: &Case, inlets: &[f64], threads: usize) -> Sources {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let curtain = Curtain { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
+    let curtain = LineFilaments { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
     let sources = Sources::fly(case, &curtain, control(threads, &stop, &done)).unwrap();
     assert_eq!(done.into_inner(), case.run.steps * case.run.replicates);
     sources
@@ -315,7 +315,7 @@ fn lost_filaments_are_counted_and_the_others_are_the_same_without_them() {
     let mut alone = case.clone();
     alone.run.replicates = 2;
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let curtain = |inlets: &[f64]| Curtain { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
+    let curtain = |inlets: &[f64]| LineFilaments { filaments_per_metre: 5000.0, inlets: inlets.to_vec() };
     let all = Sources::fly(&case, &curtain(&[0.0, 0.12]), control(1, &stop, &done)).unwrap();
     assert_eq!((all.replicates, all.lost.len()), (2, 2), "{:?}", all.lost);
     assert!(all.lost.iter().map(|fibre| fibre.replicate).eq([2, 3]));

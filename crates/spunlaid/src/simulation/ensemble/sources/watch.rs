@@ -3,7 +3,7 @@
 use super::Fitting;
 use crate::air::Hint;
 use crate::fibre::{Cooled, Flight, Snapshot, SolidFilament};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::{Error, Lanes, Vec3};
 use crate::simulation::ensemble::trajectory::{FlightEnd, each_or_lost};
 use crate::simulation::ensemble::{Job, RunControl};
@@ -35,7 +35,7 @@ pub(super) struct CellSums {
 #[derive(Debug)]
 struct Watch {
     sums: CellSums,
-    place: Place,
+    place: Inlet,
     hint: Hint,
     /// Where in the width the fibre is taken to be, as a share of it.
     turn: f64,

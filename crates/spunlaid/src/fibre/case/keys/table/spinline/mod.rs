@@ -9,7 +9,7 @@ use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{Access, file, key, named, number, quantity, read_with_case};
 use crate::fibre::case::keys::value::Sign::Positive;
 use crate::fibre::case::keys::value::{Content, DataFile, Kind, Value};
-use crate::fibre::spinline::{Curtain, Melt, Polymer, PolymerSource, Spinline};
+use crate::fibre::spinline::{HoleRows, Melt, Polymer, PolymerSource, Spinline};
 use crate::ground::{Dimension, Fault};
 
 /// Access to a number of the spinline: `of_spinline!(throughput)`.
@@ -168,11 +168,11 @@ const CURTAIN: &[Key] = &[
         .label("Filaments per metre and row"),
 ];
 
-fn curtain_of(case: &Case) -> Option<&Curtain> {
+fn curtain_of(case: &Case) -> Option<&HoleRows> {
     case.spinline.as_ref()?.curtain.as_ref()
 }
 
-fn curtain(case: &mut Case) -> Result<&mut Curtain, Fault> {
-    let unknown = Curtain { rows: 1, filaments_per_metre: f64::NAN };
+fn curtain(case: &mut Case) -> Result<&mut HoleRows, Fault> {
+    let unknown = HoleRows { rows: 1, filaments_per_metre: f64::NAN };
     Ok(spinline(case)?.curtain.get_or_insert(unknown))
 }

@@ -2,7 +2,7 @@
 
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Case;
-use spunlaid::ground::place::Place;
+use spunlaid::ground::place::Inlet;
 use spunlaid::ground::{Error, Isa};
 use spunlaid::input::read_case;
 use spunlaid::simulation::{Beam, BeamControl, BeamFindings};
@@ -36,14 +36,14 @@ pub(super) fn sheet(columns: usize, rows: usize) -> Sheet {
 }
 
 /// Filaments at an even pitch over the width.
-pub(super) fn row(sheet: &Sheet, count: usize) -> Vec<Place> {
+pub(super) fn row(sheet: &Sheet, count: usize) -> Vec<Inlet> {
     let pitch = sheet.width / count as f64;
-    (0..count).map(|i| Place { y: 0.0, z: (i as f64 + 0.5) * pitch }).collect()
+    (0..count).map(|i| Inlet { y: 0.0, z: (i as f64 + 0.5) * pitch }).collect()
 }
 
 pub(super) fn lay_by(
     (case, sheet): (&Case, &Sheet),
-    places: &[Place],
+    places: &[Inlet],
     isa: Isa,
     threads: usize,
 ) -> (LaidWeb, BeamFindings) {
@@ -55,7 +55,7 @@ pub(super) fn lay_by(
     laid
 }
 
-fn lay(sheet: &Sheet, places: &[Place]) -> (LaidWeb, BeamFindings) {
+fn lay(sheet: &Sheet, places: &[Inlet]) -> (LaidWeb, BeamFindings) {
     lay_by((&case(), sheet), places, Isa::detect(), 2)
 }
 
@@ -103,7 +103,7 @@ fn rows_lay_bars(case: &Case, most: f64) {
 #[test]
 fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
     let sheet = sheet(32, 64);
-    let place = Place { y: 0.0, z: 13.3e-3 };
+    let place = Inlet { y: 0.0, z: 13.3e-3 };
     let maps = [1, 3, 11].map(|count| lay(&sheet, &vec![place; count]).0.map);
     for side in [1, 4, 10] {
         let one = cv(&maps[0], side);
@@ -131,8 +131,8 @@ fn invariant_the_mass_of_the_sheet_is_that_of_the_fed_fibre() {
 }
 
 /// Filaments in a slot, in a field of eddies.
-fn slot(sheet: &Sheet, count: usize) -> Vec<Place> {
-    row(sheet, count).iter().enumerate().map(|(i, at)| Place { y: (i % 5) as f64 * 3e-3, ..*at }).collect()
+fn slot(sheet: &Sheet, count: usize) -> Vec<Inlet> {
+    row(sheet, count).iter().enumerate().map(|(i, at)| Inlet { y: (i % 5) as f64 * 3e-3, ..*at }).collect()
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn identical_on_any_threads_and_instruction_sets() {
 fn identical_a_filament_whatever_flies_beside_it() {
     let sheet = sheet(24, 32);
     let (case, places) = (case_in("von-karman"), slot(&sheet, 12));
-    let lay = |places: &[Place]| lay_by((&case, &sheet), places, Isa::detect(), 2).1.kept;
+    let lay = |places: &[Inlet]| lay_by((&case, &sheet), places, Isa::detect(), 2).1.kept;
     let (all, some) = (lay(&places), lay(&places[2..7]));
     for (number, points) in &some {
         let beside = &all.iter().find(|(other, _)| *other == number + 2).unwrap().1;
@@ -173,8 +173,8 @@ fn identical_a_filament_whatever_flies_beside_it() {
 #[test]
 fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let (sheet, case) = (sheet(64, 400), case_in("von-karman"));
-    let unevenness = |places: &[Place]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
-    let place = Place { y: 0.0, z: 30e-3 };
+    let unevenness = |places: &[Inlet]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
+    let place = Inlet { y: 0.0, z: 30e-3 };
     let (one, three) = (unevenness(&[place]), unevenness(&[place; 3]));
     assert!((three / one - 1.0).abs() < 1e-5, "{three} {one}");
     // The variances of independent ones add up, and at an even pitch even less is left.

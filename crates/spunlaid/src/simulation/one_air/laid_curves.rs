@@ -5,8 +5,8 @@
 //!             → of a few filaments: what they say of all, and all filaments that follow from them
 //! ```
 
-use super::few::FlownSheet;
 use super::layer_beam::{LayerBeam, beam_on};
+use super::sampled::FlownSheet;
 use super::{BeamControl, BeamFindings};
 use crate::ground::{Error, Isa};
 use crate::simulation::{Flown, LaydownSource, WebSpec};

@@ -3,7 +3,7 @@
 use super::{Beam, BeamFindings};
 use crate::fibre::LaidPoint;
 use crate::ground::Error;
-use crate::ground::place::{Place, rows};
+use crate::ground::place::{Inlet, rows};
 use crate::simulation::{Flown, WebSpec};
 use crate::web::curtain::lay;
 use crate::web::map::{Filaments, inlets, small_patch};
@@ -64,7 +64,7 @@ pub(super) struct FewPlan {
     /// Number of all filaments over the width of the sheet that is flown.
     pub(super) all: f64,
     /// Where all filaments of a slot hang.
-    slot: Vec<Place>,
+    slot: Vec<Inlet>,
     /// Most pairs of neighbours whose own patches are looked at.
     pairs: usize,
 }
@@ -74,7 +74,7 @@ impl WebSpec {
     /// which they stand; None if all are flown.
     ///
     /// * `on` – the sheet that they lay
-    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<(Vec<Place>, FewPlan)> {
+    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<(Vec<Inlet>, FewPlan)> {
         let spec = self.layers.get(layer)?;
         let case = spec.source.case()?;
         let pitch = match self.flown {
@@ -245,12 +245,12 @@ impl FewPlan {
     }
 
     /// Rows that have up to [`FINER`] times as many filaments as were flown.
-    fn finer_rows(&self, most: usize, sheet: &Sheet, beam: &Beam<'_>) -> Vec<Place> {
+    fn finer_rows(&self, most: usize, sheet: &Sheet, beam: &Beam<'_>) -> Vec<Inlet> {
         let row = |row: &Vec<usize>| {
             let y = row.first().map_or(0.0, |first| beam.places[*first].y);
             let count = most.min(FINER * row.len());
             let pitch = sheet.width / count as f64;
-            (0..count).map(move |i| Place { y, z: (i as f64 + 0.5) * pitch })
+            (0..count).map(move |i| Inlet { y, z: (i as f64 + 0.5) * pitch })
         };
         self.rows.iter().flat_map(row).collect()
     }

@@ -5,7 +5,7 @@ use super::neighbours::Neighbours;
 use super::{Beam, BeamFindings};
 use crate::air::EddyField;
 use crate::fibre::{Flight, Job, LaidPoint, Line, SurroundingRun};
-use crate::ground::place::Place;
+use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa, WIDTH};
 use crate::simulation::observe::{NodeStates, StretchedBalance};
@@ -20,7 +20,7 @@ const STEPS_UNSEEN: u64 = 256;
 const LEAST_BETWEEN: u64 = 16;
 
 /// The filaments of each pack: neighbours read the same part of the air.
-pub(super) fn side_by_side(places: &[Place]) -> Vec<Vec<usize>> {
+pub(super) fn side_by_side(places: &[Inlet]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
         sort_by_key(area, |filament| places[*filament].y);
@@ -238,7 +238,7 @@ impl BeltStretch {
 pub(super) struct Filament {
     /// Number across the web.
     pub(super) number: usize,
-    pub(super) place: Place,
+    pub(super) place: Inlet,
     /// The last point that was drawn, and those after it.
     waiting: Vec<LaidPoint>,
     /// Deviations of the points after the start from the straight trace of a filament that comes down at one
@@ -253,7 +253,7 @@ pub(super) struct Filament {
 }
 
 impl Filament {
-    pub(super) fn new(number: usize, place: Place, kept: bool) -> Self {
+    pub(super) fn new(number: usize, place: Inlet, kept: bool) -> Self {
         let kept = kept.then(Vec::new);
         let (waiting, deviations) = (Vec::new(), Vec::new());
         Self { number, place, waiting, deviations, kept, strands: Strands::default(), lost: None }

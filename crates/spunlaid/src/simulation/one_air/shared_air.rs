@@ -7,7 +7,7 @@
 //! ```
 
 use super::flying::{Flying, Sink};
-use super::pack::Reach;
+use super::lane_group::Reach;
 use super::{BLOCK, Beam, BeamControl, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
