@@ -42,6 +42,7 @@ MADE = ("api", "gallery")
 API = """# The library in Rust and Python
 
 - [The library in Rust](rust/spunlaid/index.html), crate `spunlaid`: cases, flights, ensembles, webs, fits.
+- [Fields of air in Rust](rust/spunlaid_field/index.html), crate `spunlaid-field`: files of CFD, and the air at any place.
 - [Charts in Rust](rust/spunlaid_charts/index.html), crate `spunlaid-charts`.
 - [The package in Python](python.md), by examples; its functions and classes follow.
 

@@ -7,7 +7,7 @@ use crate::watched::{Watch, guarded, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::fit::fit;
 use spunlaid::experiment::{Journal, Question, Target, WebInProgress};
-use spunlaid::fibre::Note;
+use spunlaid::fibre::Remark;
 use spunlaid::ground::Error;
 use spunlaid::input::{Overrides, Resources, read_fit};
 use spunlaid::simulation::{Flights, Flyer, RunControl};
@@ -55,7 +55,7 @@ pub(crate) fn find_fit(
         let target = Target::new(&read_measured_web(&to)?, sheet, spectrum);
         target.map_err(|fault| Error::folder(&to, fault))
     })?;
-    let notes = Note::notes_of_results(&file.start.notes);
+    let notes = Remark::notes_of_results(&file.start.notes);
     let (name, figures) = (stem(&path), figure_files(figures)?);
     let paths = [&path, &to].map(|path| path.display().to_string());
     let paths = [&*paths[0], &*paths[1]];

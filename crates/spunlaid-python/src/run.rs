@@ -5,7 +5,7 @@ use crate::computed::{Computed, Of};
 use crate::watched::{Watch, watched};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use spunlaid::fibre::Note;
+use spunlaid::fibre::Remark;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::folders::run::{RunFolder, fly as flown, found, performance};
@@ -50,7 +50,7 @@ pub(crate) fn fly(
     checked
         .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
     let (results, checks, drawn) = (flown.results, unlock(checks), OnceLock::new());
-    let mut notes = Note::notes_of_results(&notes);
+    let mut notes = Remark::notes_of_results(&notes);
     notes.extend(found(&case, &results).into_iter().flatten());
     let run = RunFolder { name: name.clone(), case, results, checks, notes, performance, drawn };
     Ok(Computed { name, of: Of::Run(Box::new(run)) })

@@ -1,9 +1,9 @@
 //! What changes do, in the words that files, figures and reports share.
 
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, rounded, significant};
-use spunlaid::experiment::Change;
+use spunlaid::experiment::{Change, setting};
 use spunlaid::fibre::case::keys;
-use spunlaid::ground::{ChangedKey, Difference, Setting};
+use spunlaid::ground::{ChangedKey, Difference};
 use spunlaid::simulation::WebSpec;
 use spunlaid::simulation::layers::web_key;
 
@@ -34,7 +34,7 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
         [one] => format!(" of layer {one}"),
         [more @ .., last] => format!(" of layers {} and {last}", more.join(", ")),
     };
-    let guess = change.keys.first().filter(|_| change.setting == Setting::GUESS);
+    let guess = change.keys.first().filter(|_| change.setting == setting::GUESS);
     let what = guess.map(|guess| in_sentence(label(&guess.key)));
     format!("{}{whose}", what.unwrap_or_else(|| change.setting.words.to_owned()))
 }

@@ -20,7 +20,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-#[path = "../tests/common/vtk.rs"]
+#[path = "../../spunlaid-field/tests/field/vtk.rs"]
 mod vtk;
 
 use std::fmt::Write;

@@ -7,7 +7,7 @@
 #![allow(clippy::expect_used, unsafe_code)]
 
 mod common;
-#[path = "common/vtk.rs"]
+#[path = "../../spunlaid-field/tests/field/vtk.rs"]
 mod vtk;
 
 use common::*;

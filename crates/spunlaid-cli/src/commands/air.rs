@@ -7,7 +7,7 @@ use crate::args::{Air, Invocation, is_standard, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::{Lateral, LocalAir};
-use spunlaid::fibre::{Case, Note};
+use spunlaid::fibre::{Case, Note, Remark};
 use spunlaid::ground::{Error, Fault, FileKind, Problem, Vec3};
 use spunlaid::input::{Resources, WebFile, kind_of, read_points, read_web};
 use spunlaid::simulation::{LineFilaments, Sources};
@@ -39,7 +39,7 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let read = |resources: &Resources| air.source.read(more.as_slice(), resources);
     let (case, notes) = settled_with(&mut resources, air.threads, air.output.quiet, read)?;
     notes.iter().for_each(say::note);
-    let mut remarks = Note::notes_of_results(&notes);
+    let mut remarks = Remark::notes_of_results(&notes);
     if is_uniform {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());
@@ -141,7 +141,7 @@ pub(crate) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     let unsteady = unsteady(case, &sources);
     let found: Vec<String> = outside_of_cells(&sources).into_iter().collect();
     let notes =
-        [Note::notes_of_results(notes), lost.iter().chain(&unsteady).cloned().collect(), found.clone()]
+        [Remark::notes_of_results(notes), lost.iter().chain(&unsteady).cloned().collect(), found.clone()]
             .concat();
     let contents = SourcesFolder { name: &name, case, input, sources: &sources, notes: &notes };
     delivery.deliver(&contents, air.threads, Asides { lines: &[], found: &found })?;

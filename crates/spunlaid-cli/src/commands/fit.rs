@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::fit::fit as find;
 use spunlaid::experiment::{Fit, Journal, Question, Target, WebInProgress};
-use spunlaid::fibre::Note;
+use spunlaid::fibre::Remark;
 use spunlaid::ground::Error;
 use spunlaid::input::{FitFile, Resources, read_fit};
 use spunlaid::simulation::{Flights, Flyer};
@@ -27,7 +27,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let scan = read_measured_web(&arguments.to)?;
     let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
         .map_err(|fault| Error::folder(&arguments.to, fault))?;
-    let notes = Note::notes_of_results(&file.start.notes);
+    let notes = Remark::notes_of_results(&file.start.notes);
     let name = stem(&arguments.web, "web");
     let paths = [arguments.web.display().to_string(), arguments.to.display().to_string()];
     let input = FitInput {

@@ -6,7 +6,7 @@ use super::{name_of, plural, run_control};
 use crate::args::{Invocation, Run};
 use crate::failure::Failure;
 use crate::{progress, say};
-use spunlaid::fibre::{Case, Note};
+use spunlaid::fibre::{Case, Remark};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::{FinerChecks, FinerPlans, RunControl, RunPaths};
 use spunlaid_results::folders::{read_summary_of_run, run as files};
@@ -74,7 +74,7 @@ fn read(run: &Run) -> Result<(Case, Vec<String>), Failure> {
     let set = overrides(run);
     let (case, notes) = settled(run.threads, run.output.quiet, |resources| run.source.read(&set, resources))?;
     notes.iter().for_each(say::note);
-    Ok((case, Note::notes_of_results(&notes)))
+    Ok((case, Remark::notes_of_results(&notes)))
 }
 
 /// Flies the fibres that have not been flown.

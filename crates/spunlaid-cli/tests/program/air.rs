@@ -73,7 +73,7 @@ fn a_sweep_through_a_field_keeps_it_and_goes_on_from_its_own_folder() {
 
 /// A list of the parts of a field, and the parts in folders beside it. OpenFOAM lists walls too.
 fn listed_field(desk: &Desk) {
-    let parts = cases().join("../crates/spunlaid/tests/field_fixtures/lists");
+    let parts = cases().join("../crates/spunlaid-field/tests/fixtures/lists");
     std::fs::create_dir_all(desk.path("air/blocks")).unwrap();
     for name in ["blocks.vtm", "blocks/blocks_0.vtu", "blocks/blocks_1.vtu"] {
         std::fs::copy(parts.join(name), desk.path("air").join(name)).unwrap();

@@ -23,7 +23,7 @@ use crate::report::{
 use serde_json::json;
 use spunlaid::air::{Analysis, Record};
 use spunlaid::experiment::Claim;
-use spunlaid::fibre::{Case, Note};
+use spunlaid::fibre::{Case, Remark};
 use spunlaid::ground::{Error, Isa};
 use spunlaid::input::SpinFile;
 use spunlaid::simulation::Sources;
@@ -262,7 +262,7 @@ impl SpinFolder {
 
     /// Notes for the reader.
     fn notes(&self) -> Vec<String> {
-        [Note::notes_of_results(&self.file.notes), self.found.clone()].concat()
+        [Remark::notes_of_results(&self.file.notes), self.found.clone()].concat()
     }
 }
 

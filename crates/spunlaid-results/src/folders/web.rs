@@ -14,7 +14,7 @@ use crate::output::table::TABLES;
 use crate::output::web::{self, Layer};
 use crate::report::{Advised, LayerSpinline, web_report};
 use spunlaid::experiment::Advice;
-use spunlaid::fibre::{Case, Load, Note, Solution};
+use spunlaid::fibre::{Case, Load, Remark, Solution};
 use spunlaid::ground::Isa;
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::FlownWeb;
@@ -63,7 +63,7 @@ impl WebFolder {
     ) -> Self {
         let fabric = file.spec.fabric(&flown.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
-        let notes = [Note::notes_of_results(&file.notes), notes(&flown, &findings)];
+        let notes = [Remark::notes_of_results(&file.notes), notes(&flown, &findings)];
         let (advice, guesses, awaited) = (None, None, false);
         Self { name, file, flown, findings, fabric, advice, guesses, beside, awaited, notes, performance }
     }

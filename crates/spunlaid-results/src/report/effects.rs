@@ -9,8 +9,8 @@ use crate::command::web_command;
 use crate::effects::{PER_CENT, describe, difference_text, label};
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::output::web::HOUR;
-use spunlaid::experiment::{Advice, ChangedWeb, Tried};
-use spunlaid::ground::{Difference, Effect, NAMED, Setting};
+use spunlaid::experiment::{Advice, ChangedWeb, Tried, setting};
+use spunlaid::ground::{Difference, Effect, NAMED};
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::Findings;
 
@@ -183,7 +183,7 @@ pub(super) fn effects_table(
     findings: &Findings,
     (advice, beside): (&Advice, &str),
 ) -> Option<(Table, String)> {
-    let are_guesses = advice.tried.first()?.change.setting == Setting::GUESS;
+    let are_guesses = advice.tried.first()?.change.setting == setting::GUESS;
     let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
     let row = |tried: &Tried| {
         let cv = |patch: &f64| {

@@ -1,6 +1,6 @@
 //! Fields of air: the cost of asking one along the way of a fibre's element.
 
-#[path = "../../tests/common/meshes.rs"]
+#[path = "../../../spunlaid-field/tests/field/meshes.rs"]
 mod meshes;
 
 use crate::measure::{Trial, in_rounds, processor_time};

@@ -6,18 +6,11 @@
 //! hot-wire record → record → mean, turbulence, lengths
 //! ```
 
-pub mod field;
-
 pub mod motion;
 
 pub mod record;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
-pub(crate) use field::ReadField;
-pub use field::{
-    AirAround, BlockKind, Cells, Description, Field, FieldCells, FieldLayout, Hint, Local, Shape, Spread,
-    Values,
-};
 pub use motion::{
     APART, Air, AirAtPlaces, AirInSpace, Atmosphere, Axis, Eddies, EddyField, EddyModel, EddyTurbulence,
     EddyWind, Extent, FileContent, Flow, FlowNumbers, Lateral, LocalAir, Measured, PlaceAxes, PlacedField,
@@ -31,4 +24,9 @@ pub(crate) use motion::{
 pub use record::{
     Analysis, Component, IntegralRule, LONGEST_GAP, Layout, OF_COMPONENTS, OF_RECORDS, Reading, Record,
     Samples, Settings, SpectrumSettings,
+};
+pub use spunlaid_field as field;
+pub use spunlaid_field::{
+    AirAround, BlockKind, Cells, Description, Field, FieldCells, FieldLayout, Hint, Local, ReadField, Shape,
+    Spread, Values,
 };

@@ -137,7 +137,7 @@ impl SpinFile {
 /// A failure at the place of the key to blame, after the unusual values that may be why.
 fn rejected(key_values: &WrittenValues, case: &Case, failure: Failure) -> Error {
     let slips = case.unusual_in(&TABLES).into_iter().filter(|slip| slip.key != failure.key);
-    let mut problems: Vec<Problem> = slips.map(|slip| key_values.placed(slip.into())).collect();
+    let mut problems: Vec<Problem> = slips.map(|slip| key_values.placed(Remark::problem(slip))).collect();
     problems.push(placed(key_values, failure));
     problems.into()
 }

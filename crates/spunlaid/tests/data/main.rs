@@ -1,27 +1,19 @@
 //! Data from elsewhere: fields of air, velocity records, scans of webs.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
-#[path = "../common/air.rs"]
+#[path = "../../../spunlaid-field/tests/field/air.rs"]
 mod air;
-#[path = "../common/meshes.rs"]
+#[path = "../../../spunlaid-field/tests/field/meshes.rs"]
 mod meshes;
 #[path = "../common/normal.rs"]
 mod normal;
 #[path = "../common/scans.rs"]
 mod scans;
-#[path = "../common/vtk.rs"]
+#[path = "../../../spunlaid-field/tests/field/vtk.rs"]
 mod vtk;
 
-mod field_blanks;
 mod field_cases;
-mod field_files;
-mod field_foreign;
-mod field_lists;
 mod field_names;
-mod field_points;
-mod field_refusals;
-mod field_times;
-mod fields;
 mod record_artefacts;
 mod record_dialects;
 mod record_files;

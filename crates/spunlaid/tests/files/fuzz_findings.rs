@@ -42,8 +42,10 @@ fn velocity_records_found_by_the_fuzzer() {
 
 #[test]
 fn fields_found_by_the_fuzzer() {
-    let (read, refused) =
-        replay(checks::field, &["tests/fuzz_findings/field", "tests/field_fixtures", "../../cases/fields"]);
+    let (read, refused) = replay(
+        checks::field,
+        &["tests/fuzz_findings/field", "../spunlaid-field/tests/fixtures", "../../cases/fields"],
+    );
     assert!(read >= 20 && refused >= 1, "{read} read, {refused} refused");
 }
 

@@ -5,7 +5,7 @@
 mod cases;
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../common/meshes.rs"]
+#[path = "../../../spunlaid-field/tests/field/meshes.rs"]
 mod meshes;
 
 mod air_flows;

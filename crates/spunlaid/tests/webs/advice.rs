@@ -1,7 +1,7 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
 use spunlaid::experiment::advice::{advise, judged_by};
-use spunlaid::experiment::{Advice, Change, Tried};
+use spunlaid::experiment::{Advice, Change, Tried, setting};
 use spunlaid::ground::{Error, Isa, Setting};
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
 use spunlaid::simulation::{Flights, Flyer};
@@ -106,38 +106,38 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
     let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
     let alone = |all: &[Setting]| all.iter().map(|setting| (*setting, None)).collect::<Vec<_>>();
     let flown = alone(&[
-        Setting::THROUGHPUT,
-        Setting::HOLES,
-        Setting::TITRE,
-        Setting::DISTANCE,
-        Setting::AIR_SPEED,
-        Setting::TURBULENCE,
+        setting::THROUGHPUT,
+        setting::HOLES,
+        setting::TITRE,
+        setting::DISTANCE,
+        setting::AIR_SPEED,
+        setting::TURBULENCE,
     ]);
     let spun = alone(&[
-        Setting::THROUGHPUT,
-        Setting::HOLES,
-        Setting::DRAWING_AIR,
-        Setting::DIE_TEMPERATURE,
-        Setting::DISTANCE,
-        Setting::AIR_SPEED,
-        Setting::TURBULENCE,
+        setting::THROUGHPUT,
+        setting::HOLES,
+        setting::DRAWING_AIR,
+        setting::DIE_TEMPERATURE,
+        setting::DISTANCE,
+        setting::AIR_SPEED,
+        setting::TURBULENCE,
     ]);
     let beams = [
-        (Setting::THROUGHPUT, Some(1)),
-        (Setting::HOLES, Some(1)),
-        (Setting::THROUGHPUT, Some(2)),
-        (Setting::HOLES, Some(2)),
+        (setting::THROUGHPUT, Some(1)),
+        (setting::HOLES, Some(1)),
+        (setting::THROUGHPUT, Some(2)),
+        (setting::HOLES, Some(2)),
     ];
-    let beams = [&beams[..], &flown[2..], &alone(&[Setting::ROW_PLACES])].concat();
+    let beams = [&beams[..], &flown[2..], &alone(&[setting::ROW_PLACES])].concat();
     let weight_written: &[(&str, &str)] = &[("line.basis_weight", "15 g/m²")];
     // A fifth finer, or in air a fifth slower, a filament of 50 m/s is faster than its air of 60 m/s.
     for (text, set, wanted, too_fast) in [
-        (STRAIGHT, &[][..], alone(&[Setting::THROUGHPUT, Setting::HOLES, Setting::TITRE]), 0),
-        (STRAIGHT, weight_written, alone(&[Setting::THROUGHPUT, Setting::HOLES, Setting::TITRE]), 0),
+        (STRAIGHT, &[][..], alone(&[setting::THROUGHPUT, setting::HOLES, setting::TITRE]), 0),
+        (STRAIGHT, weight_written, alone(&[setting::THROUGHPUT, setting::HOLES, setting::TITRE]), 0),
         (BEAMS, &[], beams, 2),
         (&file("web.toml"), &[], flown.clone(), 2),
         (&file("web.toml"), weight_written, flown.clone(), 2),
-        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[Setting::DEPTH])].concat(), 2),
+        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[setting::DEPTH])].concat(), 2),
         (&file("whole_line.toml"), &[], spun, 0),
     ] {
         let (base, changes) = read(text, set);
@@ -157,7 +157,7 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
                     assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
                 }
                 let throughput = |of: &spunlaid::input::LayerSpec| of.linear_density() * of.feed_speed;
-                if change.setting != Setting::THROUGHPUT {
+                if change.setting != setting::THROUGHPUT {
                     // Five digits, where the file does not give it.
                     let tolerance = if before.throughput.is_some() { 1e-9 } else { 5e-5 };
                     assert!((throughput(after) / throughput(before) - 1.0).abs() < tolerance, "{name}");
@@ -261,7 +261,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
 #[test]
 fn equal_beams_are_changed_together() {
     let (base, changes) = read(EQUAL_BEAMS, &[]);
-    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::HOLES).collect();
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == setting::HOLES).collect();
     let layers: Vec<&[usize]> = holes.iter().map(|change| &change.layers[..]).collect();
     assert_eq!(layers, [&[1, 2][..], &[1, 2], &[3], &[3]]);
     let counts = |spec: &WebSpec| -> Vec<u64> {
@@ -273,7 +273,7 @@ fn equal_beams_are_changed_together() {
     // Beams that are all equal need no numbers.
     let two = EQUAL_BEAMS.replace("filaments_per_metre = 1000", "filaments_per_metre = 3000");
     let (_, changes) = read(&two, &[]);
-    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == Setting::HOLES).collect();
+    let holes: Vec<&Change> = changes.iter().filter(|change| change.setting == setting::HOLES).collect();
     assert_eq!((holes.len(), &holes[0].layers[..]), (2, &[][..]));
     assert_eq!(counts(&holes[1].experiment.spec), [900, 900, 900]);
 }
@@ -287,7 +287,7 @@ fn a_change_of_one_beam_leaves_the_other_one_as_it_is() {
             .find(|change| (change.setting, change.layers.first().copied()) == (setting, layer))
             .unwrap()
     };
-    let holes = of(Setting::HOLES, Some(2));
+    let holes = of(setting::HOLES, Some(2));
     assert_eq!(holes.experiment.spec.layers[0].filaments, base.spec.layers[0].filaments);
     assert_eq!(holes.experiment.spec.layers[1].filaments.count(&base.spec.sheet), 600);
     let keys: Vec<(&str, f64)> = holes.keys.iter().map(|key| (&*key.key, key.to)).collect();
@@ -316,17 +316,17 @@ fn analytic_titre_of_straight_filaments() {
         found.unwrap().effects[0].difference
     };
     for (more, titre) in [(false, 0.8_f64), (true, 1.2)] {
-        let cv = change(Setting::TITRE, more);
+        let cv = change(setting::TITRE, more);
         println!("{more}: {} ± {}, {}", cv.value, cv.standard_error, titre.sqrt() - 1.0);
         // Four standard errors of few paths, and a per cent for where a filament meets itself.
         let tolerance = 4.0 * cv.standard_error + 0.01;
         assert!((cv.value - (titre.sqrt() - 1.0)).abs() < tolerance, "{cv:?}");
         assert!(tolerance < 0.04, "{cv:?}");
         // With more throughput the belt is as much faster, and the same paths lie on it.
-        assert!(change(Setting::THROUGHPUT, more).value.abs() < 1e-9);
+        assert!(change(setting::THROUGHPUT, more).value.abs() < 1e-9);
     }
     let [(tried, effect), ..] = advice.improvements(2e-3)[..] else { panic!("nothing lowers it") };
-    assert_eq!((tried.change.setting, effect.difference.value < -0.05), (Setting::TITRE, true));
+    assert_eq!((tried.change.setting, effect.difference.value < -0.05), (setting::TITRE, true));
     let [before, after] = tried.change.experiment.mass_flow;
     assert!((after / before - 1.0).abs() < 1e-9);
 }
@@ -350,8 +350,8 @@ fn a_charge_is_changed_where_it_is_given() {
         depth = \"20 mm\"\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
     let of_charge = |set: &[(&str, &str)]| -> Vec<(f64, f64)> {
         let (_, changes) = read(web, set);
-        assert!(changes.iter().any(|change| change.setting == Setting::DEPTH));
-        let changes = changes.iter().filter(|change| change.setting == Setting::CHARGE);
+        assert!(changes.iter().any(|change| change.setting == setting::DEPTH));
+        let changes = changes.iter().filter(|change| change.setting == setting::CHARGE);
         changes.map(|change| (change.keys[0].to, change.experiment.spec.layers[0].charge.unwrap())).collect()
     };
     assert!(of_charge(&[]).is_empty() && of_charge(&[("line.charge", "0 µC/g")]).is_empty());

@@ -3,8 +3,8 @@
 use super::PER_CENT;
 use crate::effects::{describe, name};
 use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
-use spunlaid::experiment::{Advice, Tried};
-use spunlaid::ground::{Difference, Dimension, Setting};
+use spunlaid::experiment::{Advice, Tried, setting};
+use spunlaid::ground::{Difference, Dimension};
 use spunlaid::simulation::WebSpec;
 use spunlaid_charts::{Figure, Table};
 
@@ -12,7 +12,7 @@ use spunlaid_charts::{Figure, Table};
 /// top. None if none is known.
 pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
     let (patch, first) = (advice.judged_by?, advice.tried.first()?);
-    let are_guesses = first.change.setting == Setting::GUESS;
+    let are_guesses = first.change.setting == setting::GUESS;
     let mut rows: Vec<(String, Vec<&Tried>)> = Vec::new();
     for tried in &advice.tried {
         let name = name(&tried.change, spec);

@@ -10,7 +10,6 @@
 use super::in_space::{AirAtElements, InstantStations};
 use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
 use crate::air::field::Hint;
-use crate::ground::company::shared;
 use crate::ground::lanes::indices;
 use crate::ground::place::Inlet;
 use crate::ground::{Lanes, PerLane, Register, Task, Vec3, WIDTH, Wide};

@@ -1,12 +1,17 @@
 //! Reads records in Parquet: plain columns of numbers, and of times.
 
+mod logical;
+mod table;
+
 use super::columns::{Column, roles};
 use super::rows::Rows;
 use super::{Layout, Record};
 use crate::ground::units::excerpt;
-use crate::ground::{Fault, FileError, FirstCell, Head, Meaning, ParquetTable, Position};
+use crate::ground::{Fault, FileError, FirstCell, Head, Position};
 use bytes::Bytes;
+use logical::Meaning;
 use parquet::errors::ParquetError;
+use table::ParquetTable;
 
 /// First bytes of a Parquet file.
 pub(super) const MAGIC: &[u8] = b"PAR1";

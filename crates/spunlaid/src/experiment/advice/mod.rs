@@ -7,7 +7,7 @@
 //! ```
 
 mod aim;
-mod setting;
+pub mod setting;
 mod web_of_few;
 
 pub use aim::judged_by;
@@ -17,7 +17,7 @@ use self::web_of_few::WebOfFew;
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;
-use crate::ground::{Dimension, Effect, Error, Fault, Outcome, RACING, Setting, Trials, effects};
+use crate::ground::{Dimension, Effect, Error, Fault, Outcome, RACING, Trials, effects};
 use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
@@ -87,7 +87,7 @@ fn is_same(patch: f64, side: f64) -> bool {
 }
 
 fn is_guess(change: &Change) -> bool {
-    change.setting == Setting::GUESS
+    change.setting == setting::GUESS
 }
 
 /// Keeps what flights in one air have said of changes, so that a command which was interrupted goes on.

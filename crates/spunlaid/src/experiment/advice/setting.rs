@@ -3,38 +3,36 @@
 use crate::ground::Setting;
 use crate::simulation::WebSpec;
 
-impl Setting {
-    const fn new(name: &'static str, words: &'static str) -> Self {
-        Self { name, words }
-    }
-
-    /// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become
-    /// coarser with it.
-    pub const THROUGHPUT: Self = Self::new("throughput", "throughput of a hole");
-    /// Number of holes.
-    pub const HOLES: Self = Self::new("holes", "holes");
-    /// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they
-    /// are coarser.
-    pub const TITRE: Self = Self::new("titre", "titre");
-    /// Way from the inlet to the belt.
-    pub const DISTANCE: Self = Self::new("distance", "distance to the belt");
-    /// Speed of the air between inlet and belt.
-    pub const AIR_SPEED: Self = Self::new("air_speed", "air speed");
-    /// How strongly this air fluctuates.
-    pub const TURBULENCE: Self = Self::new("turbulence", "turbulence");
-    /// Speed of the air that draws the filaments of a spinline.
-    pub const DRAWING_AIR: Self = Self::new("drawing_air", "speed of the drawing air");
-    /// Temperature of the die.
-    pub const DIE_TEMPERATURE: Self = Self::new("die_temperature", "die temperature");
-    /// Size of the slot in machine direction.
-    pub const DEPTH: Self = Self::new("depth", "depth of the slot");
-    /// Places of the rows in machine direction.
-    pub const ROW_PLACES: Self = Self::new("row_places", "distance of the rows");
-    /// Charge per mass that the filaments carry.
-    pub const CHARGE: Self = Self::new("charge", "charge of the filaments");
-    /// None of the machine: a number that is a guess, and may be another one than is written.
-    pub const GUESS: Self = Self::new("guess", "guessed number");
+const fn named(name: &'static str, words: &'static str) -> Setting {
+    Setting { name, words }
 }
+
+/// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become
+/// coarser with it.
+pub const THROUGHPUT: Setting = named("throughput", "throughput of a hole");
+/// Number of holes.
+pub const HOLES: Setting = named("holes", "holes");
+/// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they
+/// are coarser.
+pub const TITRE: Setting = named("titre", "titre");
+/// Way from the inlet to the belt.
+pub const DISTANCE: Setting = named("distance", "distance to the belt");
+/// Speed of the air between inlet and belt.
+pub const AIR_SPEED: Setting = named("air_speed", "air speed");
+/// How strongly this air fluctuates.
+pub const TURBULENCE: Setting = named("turbulence", "turbulence");
+/// Speed of the air that draws the filaments of a spinline.
+pub const DRAWING_AIR: Setting = named("drawing_air", "speed of the drawing air");
+/// Temperature of the die.
+pub const DIE_TEMPERATURE: Setting = named("die_temperature", "die temperature");
+/// Size of the slot in machine direction.
+pub const DEPTH: Setting = named("depth", "depth of the slot");
+/// Places of the rows in machine direction.
+pub const ROW_PLACES: Setting = named("row_places", "distance of the rows");
+/// Charge per mass that the filaments carry.
+pub const CHARGE: Setting = named("charge", "charge of the filaments");
+/// None of the machine: a number that is a guess, and may be another one than is written.
+pub const GUESS: Setting = named("guess", "guessed number");
 
 /// A changed web; of the same basis weight, unless what changes is a guess.
 #[derive(Clone, Debug, PartialEq)]

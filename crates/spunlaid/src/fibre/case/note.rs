@@ -75,6 +75,16 @@ impl Remark {
         self.origin == other.origin
     }
 
+    /// The notes that go with results: all but choices.
+    pub fn notes_of_results(notes: &[Note]) -> Vec<String> {
+        notes.iter().filter(|note| !note.what.is_choice()).map(Note::to_string).collect()
+    }
+
+    /// A warning becomes a problem where something else is wrong with the case, because it may be the cause.
+    pub(crate) fn problem(Note { place, key, value, what }: Note) -> Problem {
+        Problem { place, key, value, what: Fault::plain(what.text) }
+    }
+
     /// The same, said of one file of several.
     pub(crate) fn of_file(self, file: &str) -> Self {
         Self { text: format!("{file}: {}", self.text), ..self }
@@ -84,19 +94,5 @@ impl Remark {
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
-    }
-}
-
-/// A warning becomes a problem where something else is wrong with the case, because it may be the cause.
-impl From<Note> for Problem {
-    fn from(Note { place, key, value, what }: Note) -> Self {
-        Self { place, key, value, what: Fault::plain(what.text) }
-    }
-}
-
-impl Note {
-    /// The notes that go with results: all but choices.
-    pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
-        notes.iter().filter(|note| !note.what.is_choice()).map(Self::to_string).collect()
     }
 }

@@ -3,7 +3,6 @@
 use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
-use crate::air::field::is_even;
 use crate::air::{Flow, Hint, PlacedField, SpectrumShape};
 use crate::fibre::drag::NormalLaw;
 use crate::ground::error::Place;
@@ -303,8 +302,8 @@ impl Case {
             ));
             note("air.field_axis", format!("\"{}\"", placed.axis.name()), what);
         }
-        let ([_, machine, cross], changes) = (placed.axes(), placed.field.changes());
-        if is_even(changes, machine.index) && !is_even(changes, cross.index) {
+        let [_, machine, cross] = placed.axes();
+        if placed.field.is_even_along(machine.index) && !placed.field.is_even_along(cross.index) {
             let cross = cross.name();
             let what = Remark::warning(format!(
                 "makes the air the same along the machine direction, and lets it change along the cross direction \

@@ -74,7 +74,7 @@ impl Case {
     pub(crate) fn blame_slips(&self, problems: &mut Vec<Problem>) {
         for note in self.slips() {
             if !problems.iter().any(|problem| problem.key == note.key) {
-                problems.push(note.into());
+                problems.push(Remark::problem(note));
             }
         }
     }

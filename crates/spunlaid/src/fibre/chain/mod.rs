@@ -16,7 +16,6 @@ use self::work::Charged;
 use crate::fibre::body::Fibre;
 use crate::fibre::drag::{Curve, ElementDrag};
 use crate::fibre::line::Line;
-use crate::ground::company::shared;
 use crate::ground::{Lanes, Nodes, PerLane, Vec3, WIDTH};
 
 /// One fibre and what acts on it, without the wind: the content of a lane.

@@ -11,7 +11,6 @@ use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
 use crate::fibre::chain::{self, Chain, Strand};
 use crate::fibre::energy::Energy;
-use crate::ground::company::shared;
 use crate::ground::{Bits, Error, Fault, Isa, Lanes, PerLane, Vec3};
 use std::sync::Arc;
 

@@ -5,9 +5,9 @@ use super::super::{Overrides, Resources, file};
 use super::Base;
 use super::line::{OpenWeb, changes_of_line};
 use super::web::WebBase;
-use crate::experiment::Change;
+use crate::experiment::{Change, setting};
 use crate::fibre::case::keys::VariedKey;
-use crate::ground::{ChangedKey, Error, FileKind, Setting};
+use crate::ground::{ChangedKey, Error, FileKind};
 use std::path::Path;
 
 /// Which changes of a web are made.
@@ -79,5 +79,5 @@ fn with_guess(web: &OpenWeb<'_>, name: &str, guess: &Guess, factor: f64) -> Opti
     }
     let keys = vec![ChangedKey { key: name.to_owned(), ..key }];
     let new = values.iter().map(|value| web.setting(value)).collect();
-    (to != guess.value).then(|| web.change((Setting::GUESS, Vec::new()), keys, new, web.with(&values)))
+    (to != guess.value).then(|| web.change((setting::GUESS, Vec::new()), keys, new, web.with(&values)))
 }

@@ -8,7 +8,7 @@ use super::Base;
 use super::web::WebBase;
 use crate::air::{Air, Flow};
 use crate::experiment::plausible::leads_outside;
-use crate::experiment::{Change, ChangedWeb};
+use crate::experiment::{Change, ChangedWeb, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Dimension, Error, Setting};
 use crate::simulation::layers::web_key;
@@ -65,22 +65,22 @@ impl LineChanges<'_> {
         let mut settings: Vec<(Setting, &Vec<usize>, Vec<KeyPowers>)> = Vec::new();
         for group in &groups {
             let throughputs = of_each(group, &|layer| vec![throughput(layer, 1.0)]);
-            settings.push((Setting::THROUGHPUT, named(group), throughputs));
-            settings.push((Setting::HOLES, named(group), of_each(group, &|layer| self.holes(layer))));
+            settings.push((setting::THROUGHPUT, named(group), throughputs));
+            settings.push((setting::HOLES, named(group), of_each(group, &|layer| self.holes(layer))));
         }
         if self.spec().flies() {
             let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
             // The spinline decides the titre.
             if self.web.base.number_of_cases("spinline.throughput").is_none() {
-                settings.push((Setting::TITRE, &all, of_each(&every, &titre)));
+                settings.push((setting::TITRE, &all, of_each(&every, &titre)));
             }
             settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
-            settings.push((Setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
-            settings.push((Setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
-            settings.push((Setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
+            settings.push((setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
+            settings.push((setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
+            settings.push((setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
         } else {
             for group in &groups {
-                settings.push((Setting::TITRE, named(group), of_each(group, &titre)));
+                settings.push((setting::TITRE, named(group), of_each(group, &titre)));
             }
         }
         let changes = settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways));
@@ -109,11 +109,11 @@ impl LineChanges<'_> {
             false => &[],
         };
         let settings: [(Setting, &[&str]); 5] = [
-            (Setting::DRAWING_AIR, &["spinline.velocity_factor", "spinline.velocity"]),
-            (Setting::DIE_TEMPERATURE, &["spinline.die_temperature"]),
-            (Setting::DISTANCE, &["belt.distance"]),
-            (Setting::AIR_SPEED, &["air.speed_factor", "air.velocity"]),
-            (Setting::TURBULENCE, turbulence),
+            (setting::DRAWING_AIR, &["spinline.velocity_factor", "spinline.velocity"]),
+            (setting::DIE_TEMPERATURE, &["spinline.die_temperature"]),
+            (setting::DISTANCE, &["belt.distance"]),
+            (setting::AIR_SPEED, &["air.speed_factor", "air.velocity"]),
+            (setting::TURBULENCE, turbulence),
         ];
         let alone = |key: &&str| vec![((*key).to_owned(), 1.0)];
         settings.map(|(setting, keys)| (setting, keys.iter().map(alone).collect())).to_vec()

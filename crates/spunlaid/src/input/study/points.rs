@@ -23,7 +23,7 @@ pub struct StudyNote {
 }
 
 impl StudyNote {
-    /// The remarks that go with results, see [`Note::notes_of_results`].
+    /// The remarks that go with results, see [`Remark::notes_of_results`].
     pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
         notes.iter().filter(|remark| !remark.note.what.is_choice()).map(Self::to_string).collect()
     }

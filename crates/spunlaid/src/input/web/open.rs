@@ -6,8 +6,8 @@ use super::super::{Overrides, Resources};
 use super::filament::Filament;
 use super::flies_none;
 use super::read::{CASE, Reading, THROUGHPUT, as_web};
-use crate::fibre::Note;
 use crate::fibre::case::keys::{self, Value};
+use crate::fibre::{Note, Remark};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault};
 use crate::simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
@@ -113,7 +113,7 @@ impl OpenWeb<'_> {
         // Unusual values may be why the web cannot be laid.
         for note in unusual {
             if !key_values.problems.iter().any(|problem| problem.key == note.key) {
-                key_values.problems.push(note.into());
+                key_values.problems.push(Remark::problem(note));
             }
         }
         Err(sorted(key_values.problems).into())

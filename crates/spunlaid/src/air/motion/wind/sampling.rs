@@ -1,7 +1,6 @@
 //! What the winds of one flight have in common: when samples are made, and what they are made of.
 
 use super::super::{Air, EddyTurbulence, FileContent, Measured};
-use crate::ground::company::shared;
 use crate::ground::random::stream;
 use crate::ground::{Bits, Error, Fault, PerLane};
 use rand_chacha::ChaCha8Rng;

@@ -35,7 +35,7 @@ impl<'a> Merged<'a> {
                 ..CellSource::default()
             }
         };
-        let cells = (0..cells.len()).map(&mut cell).collect();
+        let cells = (0..cells.count()).map(&mut cell).collect();
         let (sums, of_replicates, lost) = (HashMap::new(), Default::default(), Vec::new());
         Self { fitting, cells, sums, of_replicates, lost }
     }

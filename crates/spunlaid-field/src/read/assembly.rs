@@ -1,0 +1,147 @@
+//! Makes a field of the pieces of a file.
+
+use super::array::Array;
+use super::blanks::{Blanks, Gaps};
+use super::encoding::Budget;
+use super::join::{Part, join};
+use super::missing;
+use super::names::Measure;
+use super::piece::{Piece, Range, Reader};
+use super::times::one_time;
+use crate::{Field, FieldLayout};
+use spunlaid_ground::error::{by_count, counted};
+use spunlaid_ground::{Fault, FileError, IS};
+
+/// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
+const ROUNDING: f64 = 1e-3;
+
+/// Collects the pieces of a file, or of several, and makes a field of them.
+pub(super) struct Assembly<'l> {
+    layout: &'l FieldLayout,
+    parts: Vec<Part>,
+    warnings: Vec<Fault>,
+    /// The numbers that are missing.
+    gaps: Gaps,
+    /// The arrays that cannot be negative.
+    ranges: Vec<Range>,
+    /// What was read, and from which arrays.
+    sources: Vec<(&'static str, String)>,
+    /// What the first piece lacks for turbulence.
+    lacks: Option<Fault>,
+    /// The time of the values, if a file tells it.
+    time: Option<f64>,
+    /// How much may still be read, for all pieces together.
+    pub(super) budget: Budget,
+}
+
+impl<'l> Assembly<'l> {
+    pub(super) fn new(layout: &'l FieldLayout) -> Self {
+        Self {
+            layout,
+            parts: Vec::new(),
+            warnings: Vec::new(),
+            gaps: Gaps::default(),
+            ranges: Vec::new(),
+            sources: Vec::new(),
+            lacks: None,
+            time: None,
+            budget: Budget::new(),
+        }
+    }
+
+    /// Decodes a piece and keeps it. The bytes that it was read from are not needed any more.
+    pub(super) fn add(&mut self, piece: Piece<'_>) -> Result<(), FileError> {
+        if self.parts.is_empty() {
+            self.lacks = missing::turbulence(&piece.arrays(self.layout));
+        }
+        let Self { layout, budget, warnings, gaps, ranges, sources, .. } = self;
+        let mut blanks = Blanks::read(&piece.grid, [&piece.point_data, &piece.cell_data], budget)?;
+        let mut reader =
+            Reader { piece: &piece, layout, budget, blanks: &mut blanks, gaps, warnings, ranges, sources };
+        let values = reader.values()?;
+        self.parts.push(Part { grid: piece.grid, values, blanks });
+        Ok(())
+    }
+
+    /// Takes note of the time that a file tells.
+    pub(super) fn add_time(&mut self, array: &Array<'_>) -> Result<(), FileError> {
+        let times: Vec<f64> = array.all(&mut self.budget)?;
+        one_time(&mut self.time, array, &times)
+    }
+
+    pub(super) fn warn(&mut self, warning: Fault) {
+        self.warnings.push(warning);
+    }
+
+    /// The field of all pieces.
+    pub(super) fn finish(self) -> Result<(Field, Vec<Fault>), FileError> {
+        let Self { layout, parts, mut warnings, gaps, ranges, mut sources, lacks, .. } = self;
+        let quantity = [Measure::K, Measure::Epsilon, Measure::Omega]
+            .into_iter()
+            .find(|measure| measure.request(layout).is_some());
+        if let (Some(lacks), Some(quantity)) = (&lacks, quantity) {
+            let (key, Fault { message, remedy, .. }) = (quantity.key(), lacks);
+            let remedy = format!("{remedy}, or leave {key} out");
+            return Err(
+                Fault::new(format!("{key} has no effect, because the field {message}"), remedy).into()
+            );
+        }
+        for Range { array, least, greatest, negative } in ranges {
+            if least < -ROUNDING * greatest.max(0.0) {
+                let share = -100.0 * ROUNDING;
+                let fault = Fault::new(
+                    format!(
+                        "is below zero at {}, and it cannot be: its smallest value is {least} and its \
+                         largest {greatest}. Only values down to {share} % of the largest count as rounding and are \
+                         set to zero",
+                        counted(negative, "point")
+                    ),
+                    "check that the array is what its name says",
+                );
+                return Err(FileError::from(fault).array(&array));
+            }
+            if negative > 0 {
+                let message =
+                    format!("{array} is negative at {}; zero is used there", counted(negative, "point"));
+                warnings.push(Fault::plain(message));
+            }
+        }
+        let of_turbulence = |wanted| {
+            let mut values = parts.iter().map(|part| &part.values);
+            values.any(|values| !values.velocity.is_empty() && values.has_turbulence() == wanted)
+        };
+        if of_turbulence(true) && of_turbulence(false) {
+            return Err(Fault::new(
+                "has k and ε (or ω) in some of its parts only",
+                "write them in all parts, or in none",
+            )
+            .into());
+        }
+        warnings.extend(hidden(&parts));
+        warnings.extend(gaps.warnings());
+        let (mut field, more) = join(parts, &gaps)?;
+        warnings.extend(more);
+        if !field.has_turbulence() {
+            sources.retain(|(quantity, _)| *quantity == Measure::Velocity.name());
+        }
+        (field.lacks, field.sources, field.layout) = (lacks, sources, layout.clone());
+        Ok((field, warnings))
+    }
+}
+
+/// How many points and cells are hidden, if any are.
+fn hidden(parts: &[Part]) -> Option<Fault> {
+    let count = |kind: usize| parts.iter().map(|part| part.blanks.hidden[kind]).sum::<u64>();
+    let [points, cells] = [count(0), count(1)];
+    let said = match [points, cells] {
+        [0, 0] => return None,
+        [_, 0] => counted(points, "point"),
+        [0, _] => counted(cells, "cell"),
+        _ => format!("{} and {}", counted(points, "point"), counted(cells, "cell")),
+    };
+    let left_out = by_count(points + cells, ("it is left out", "they are left out"));
+    Some(Fault::plain(format!(
+        "{said} {} hidden (vtkGhostType or vtkValidPointMask); there is no air there, and {left_out}",
+        by_count(points + cells, IS),
+    )))
+}

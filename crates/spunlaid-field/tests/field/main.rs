@@ -1,0 +1,14 @@
+//! Fields from files and from numbers: formats, gaps, refusals, and the air between the points.
+#![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
+
+mod air;
+mod blanks;
+mod fields;
+mod files;
+mod foreign;
+mod lists;
+mod meshes;
+mod points;
+mod refusals;
+mod times;
+mod vtk;

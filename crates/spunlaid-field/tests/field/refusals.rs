@@ -1,0 +1,351 @@
+//! Files that hold no field of air are refused with the place and the way out, and memory stays in proportion to the
+//! file.
+
+use crate::air::{mesh, samples, values};
+use crate::meshes::{Block, Made};
+use crate::vtk::{ASCII, DataPlace, Squeeze, Style, legacy, vti, vtu};
+use proptest::prelude::*;
+use spunlaid_field::Field;
+use std::path::Path;
+
+fn refused(bytes: &[u8]) -> String {
+    let said = Field::parse(bytes, "a.vtu").expect_err("this is no field").to_string();
+    assert!(said.chars().all(|c| !c.is_control()), "{said:?}");
+    said
+}
+
+/// Changes a file that could be read.
+fn changed(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "{from}\n{text}");
+    refused(text.replacen(from, to, 1).as_bytes())
+}
+
+#[test]
+fn rejects_meshes_with_place_and_way_out() {
+    let plain = String::from_utf8(vtu(&[mesh(Made::Hexahedra, 0.0)], ASCII)).unwrap();
+    let types = "Name=\"types\" NumberOfComponents=\"1\" format=\"ascii\">\n12";
+    let ends = "Name=\"offsets\" NumberOfComponents=\"1\" format=\"ascii\">\n8 16";
+    for (from, to, said) in [
+        (
+            "0 1 4 3",
+            "0 1 99 3",
+            "a.vtu: cell 1: names point 99 (counted from 0), but there are 27 points; is the file complete?",
+        ),
+        (
+            "0 1 4 3",
+            "0 1 -4 3",
+            "a.vtu: cell 1: names point -4 (counted from 0), but there are 27 points; is the file complete?",
+        ),
+        (
+            types,
+            &types.replace("12", "43"),
+            "a.vtu: cell 1: is of VTK type 43, which is not supported; write tetrahedra, voxels, hexahedra, \
+            wedges, pyramids or polyhedra",
+        ),
+        (
+            types,
+            &types.replace("12", "13"),
+            "a.vtu: cell 1: a wedge has 8 points and needs 6; is the file complete?",
+        ),
+        (ends, &ends.replace("16", "7"), "a.vtu: cell 2: goes from 8 to 7; it must increase"),
+        (
+            ends,
+            &ends.replace("16", "999"),
+            "a.vtu: cell 2: has 64 entries in its list and needs 999; is the file complete?",
+        ),
+        ("0 1 4 3", "0 1 4", "a.vtu: cell 8: has 63 entries in its list and needs 64; is the file complete?"),
+        (
+            "0 1 4 3",
+            "0 1 4 x",
+            "a.vtu:27: connectivity: \"x\" was found instead of a number; is the file complete, and is it \
+            the right one?",
+        ),
+        ("<Points>", "<Spots>", "a.vtu:25: is not valid XML: expected 'Spots' tag, not 'Points' at 25:1"),
+        (
+            "Float64\" Name=\"Points",
+            "Float16\" Name=\"Points",
+            "a.vtu:22: Points: \"Float16\" was found instead of a type of number; is the file complete, and \
+            is it the right one?",
+        ),
+        (
+            "NumberOfPoints=\"27\"",
+            "NumberOfPoints=\"1000000000000\"",
+            "a.vtu:22: Points: has 81 numbers and needs 3000000000000; is the file complete?",
+        ),
+        (
+            "NumberOfCells=\"8\"",
+            "NumberOfCells=\"1000000000000\"",
+            "a.vtu:33: types: has 8 numbers and needs 1000000000000; is the file complete?",
+        ),
+        (
+            "NumberOfCells=\"8\"",
+            "NumberOfCells=\"-8\"",
+            "a.vtu:4: NumberOfCells: \"-8\" was found instead of a whole number; is the file complete, and \
+            is it the right one?",
+        ),
+        (
+            "type=\"UnstructuredGrid\"",
+            "type=\"PUnstructuredGrid\"",
+            "a.vtu: is a VTK file that lists other files; name it by its path",
+        ),
+        (
+            "header_type",
+            "compressor=\"vtkLZMADataCompressor\" header_type",
+            "a.vtu: is written with the compressor vtkLZMADataCompressor, which is not supported; write it \
+            with zlib, LZ4 or none",
+        ),
+    ] {
+        assert_eq!(changed(&plain, from, to), said);
+    }
+    let mut flat = mesh(Made::Hexahedra, 0.0);
+    flat.cells.iter_mut().for_each(|cell| *cell = (9, cell.1[..4].to_vec(), vec![]));
+    assert_eq!(
+        refused(&vtu(&[flat], ASCII)),
+        "a.vtu: has no cells with a volume, only 8 faces, and they do not lie in one plane across x, y or z; \
+        write the interior of the flow; a plane flow may be a mesh of faces in the plane of two coordinates"
+    );
+}
+
+#[test]
+fn rejects_grids_with_place_and_way_out() {
+    let data = values(&Block::cube(1, 0.0).points);
+    let image = String::from_utf8(vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data, &[]], ASCII)).unwrap();
+    for (extent, said) in [
+        ("0 99 0 99 0 99", "a.vtu:9: U: has 24 numbers and needs 3000000; is the file complete?"),
+        (
+            "0 9999 0 9999 0 9999",
+            "a.vtu: has more than 4294967295 points; cut out the part where the fibres fly, or thin it",
+        ),
+        (
+            "0 -5 0 1 0 1",
+            "a.vtu:4: WholeExtent: \"-4\" was found instead of a number of points, at least 1; is the file \
+             complete, and is it the right one?",
+        ),
+        (
+            "0 1 0 1",
+            "a.vtu:4: WholeExtent: \"0 1 0 1\" was found instead of numbers separated by blanks; is the file \
+            complete, and is it the right one?",
+        ),
+    ] {
+        assert_eq!(refused(image.replace("0 1 0 1 0 1", extent).as_bytes()), said);
+    }
+    assert_eq!(
+        changed(&image, "Spacing=\"1 1 1\"", "Spacing=\"1 -1 1\""),
+        "a.vtu: y: goes from 0 to -1; it must increase"
+    );
+    assert_eq!(
+        changed(&image, "Origin", "Direction=\"0 1 0 -1 0 0 0 0 1\" Origin"),
+        "a.vtu:4: is an image whose axes are rotated; resample it along x, y and z"
+    );
+}
+
+#[test]
+fn rejects_bytes_that_cannot_be_decoded() {
+    let mesh = mesh(Made::Hexahedra, 0.0);
+    let squeezed =
+        |squeeze| vtu(std::slice::from_ref(&mesh), Style { place: DataPlace::AppendedRaw, squeeze, ..ASCII });
+    let plain = squeezed(Squeeze::None);
+    assert_eq!(
+        refused(&plain[..plain.len() - 200]),
+        "a.vtu:18: offsets: ends where an array should follow; is the file cut off?"
+    );
+    let start = plain.windows(2).position(|pair| pair == b"_\xd8").unwrap() + 1;
+    let mut promising = plain.clone();
+    promising[start..start + 4].copy_from_slice(&[0xff; 4]);
+    // The first array is not needed, so its fault does not matter.
+    assert!(Field::parse(&promising, "a.vtu").is_ok());
+    for squeeze in [Squeeze::Zlib, Squeeze::Lz4] {
+        let mut bytes = squeezed(squeeze);
+        // The size of the blocks of the array of velocities, after that of the pressure.
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let offset = text.split("Name=\"U\"").nth(1).unwrap().split("offset=\"").nth(1).unwrap();
+        let offset: usize = offset.split('"').next().unwrap().parse().unwrap();
+        let start = bytes.windows(3).position(|three| three == b"\n _").unwrap() + 3 + offset;
+        let said = |bytes: &[u8]| refused(bytes);
+        bytes[start + 4..start + 8].copy_from_slice(&0x00ff_ffff_u32.to_le_bytes());
+        assert!(said(&bytes).contains("U: cannot be decoded: "), "{}", said(&bytes));
+        bytes[start + 4..start + 8].copy_from_slice(&[0xff; 4]);
+        assert!(said(&bytes).starts_with("a.vtu:7: U: "), "{}", said(&bytes));
+        bytes[start..start + 4].copy_from_slice(&[0xff; 4]);
+        assert_eq!(
+            said(&bytes),
+            "a.vtu:7: U: ends where the sizes of the blocks should follow; is the file cut off?"
+        );
+    }
+}
+
+#[test]
+fn rejects_legacy_files_with_place_and_way_out() {
+    let text = |coding: &str, rest: &str| format!("# vtk DataFile Version 3.0\nair\n{coding}\n{rest}\n");
+    for (coding, rest, said) in [
+        (
+            "ASCII",
+            "DATASET UNSTRUCTURED_GRID\nPOINTS 1000000000000 double\n0 0 0",
+            "a.vtu:5: POINTS: ends where more numbers should follow; is the file cut off?",
+        ),
+        (
+            "BINARY",
+            "DATASET UNSTRUCTURED_GRID\nPOINTS 18446744073709551615 double\n0 0 0",
+            "a.vtu: byte 99: POINTS: ends where more numbers should follow; is the file cut off?",
+        ),
+        (
+            "ASCII",
+            "DATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\nCELLS 1000000000000 3000000000000\n1",
+            "a.vtu:7: CELLS: ends where more numbers should follow; is the file cut off?",
+        ),
+        (
+            "ASCII",
+            "DATASET UNSTRUCTURED_GRID\nFIELD a 1000000000000\n",
+            "a.vtu:7: ends where a word should follow; is the file cut off?",
+        ),
+        (
+            "ASCII",
+            "DATASET UNSTRUCTURED_GRID\nFIELD a 1\nb 1 1000000000000 string\n",
+            "a.vtu:8: ends where a word should follow; is the file cut off?",
+        ),
+        (
+            "ASCII",
+            "DATASET POLYGONS",
+            "a.vtu:4: \"POLYGONS\" was found instead of STRUCTURED_POINTS, RECTILINEAR_GRID, \
+            STRUCTURED_GRID or UNSTRUCTURED_GRID; is the file complete, and is it the right one?",
+        ),
+        (
+            "TEXT",
+            "",
+            "a.vtu:3: \"TEXT\" was found instead of ASCII or BINARY; is the file complete, and is it the right one?",
+        ),
+        (
+            "ASCII",
+            "DATASET STRUCTURED_POINTS\nDIMENSIONS 2 0 2",
+            "a.vtu:5: \"0\" was found instead of a number of points, at least 1; is the file complete, and is it \
+             the right one?",
+        ),
+        (
+            "ASCII",
+            "DATASET STRUCTURED_POINTS\nDIMENSIONS 1000000 1000000 1000000\nPOINT_DATA 1000000000000000000\n\
+            VECTORS U float\n1 2 3",
+            "a.vtu:7: U: ends where more numbers should follow; is the file cut off?",
+        ),
+    ] {
+        assert_eq!(refused(text(coding, rest).as_bytes()), said);
+    }
+}
+
+#[test]
+fn rejects_tables_with_place_and_way_out() {
+    let head = "x,y,z,u,v,w\n";
+    for (text, said) in [
+        ("", "a.vtu: contains no rows of numbers; is it the right file?"),
+        (head, "a.vtu: contains no rows of numbers; is it the right file?"),
+        (
+            "1,2,3,4,5,6\n",
+            "a.vtu: has no line of names above its numbers; write one, like x_m,y_m,z_m,u_m_s,v_m_s,w_m_s",
+        ),
+        (
+            "x,z,u,v,w\n1,2,3,4,5\n",
+            "a.vtu: none of the columns is a coordinate along y (x, z, u, v and w); name it like y_m",
+        ),
+        (
+            "x,y,z,p,T\n1,2,3,4,5\n",
+            "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three \
+            components, or write u, v and w, or name its arrays with air.field_velocity",
+        ),
+        (
+            "x [inch],y,z,u,v,w\n1,2,3,4,5,6\n",
+            "a.vtu: x [inch]: has the unit \"inch\"; write the values in m, cm, mm or µm",
+        ),
+        (
+            &format!("{head}1,2,3,4,5,6\n1,2,3,4,5\n"),
+            "a.vtu:3: this row has 5 cells and needs 6; is the file cut off here?",
+        ),
+        (
+            &format!("{head}1,2,3,4,5,6\n1,2,3,4,5,6,7\n"),
+            "a.vtu:3: this row has 7 cells and needs 6; are both decimals and cells separated by commas?",
+        ),
+        (
+            &format!("{head}1,2,3,4,5,6\n1,2,x7,4,5,6\n"),
+            "a.vtu:3: column z: \"x7\" is not a number; write one, or leave the cell empty where a value is missing",
+        ),
+        (
+            "% Length unit: in\n% x y u v\n1 2 3 4\n",
+            "a.vtu:1: has the unit \"in\"; write the values in m, cm, mm or µm",
+        ),
+        (
+            "% x y z u (m/s) @ t=0 v (m/s) @ t=0 w (m/s) @ t=0\n1 2 3 4 5 6\n",
+            "a.vtu: has 1 point; at least 9 are needed for interpolation",
+        ),
+        (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 point; at least 9 are needed for interpolation"),
+    ] {
+        assert_eq!(refused(text.as_bytes()), said);
+    }
+}
+
+#[test]
+fn rejects_entities_and_depth() {
+    let bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY b \"bb\"><!ENTITY c \"&b;&b;\">]><VTKFile \
+        type=\"ImageData\">&c;</VTKFile>";
+    assert_eq!(refused(bomb.as_bytes()), "a.vtu:1: is not valid XML: XML with DTD detected");
+    for start in ["", "<VTKFile type=\"ImageData\"><ImageData>"] {
+        let deep = format!("{start}{}", "<a>".repeat(100_000));
+        assert!(refused(deep.as_bytes()).starts_with("a.vtu:1: is not valid XML: "));
+    }
+    let deep =
+        format!("<VTKFile type=\"ImageData\">{}{}</VTKFile>", "<a>".repeat(100_000), "</a>".repeat(100_000));
+    assert_eq!(refused(deep.as_bytes()), "a.vtu: ends where the grid should follow; is the file cut off?");
+}
+
+#[test]
+fn rejects_what_is_no_file() {
+    let said = |path: &Path| Field::read(path).expect_err("this is no field").to_string();
+    assert_eq!(
+        said(Path::new("no/a.vtu")),
+        "no/a.vtu: there is no such file; name a field of air, VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of \
+        its files (.vtm, .pvtu) or a table (.csv)"
+    );
+    assert_eq!(said(Path::new("src")), "src: is a folder; name the field of air in it");
+    let lzma = Path::new("tests/fixtures/lzma.refused");
+    assert_eq!(
+        said(lzma),
+        "tests/fixtures/lzma.refused: is written with the compressor vtkLZMADataCompressor, which is \
+        not supported; write it with zlib, LZ4 or none"
+    );
+}
+
+#[test]
+fn any_part_and_any_change_is_read_or_refused() {
+    let mesh = mesh(Made::Mixed, 0.0);
+    let zlib = Style { place: DataPlace::AppendedRaw, squeeze: Squeeze::Zlib, ..ASCII };
+    let lz4 = Style { place: DataPlace::Inline, squeeze: Squeeze::Lz4, ..ASCII };
+    let meshes = std::slice::from_ref(&mesh);
+    let files = [
+        vtu(meshes, ASCII),
+        vtu(meshes, zlib),
+        vtu(meshes, lz4),
+        legacy(&mesh, "3.0", true),
+        legacy(&mesh, "5.1", false),
+    ];
+    let check = |bytes: &[u8]| match Field::parse(bytes, "a.vtu") {
+        Ok((field, _)) => assert!(samples(&field).iter().all(|local| local.velocity.norm().is_finite())),
+        Err(error) => assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}"),
+    };
+    for file in files {
+        let step = file.len() / 400 + 1;
+        for at in (0..file.len()).step_by(step) {
+            check(&file[..at]);
+            for flip in [0x01, 0x10, 0x80] {
+                let mut bytes = file.clone();
+                bytes[at] ^= flip;
+                check(&bytes);
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_table_is_read_or_refused(text in "([-0-9.,;\\t e\n#xyzuvwk\"\\[\\]_]|x,y,z,u,v,w\n|nan|inf){0,200}") {
+        if let Err(error) = Field::parse(text.as_bytes(), "a.csv") {
+            prop_assert!(error.to_string().chars().all(|c| !c.is_control()), "{error}");
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! What matters? A base, changes of it, the base and what each change makes of it measured in pairs, and the
+//! differences with their errors.
+//!
+//! ```text
+//! keys of the table → changes (a key from one value to another) → both measured in the same chance → effects → the best ones once more
+//! ```
+//!
+//! How a pair is measured is up to whoever asks: webs fly in the same air or lie on the paths of the same
+//! fibres (`advice`), a spinline is solved
+//! again (`input`), and a study fits lines to the replicates of its points.
+
+use crate::error::Error;
+use crate::sort::sort_by_key;
+use crate::statistics::Difference;
+use crate::units::Dimension;
+
+/// What is changed, as it is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// Name in results: `air_speed`.
+    pub name: &'static str,
+    /// In words that stand behind “less” or “more”: `throughput of a hole`.
+    pub words: &'static str,
+}
+
+/// A key with its value before and after a change [SI].
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChangedKey {
+    /// Its name, as it is set: `layer.2.line.throughput`.
+    pub key: String,
+    /// Physical dimension of its values.
+    pub dimension: Dimension,
+    /// Whether its values are whole numbers.
+    pub whole: bool,
+    /// Whether it is changed by a number of kelvins: a temperature has no share of its value.
+    pub by_kelvin: bool,
+    /// The value before.
+    pub from: f64,
+    /// The value after.
+    pub to: f64,
+}
+
+impl ChangedKey {
+    /// A value for people, with its unit.
+    pub fn pretty(&self, value: f64) -> String {
+        if self.whole { format!("{value:.0}") } else { self.dimension.pretty(value) }
+    }
+}
+
+/// A change of the base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change<E> {
+    /// What is changed.
+    pub setting: Setting,
+    /// Numbers of the layers in which it is changed, from 1: of one, or of equal ones together; none where it
+    /// is changed in all.
+    pub layers: Vec<usize>,
+    /// The keys that differ.
+    pub keys: Vec<ChangedKey>,
+    /// What it makes of the base; where it cannot be made, the base.
+    pub experiment: E,
+    /// Why it cannot be made.
+    pub refusal: Option<String>,
+}
+
+/// What a change does to a measure. A change has a list of them for its measures, and a measure one for the changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effect<M> {
+    /// The measure of the list, or the change.
+    pub of: M,
+    /// What becomes of the measure: the difference, or that of its logarithm.
+    pub difference: Difference,
+    /// The part of the change of a CV that filaments make each for itself, to first order; the rest is that
+    /// of the clouds which they make together. None where it is not known.
+    pub own: Option<f64>,
+    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where
+    /// they have the same clouds, zero where they have other ones and the error is that of two webs by
+    /// themselves.
+    pub in_common: Option<f64>,
+}
+
+impl<M> Effect<M> {
+    /// An effect of which only the difference is known.
+    pub const fn new(of: M, difference: Difference) -> Self {
+        Self { of, difference, own: None, in_common: None }
+    }
+
+    /// Whether the change is one of the clouds, and not of what each filament does for itself; None where
+    /// that is not known.
+    pub fn is_of_clouds(&self) -> Option<bool> {
+        self.own.map(|own| (self.difference.value - own).abs() >= own.abs())
+    }
+}
+
+/// A change with what it does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried<E, M> {
+    /// The change.
+    pub change: Change<E>,
+    /// What it does to each measure.
+    pub effects: Vec<Effect<M>>,
+    /// What it did where it was chosen, if `effects` come from another chance; none of any other change.
+    pub at_first: Vec<Effect<M>>,
+}
+
+impl<E, M: PartialEq> Tried<E, M> {
+    /// What it does to a measure.
+    pub fn on(&self, measure: M) -> Option<&Effect<M>> {
+        self.effects.iter().find(|effect| effect.of == measure)
+    }
+}
+
+/// The effects of a change on all measures, or why it could not be tried.
+pub type Outcome<M> = Result<Vec<Effect<M>>, String>;
+
+/// What changes do to a base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trials<E, M> {
+    /// The changes, each with what it does.
+    pub tried: Vec<Tried<E, M>>,
+    /// Whether the best changes were tried once more, in another chance. Only these are [`Trials::improvements`] then.
+    pub is_confirmed: bool,
+    /// Changes that could not be tried, and why.
+    pub failed: Vec<(Change<E>, String)>,
+    /// The measure by which they are judged; None if none is known.
+    pub judged_by: Option<M>,
+}
+
+/// Least change of a measure that is an improvement, as a share of it.
+const LEAST: f64 = 0.01;
+/// Largest number of settings that are named.
+pub const NAMED: usize = 2;
+/// Most changes that are tried once more, where changes are confirmed.
+pub const RACING: usize = 3;
+/// How many standard errors a change may lie behind the best ones and still be tried once more.
+const BEHIND: f64 = 2.0;
+
+impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
+    /// Tries changes.
+    ///
+    /// * `measure` – measures the base and what these changes make of it in pairs
+    ///
+    /// # Errors
+    /// Those of measuring.
+    pub fn new(
+        changes: Vec<Change<E>>,
+        measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
+    ) -> Result<Self, Error> {
+        let (refused, changes): (Vec<_>, Vec<_>) =
+            changes.into_iter().partition(|change| change.refusal.is_some());
+        let failed =
+            refused.into_iter().filter_map(|change| Some((change.clone(), change.refusal?))).collect();
+        let mut trials = Self { tried: Vec::new(), is_confirmed: false, failed, judged_by: None };
+        let outcomes = if changes.is_empty() { Vec::new() } else { measure(&changes)? };
+        for (change, outcome) in changes.into_iter().zip(outcomes) {
+            match outcome {
+                Ok(effects) => trials.tried.push(Tried { change, effects, at_first: Vec::new() }),
+                Err(why) => trials.failed.push((change, why)),
+            }
+        }
+        Ok(trials)
+    }
+
+    /// Tries the changes once more that may be among the best, and takes what they do there. They were chosen
+    /// for what they did in the first chance, which was kinder to them than to the others.
+    ///                                                                  theory.md, "Two webs in the same air"
+    ///
+    /// # Errors
+    /// Those of measuring.
+    pub fn confirm(
+        &mut self,
+        measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
+    ) -> Result<(), Error> {
+        let racing = self.judged_by.map_or_else(Vec::new, |judged_by| self.racing(judged_by));
+        let races = |tried: &Tried<E, M>| racing.iter().any(|racing| std::ptr::eq(*racing, tried));
+        let best: Vec<usize> = (0..self.tried.len()).filter(|i| races(&self.tried[*i])).collect();
+        let changes: Vec<Change<E>> = best.iter().map(|i| self.tried[*i].change.clone()).collect();
+        self.is_confirmed = true;
+        let outcomes = if changes.is_empty() { Vec::new() } else { measure(&changes)? };
+        for (i, outcome) in best.into_iter().zip(outcomes) {
+            if let Ok(effects) = outcome {
+                let tried = &mut self.tried[i];
+                tried.at_first = std::mem::replace(&mut tried.effects, effects);
+            }
+        }
+        Ok(())
+    }
+
+    /// The changes that may be among those that lower a measure most, as far as is known of them.
+    fn racing(&self, measure: M) -> Vec<&Tried<E, M>> {
+        let best = self.best(measure, |difference| difference.value < 0.0);
+        let Some((_, last)) = best.get(NAMED - 1).or(best.last()) else { return Vec::new() };
+        let may_be_better = |(_, effect): &&(&Tried<E, M>, &Effect<M>)| {
+            let [own, other] = [effect.difference, last.difference];
+            own.value - other.value <= BEHIND * own.standard_error.hypot(other.standard_error)
+        };
+        best.iter().filter(may_be_better).take(RACING).map(|(tried, _)| *tried).collect()
+    }
+
+    /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each
+    /// setting, and of these the best first.
+    pub fn improvements(&self, measure: M) -> Vec<(&Tried<E, M>, &Effect<M>)> {
+        self.best(measure, |difference| difference.value <= -LEAST && difference.is_beyond_chance())
+    }
+
+    /// The best change of each setting among some, the best first.
+    fn best(&self, measure: M, is_one: impl Fn(&Difference) -> bool) -> Vec<(&Tried<E, M>, &Effect<M>)> {
+        let told = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
+        let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
+        let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
+        sort_by_key(&mut improvements, |(_, effect): &(&Tried<E, M>, &Effect<M>)| effect.difference.value);
+        let mut settings = Vec::new();
+        improvements.retain(|(tried, _)| {
+            let setting = (tried.change.setting, tried.change.layers.clone());
+            let is_new = !settings.contains(&setting);
+            settings.push(setting);
+            is_new
+        });
+        improvements
+    }
+
+    /// The least and the greatest value of a measure among all that were tried and the base, over that of the
+    /// base. What is within chance does not count.
+    pub fn range(&self, measure: M) -> [f64; 2] {
+        let differences = self.tried.iter().filter_map(|tried| Some(tried.on(measure)?.difference));
+        differences.filter(Difference::is_beyond_chance).fold([1.0, 1.0], |[least, most], difference| {
+            let ratio = 1.0 + difference.value;
+            [least.min(ratio), most.max(ratio)]
+        })
+    }
+}
