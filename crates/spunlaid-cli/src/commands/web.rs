@@ -7,13 +7,12 @@ use crate::args::{self, Invocation, Output, overrides};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, are_tried, judged_by, steps};
-use spunlaid::experiment::{Advice, Change, MOST_STEPS, Shelf};
-use spunlaid::ground::Error;
+use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES, MOST_STEPS};
+use spunlaid::ground::{Error, Log};
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::LayControl;
 use spunlaid::web::map::Findings;
-use spunlaid_results::folders::KeptTrials;
 use spunlaid_results::folders::web::WebFolder;
 use spunlaid_results::numbers::significant;
 use std::fs;
@@ -104,14 +103,22 @@ impl Trials {
         by: LayControl<'_>,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
-        let kept = delivery.folder().map(KeptTrials::open);
-        if let Some(kept) = kept.as_ref().filter(|kept| kept.flights() + kept.damaged > 0) {
-            let torn = if kept.damaged == 0 { "" } else { "; a torn or damaged record is flown again" };
-            let flights = plural(kept.flights(), "flight");
+        // Beside the folder until all is told. Nothing here ends the command: what is not kept is flown again.
+        let file = delivery.folder().map(|folder| {
+            let name = folder.file_name().unwrap_or_default().to_string_lossy();
+            folder.with_file_name(format!(".{name}.trials"))
+        });
+        let kept = file.as_ref().and_then(|file| Log::open(file, KEPT_OUTCOMES).ok());
+        if let Some(kept) =
+            kept.as_ref().filter(|kept| !kept.keys().is_empty() || kept.torn || kept.damaged > 0)
+        {
+            let torn =
+                if kept.torn || kept.damaged > 0 { "; a torn or damaged record is flown again" } else { "" };
+            let flights = plural(kept.keys().len() as u64, "flight");
             delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
         }
         let (judged_by, quiet) = (self.judged_by, output.quiet);
-        let by = (kept.as_ref().map(|kept| kept as &dyn Shelf), by);
+        let by = (kept.as_ref(), by);
         let of_guesses = ["other value", "guesses", "--set web.guessed=none"];
         if let Some(all) = self.guesses {
             web.guesses = try_changes(all, of_guesses, (&mut web, judged_by), by, (quiet, delivery))?;
@@ -128,7 +135,8 @@ impl Trials {
             delivery.rewrite(&web)?;
             delivery.say(Asides::default());
         }
-        kept.iter().for_each(KeptTrials::clear);
+        drop(kept);
+        file.iter().for_each(|file| drop(fs::remove_file(file)));
         delivery.finish(&web);
         Ok(())
     }
@@ -140,13 +148,13 @@ fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
     (web, judged_by): (&mut WebFolder, Option<f64>),
-    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
+    (kept, by): (Option<&Log>, LayControl<'_>),
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
-    let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (shelf, by));
+    let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (kept, by));
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);

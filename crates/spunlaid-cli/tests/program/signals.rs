@@ -332,7 +332,8 @@ fn identical_guesses_that_were_interrupted_and_went_on() {
     let whole = desk.summary("whole");
     let mut command = desk.spunlaid("web web.toml --out w --no-advice");
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    while !desk.path(".w.trials").exists() {
+    // Longer than its first line when a flight is kept.
+    while fs::metadata(desk.path(".w.trials")).map_or(0, |about| about.len()) < 60 {
         std::thread::sleep(Duration::from_millis(5));
     }
     let output = end(child, "INT");

@@ -9,7 +9,6 @@
 //! journalled a folder with a journal, which fit and study share: begun, continued, replaced
 //! run        flies a case: tables while it flies, then figures, shapes, report, summary
 //! study      the folder of a study: its journal, and what is made from it
-//! trials     what flights have said of changes of a web, kept until all is told
 //! web        map, single fibres, figures, report, summary
 //! ```
 
@@ -23,10 +22,8 @@ mod journalled;
 pub mod products;
 pub mod run;
 pub mod study;
-mod trials;
 pub mod web;
 
 pub use contents::{Contents, Maker, Making, Page};
 pub use finished::{read_measured_web, read_summary, read_summary_of_run};
 pub use journalled::JournalFolder;
-pub use trials::KeptTrials;

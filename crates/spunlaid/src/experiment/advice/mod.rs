@@ -7,17 +7,20 @@
 //! ```
 
 mod aim;
+mod kept;
 pub mod setting;
 mod web_of_few;
 
 pub use aim::judged_by;
+pub use kept::KEPT_OUTCOMES;
 pub use setting::ChangedWeb;
 
+use self::kept::{numbers_of, outcomes_of};
 use self::web_of_few::WebOfFew;
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;
-use crate::ground::{Dimension, Effect, Error, Fault, Outcome, RACING, Trials, effects};
+use crate::ground::{Dimension, Effect, Error, Fault, Log, Outcome, RACING, Trials, effects};
 use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
@@ -90,20 +93,12 @@ fn is_guess(change: &Change) -> bool {
     change.setting == setting::GUESS
 }
 
-/// Keeps what flights in one air have said of changes, so that a command which was interrupted goes on.
-pub trait Shelf: std::fmt::Debug {
-    /// What was kept under a key.
-    fn find(&self, key: u32) -> Option<Vec<Outcome<f64>>>;
-    /// Keeps what was found.
-    fn keep(&self, key: u32, found: &[Outcome<f64>]);
-}
-
 /// Tries changes of a web.
 ///
 /// * `web`, `findings` – the web as it is, and what was found of it
 /// * `judged_by` – side of the patches by whose CV changes are judged [m], see [`judged_by`]; if None, that
 ///   of the patches which the eye judges first
-/// * `shelf` – where what flights in one air say is kept, if it is
+/// * `kept` – where what flights in one air say is kept, so that a command which was interrupted goes on
 /// * `by` – its counter grows by the [`steps`] of the changes that are done
 ///
 /// # Errors
@@ -113,10 +108,10 @@ pub fn advise(
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
     judged_by: Option<f64>,
-    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
+    (kept, by): (Option<&Log>, LayControl<'_>),
 ) -> Result<Advice, Error> {
     let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
-        few_of_changes((spec, findings), (changes, of_each), (shelf, by))
+        few_of_changes((spec, findings), (changes, of_each), (kept, by))
     };
     let has_few = findings.laid.few().next().is_some();
     let mut is_in_same_air = false;
@@ -158,19 +153,20 @@ type Outcomes = Vec<Outcome<f64>>;
 fn few_of_changes(
     (spec, findings): (&WebSpec, &Findings),
     (changes, of_each): (&[Change], Compared),
-    (shelf, by): (Option<&dyn Shelf>, LayControl<'_>),
+    (kept, by): (Option<&Log>, LayControl<'_>),
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them.
     let tell = |webs: &[&WebSpec], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
-        let key = key_of(spec, webs, of_each);
-        if let Some(found) = shelf.and_then(|shelf| shelf.find(key)) {
+        let key = [u64::from(checksum(spec, webs, of_each)), 0];
+        if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
             by.laid.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
             return Ok(Some(found));
         }
         let Some(told) = flyer.few_in_same_air((webs, of_each), by.laid)? else { return Ok(None) };
         let found = effects(told)?;
-        shelf.iter().for_each(|shelf| shelf.keep(key, &found));
+        // What cannot be kept is flown again.
+        kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
         Ok::<_, Error>(Some(found))
     };
     let webs = all_webs(spec, changes);
@@ -202,7 +198,7 @@ fn few_of_changes(
 }
 
 /// Under what is kept what webs say: a checksum of all on which it depends.
-fn key_of(spec: &WebSpec, webs: &[&WebSpec], of_each: Compared) -> u32 {
+fn checksum(spec: &WebSpec, webs: &[&WebSpec], of_each: Compared) -> u32 {
     let mut sum = crc32fast::Hasher::new();
     sum.update(env!("CARGO_PKG_VERSION").as_bytes());
     let numbers = [of_each.area, of_each.pitches, spec.memory_limit];
