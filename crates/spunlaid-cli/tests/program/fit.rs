@@ -24,7 +24,7 @@ length = \"120 mm\"
 ";
 
 /// A web of 900 filaments per metre, whose number is to be found from 500.
-fn desk() -> Desk {
+pub(super) fn desk() -> Desk {
     let desk = Desk::new();
     fs::write(desk.path("web.toml"), WEB).unwrap();
     let truth = "web web.toml --set line.filaments_per_metre=900 --set web.seed=5 --out truth --quiet";

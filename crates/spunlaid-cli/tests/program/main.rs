@@ -34,6 +34,7 @@ mod spin;
 mod sweep;
 mod sweep_again;
 mod sweep_killed;
+mod told;
 mod web;
 mod web_advice;
 mod web_in_one_air;

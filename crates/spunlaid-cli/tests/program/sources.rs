@@ -78,6 +78,14 @@ fn field() -> String {
     )
 }
 
+/// A line in this field, `line.toml`.
+pub(super) fn desk() -> Desk {
+    let desk = Desk::new();
+    fs::write(desk.path("air.vtk"), field()).unwrap();
+    fs::write(desk.path("line.toml"), format!("{LINE}{FILAMENTS}")).unwrap();
+    desk
+}
+
 /// The numbers of a field of OpenFOAM: its class, dimensions and values.
 fn openfoam(text: &str) -> (String, String, Vec<Vec<f64>>) {
     let after = |word: &str| text.split_once(word).unwrap().1.split_once(';').unwrap().0.trim().to_owned();
@@ -94,9 +102,7 @@ fn openfoam(text: &str) -> (String, String, Vec<Vec<f64>>) {
 
 #[test]
 fn invariant_the_fields_for_openfoam_have_the_force_of_the_summary() {
-    let desk = Desk::new();
-    fs::write(desk.path("air.vtk"), field()).unwrap();
-    fs::write(desk.path("line.toml"), format!("{LINE}{FILAMENTS}")).unwrap();
+    let desk = desk();
     let said = success(&mut desk.spunlaid("air line.toml --sources --out out"));
     assert!(said.contains("4000 per metre of width") && said.contains("N/m along their way"), "{said}");
     let read = |name: &str| fs::read_to_string(desk.path(&format!("out/openfoam/{name}"))).unwrap();

@@ -3,7 +3,7 @@
 use super::document::{Report, Section};
 use super::methods::{MOMENTS, methods, of_web};
 use super::table::{Row, Table};
-use crate::numbers::significant;
+use crate::numbers::{plus_minus, significant};
 use crate::output::fit::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
 use spunlaid::experiment::{Fit, FittedKey, FittedNumber, KeyDoubt, Target, Texture};
 use spunlaid::ground::Dimension;
@@ -124,8 +124,7 @@ fn number(number: &FittedNumber) -> Row {
         }
     };
     let shown = |value: f64| format!("{} {unit}", significant(scale * value, 3));
-    let found =
-        format!("{} ± {}", significant(scale * number.found, 3), shown(number.found * number.scatter));
+    let found = plus_minus(scale * number.found, Some(scale * number.found * number.scatter));
     let residual = significant(number.residual(), 2);
-    Row::new(name, [shown(number.scan), shown(number.start), found, residual])
+    Row::new(name, [shown(number.scan), shown(number.start), format!("{found} {unit}"), residual])
 }

@@ -90,6 +90,8 @@ pub fn summary_of_web(
         })
     });
     let laid = known(json!({
+        // Of the mean between the edges, which is that of the whole sheet where none are cut.
+        "basis_weight_standard_error_kg_m2": findings.basis_weight().1,
         "fibre_length_m": findings.fibre_length,
         "cut_off_kg": findings.laid.cut,
         "lost_filaments": lost.reduce(|all, lost| all + lost),
