@@ -52,13 +52,20 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
     match (check.error_over(change), &change.from_quarter) {
         (Some(_), _) if !is_limit => format!("{label} is off by {most}{}", at(0)),
         (None, Some((length, _))) => format!(
-            "{label} differs by {} from {with} and by {} from those of {}, which does not show how far it is from very \
-            fine elements",
+            "{label} differs by {} from {with} and by {} from those of {}",
             at(0),
             at(1),
             Dimension::Length.pretty_to(*length, 3)
         ),
         _ => format!("{label} differs by {} from {}", at(0), with.trim_end_matches(',')),
+    }
+}
+
+/// What some changes told do not show.
+fn not_shown<'a>(check: &FinerCheck, mut told: impl Iterator<Item = &'a Change>) -> &'static str {
+    match told.any(|change| check.error_over(change).is_none() && change.from_quarter.is_some()) {
+        true => ", which does not show how far this is from very fine elements",
+        false => "",
     }
 }
 
@@ -101,11 +108,12 @@ pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
         let changes: Vec<String> = beyond(check).map(|change| told(check, change, case)).collect();
         (!changes.is_empty()).then(|| {
             format!(
-                "the check of the {} is beyond its limit of {} %: {}{}; {}",
+                "the check of the {} is beyond its limit of {} %: {}{}{}; {}",
                 check.refined.name(),
                 100.0 * FINE_ENOUGH,
                 part(check, case),
                 changes.join(", "),
+                not_shown(check, beyond(check)),
                 kept(check, case)
             )
         })
@@ -180,7 +188,8 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
             beyond(check).map(|change| format!("the {}", told(check, change, case))).collect();
         if !each.is_empty() {
             let (name, part) = (check.refined.name(), part(check, case));
-            text += &format!(" {kept} the check of the {name} found: {part}{}.", each.join("; "));
+            let end = not_shown(check, beyond(check));
+            text += &format!(" {kept} the check of the {name} found: {part}{}{end}.", each.join("; "));
         }
     }
     let why = if case.run.checks == Checks::None { ", as the case asks" } else { "" };
