@@ -4,8 +4,8 @@
 //! time, the locale or the number of threads.
 //!
 //! ```text
-//! data → Chart (axes, series, marks) → Figure ─ picture   layout, ticks, thinning, legend: a list of shapes, for the screen or for a
-//!                                             │            width in print, written as svg, png or pdf with the crate's own fonts
+//! data → Chart (axes, series, marks) → Figure ─ picture   layout, ticks, thinning, legend: a list of shapes,
+//!                                             │            written as svg, png or pdf with the crate's own fonts
 //!                                             └ table     every point that the figure shows, as CSV
 //! ```
 //!

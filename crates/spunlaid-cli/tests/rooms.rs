@@ -46,6 +46,18 @@ fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// The formatter leaves long texts and comments as they are.
+#[test]
+fn no_line_is_longer_than_a_screen_is_wide() {
+    let mut long = Vec::new();
+    for path in sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..")) {
+        let source = std::fs::read_to_string(&path).unwrap();
+        let lines = (1..).zip(source.lines()).filter(|(_, line)| line.chars().count() > 120);
+        long.extend(lines.map(|(number, _)| format!("{}:{number}", path.display())));
+    }
+    assert!(long.is_empty(), "{}", long.join("\n"));
+}
+
 /// The texts in the sources of every crate that a message can be made of, with the file. What comes after the
 /// tests of a file begin is left out.
 fn texts() -> Vec<(String, String)> {

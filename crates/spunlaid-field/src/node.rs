@@ -133,8 +133,8 @@ impl Repeats {
         };
         let [x, y, z] = one.at.map(shortest);
         Err(several_times(&format!(
-            "has all its places several times with different air, like ({x}, {y}, {z}) m with {} and {} m/s (velocities \
-             off by {} m/s)",
+            "has all its places several times with different air, like ({x}, {y}, {z}) m with {} and {} m/s \
+             (velocities off by {} m/s)",
             speed(&one),
             speed(&other),
             shortest(off)

@@ -2,7 +2,8 @@
 //! differences with their errors.
 //!
 //! ```text
-//! keys of the table → changes (a key from one value to another) → both measured in the same chance → effects → the best ones once more
+//! keys of the table → changes (a key from one value to another) → both measured in the same chance
+//!   → effects → the best ones once more
 //! ```
 //!
 //! How a pair is measured is up to whoever asks: webs fly in the same air or lie on the paths of the same

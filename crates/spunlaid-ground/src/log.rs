@@ -48,8 +48,8 @@ struct Rows {
 
 type Places = BTreeMap<Key, Records>;
 
-/// The records of a key: the first one and those behind it. A key with one record, as most of a study are, has no list: a
-/// small piece of memory for each would lie between the large ones of flights, which could not be used again.
+/// The records of a key: the first one and those behind it. A key with one record, as most of a study are, has no list:
+/// a small piece of memory for each would lie between the large ones of flights, which could not be used again.
 #[derive(Debug)]
 struct Records {
     first: RowPlace,

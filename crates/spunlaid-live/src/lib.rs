@@ -1,8 +1,8 @@
 //! A page on which fibres fly, and change while they do: what `spunlaid live` serves.
 //!
 //! ```text
-//! page ←→ server (loopback only, token) ← board: frames, statistics ← session, a thread of its own: clock → fibres → measured
-//!                                        → messages                 →
+//! page ←→ server (loopback only, token) ← board: frames, statistics ← session: clock → fibres → measured
+//!                                        → messages                 → (a thread of its own)
 //! ```
 //!
 //! ```text

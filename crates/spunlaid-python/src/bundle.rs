@@ -20,8 +20,8 @@ pub(crate) type Packed = (String, String, u32);
 /// and the replicates to make, from the first to before the last.
 pub(crate) type BundlePart = (u64, String, String, u32, u64, u64);
 
-/// What a machine gives back of a replicate: its point and its number, its measures, and of a fibre that was lost, which
-/// has none, node and time.
+/// What a machine gives back of a replicate: its point and its number, its measures, and of a fibre that was lost,
+/// which has none, node and time.
 pub(crate) type Row = (u64, u64, Vec<f64>, Option<(u64, f64)>);
 
 /// What a machine needs to make batches of points.

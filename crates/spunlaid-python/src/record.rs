@@ -19,11 +19,14 @@ enum Source {
 /// Of a component: frequencies and the spectral density there, lags and the autocorrelation there.
 type Curves<'py> = [Bound<'py, PyArray1<f64>>; 4];
 
-/// Analyses a velocity record. See spunlaid.analyse, which calls it. The text of analysis.json and air.toml, and the curves.
+/// Analyses a velocity record. See spunlaid.analyse, which calls it. The text of analysis.json and air.toml, and the
+/// curves.
 ///
 /// * `record` – the path of a file, or an array of samples x components
 #[pyfunction]
-#[pyo3(signature = (record, rate = None, mean_velocity = None, flat_until = None, integral = None, columns = Vec::new()))]
+#[pyo3(signature = (
+    record, rate = None, mean_velocity = None, flat_until = None, integral = None, columns = Vec::new()
+))]
 pub(crate) fn analyse<'py>(
     py: Python<'py>,
     record: &Bound<'py, PyAny>,

@@ -53,7 +53,10 @@ impl Study {
     /// * threads: for the flights that find the tensions at the ends of spinlines, if the points have some
     /// * out: the folder of the journal and the results; without one they stay in memory
     #[new]
-    #[pyo3(signature = (study, case = None, path = None, out = None, force = false, points = None, replicates = None, set = None, threads = None))]
+    #[pyo3(signature = (
+        study, case = None, path = None, out = None, force = false, points = None, replicates = None, set = None,
+        threads = None
+    ))]
     #[expect(clippy::too_many_arguments, reason = "they are those of spunlaid.sweep")]
     fn new(
         py: Python<'_>,

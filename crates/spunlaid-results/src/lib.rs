@@ -2,8 +2,8 @@
 //! at all.
 //!
 //! ```text
-//! results of the library → figures (drawn with spunlaid-charts) → output (files of a folder) → report (one page that shows all)
-//! → folders (everything of a run, of a study, of a web)
+//! results of the library → figures (drawn with spunlaid-charts) → output (files of a folder)
+//! → report (one page that shows all) → folders (everything of a run, of a study, of a web)
 //! ```
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.

@@ -44,8 +44,9 @@
 //! # }
 //! ```
 //!
-//! [`input::read_case`] reads a file. A [`Case`](fibre::case::Case) can also be built in code; [`Case::check`](fibre::case::Case::check) then says
-//! whether it can be run. Every quantity is in SI units, and its documentation gives the unit.
+//! [`input::read_case`] reads a file. A [`Case`](fibre::case::Case) can also be built in code;
+//! [`Case::check`](fibre::case::Case::check) then says whether it can be run. Every quantity is in SI units, and its
+//! documentation gives the unit.
 //!
 //! Equations are cited as `theory.md (n)`. They are in `docs/theory.md` of the repository; `docs/validation.md`
 //! describes the checks.

@@ -315,8 +315,8 @@ fn a_field_takes_as_much_memory_as_the_guide_says() {
     };
     let table: String = points.iter().enumerate().map(row).collect();
     let table = format!("x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k,epsilon\n{table}");
-    // docs/air.md: 0.4 GB for a million hexahedra, and 1.2 GB while they are made, of which 0.1 GB are the file, which is
-    // not counted here. 40 bytes for a point of a lattice, 225 for one of a table.
+    // docs/air.md: 0.4 GB for a million hexahedra, and 1.2 GB while they are made, of which 0.1 GB are the file, which
+    // is not counted here. 40 bytes for a point of a lattice, 225 for one of a table.
     for (file, name, each, kept_each, made_each) in [
         (vtk::vtu(&[mesh], RAW), "a.vtu", hexahedra, 400.0, 1250.0),
         (image, "a.vti", points.len(), 41.0, 90.0),

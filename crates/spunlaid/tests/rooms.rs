@@ -90,7 +90,8 @@ fn rooms_import_only_from_their_left() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Types that a file takes from deep within a wing of the library though its door has them: names of wing, room and type.
+/// Types that a file takes from deep within a wing of the library though its door has them: names of wing, room and
+/// type.
 fn past_doors(file: &Path, doors: &BTreeMap<&str, String>) -> Vec<String> {
     let source = fs::read_to_string(file).expect("a readable source");
     let past = paths(&code_and_texts(&source).0).into_iter().filter(|path| {

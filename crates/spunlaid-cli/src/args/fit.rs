@@ -14,7 +14,8 @@ pub(crate) struct Fit {
     /// Results folder of spunlaid analyse of a scan, or of spunlaid web: the webs become like this one
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) to: PathBuf,
-    /// One to four keys whose values are sought, each alone or with its range, as line.depth or line.depth="5 mm..40 mm"
+    /// One to four keys whose values are sought, each alone or with its range, as line.depth or line.depth="5 mm..40
+    /// mm"
     #[arg(long, value_name = "KEY[=FROM..TO],…", value_delimiter = ',', required = true)]
     pub(crate) vary: Vec<String>,
     /// Compare the spectrum too, across and along the web
@@ -26,7 +27,8 @@ pub(crate) struct Fit {
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Simulated webs of each trial; more make the intervals more certain
-    #[arg(long, value_name = "N", default_value_t = USUAL_WEBS, value_parser = clap::value_parser!(u64).range(FEWEST_WEBS..=1000))]
+    #[arg(long, value_name = "N", default_value_t = USUAL_WEBS)]
+    #[arg(value_parser = clap::value_parser!(u64).range(FEWEST_WEBS..=1000))]
     pub(crate) webs: u64,
     #[command(flatten)]
     pub(crate) threads: Threads,

@@ -34,7 +34,8 @@ use spunlaid::ground::{Dimension, Fault, Removed};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even the web is
+/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even the web
+/// is
 #[derive(Debug, Parser)]
 #[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
 pub(crate) struct Arguments {
@@ -50,7 +51,8 @@ pub(crate) enum Command {
         table; without --out, write no files")))]
     Run(Run),
     /// Fly a case with many values of its keys, and rank which keys matter
-    #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print results.json instead of the table")))]
+    #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)))]
+    #[command(mut_arg("json", |json| json.help("Print results.json instead of the table")))]
     Sweep(Sweep),
     /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, freezing point
     #[command(after_help = SPIN_HELP)]
@@ -60,7 +62,8 @@ pub(crate) enum Command {
     Web(Web),
     /// Find the settings whose webs are as uneven as a scanned one, with their intervals
     #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
-        results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)), mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
+        results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)))]
+    #[command(mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
     /// Show the turbulent air of a case: pictures of its gusts, slices for ParaView, numbers at given places
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
@@ -167,7 +170,8 @@ pub(crate) struct Air {
     pub(crate) source: CaseSource,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Fly the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD program
+    /// Fly the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD
+    /// program
     #[arg(long, conflicts_with_all = ["replicate", "frames", "duration"])]
     pub(crate) sources: bool,
     /// Print what the air is at the places of this table with the columns x [m], y [m] and z [m], or in other units; as
@@ -175,12 +179,13 @@ pub(crate) struct Air {
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
           conflicts_with_all = ["sources", "replicate", "frames", "duration", "json"])]
     pub(crate) at: Option<PathBuf>,
-    /// Axes of the places and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD field
-    /// [default: field, if the air is one]
+    /// Axes of the places and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD
+    /// field [default: field, if the air is one]
     #[arg(long, value_parser = one_of(AXES, PlaceAxes::name), requires = "at")]
     pub(crate) axes: Option<PlaceAxes>,
     /// The replicate whose air it is, as they are numbered in a run
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=u64::from(u32::MAX)))]
     pub(crate) replicate: u64,
     /// Number of instants
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=200))]

@@ -56,7 +56,8 @@ pub(crate) struct LineNumbers {
     #[arg(long, value_name = "N", requires = "web", value_parser = holes)]
     pub(crate) holes_per_metre: Option<u64>,
     /// Holes of a beam in all, in place of those per metre; needs --width
-    #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre", value_parser = holes)]
+    #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre")]
+    #[arg(value_parser = holes)]
     pub(crate) holes: Option<u64>,
     /// Speed of the air at the end of the slot in m/s, or with its unit, as "3600 m/min"
     #[arg(long, value_name = "SPEED", requires = "web", value_parser = speed)]
@@ -148,8 +149,8 @@ pub(crate) fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     Ok(Given { value, remark: Some(remark.to_owned()) })
 }
 
-/// A quantity [SI]; a number without a unit has the unit of its question, and a comma that can only be a decimal sign is
-/// one. Both are said.
+/// A quantity [SI]; a number without a unit has the unit of its question, and a comma that can only be a decimal sign
+/// is one. Both are said.
 fn in_unit(dimension: Dimension, unit: &'static str) -> impl Fn(&str) -> Result<Given<f64>, String> + Clone {
     move |text| {
         let text = text.trim();

@@ -22,8 +22,8 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     delivery.deliver(&found, Threads::default(), Asides { found: found.notes(), ..Asides::default() })
 }
 
-/// The results folder that is named; of a file, one that is made now: a web is laid, a case flown, anything else analysed
-/// as a scan, a map or a record.
+/// The results folder that is named; of a file, one that is made now: a web is laid, a case flown, anything else
+/// analysed as a scan, a map or a record.
 fn results_of(run: &Path, compare: &Compare) -> Result<PathBuf, Failure> {
     if !run.is_file() {
         return Ok(run.to_path_buf());

@@ -210,25 +210,26 @@ fn may_change(key: &KeyEntry) -> String {
 
 const HEAD: &str = "# The keys of a case
 
-This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with this word in their
-name or meaning, or with this unit: `spunlaid keys dtex`.
+This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with this word in
+their name or meaning, or with this unit: `spunlaid keys dtex`.
 
-A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as `kg/m³`.
-`--set air.velocity=\"20 m/s\"` sets a key for one run. A study can vary all keys but those marked *fixed*; those marked
-*flight* can change during a flight. A range is the usual one: the program warns of a value outside of it, most likely in a
-wrong unit, and uses it. Quantities are above zero unless their row says otherwise.
+A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as
+`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run. A study can vary all keys but those marked *fixed*;
+those marked *flight* can change during a flight. A range is the usual one: the program warns of a value outside of
+it, most likely in a wrong unit, and uses it. Quantities are above zero unless their row says otherwise.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 
-This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, searched (`spunlaid keys --web gsm`)
-and marked as those of a case ([keys.md](keys.md)). `--set layer.2.line.filaments_per_metre=4000` sets one of a layer, by its
-number or name; `line.rows.1.pitch` is that of a row of nozzles.
+This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, searched (`spunlaid keys
+--web gsm`) and marked as those of a case ([keys.md](keys.md)). `--set layer.2.line.filaments_per_metre=4000` sets one
+of a layer, by its number or name; `line.rows.1.pitch` is that of a row of nozzles.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study
 
-This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key `*` stands for any key of the case, the web
-or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how to use them.
+This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key `*` stands for any key of the
+case, the web or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how
+to use them.
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.

@@ -61,7 +61,11 @@ impl Chance {
             "\\u0000",
         ];
         let mut text = match self.below(12) {
-            0 => format!(r#"{{"do":"set","key":"{}","value":{},"stamp":{}}}"#, self.one_of(KEYS), self.one_of(VALUES), self.one_of(&["1", "-1", "1e9"])),
+            0 => {
+                let stamp = self.one_of(&["1", "-1", "1e9"]);
+                let (key, value) = (self.one_of(KEYS), self.one_of(VALUES));
+                format!(r#"{{"do":"set","key":"{key}","value":{value},"stamp":{stamp}}}"#)
+            }
             1 => {
                 let mut case = case.as_bytes().to_vec();
                 for _ in 0..1 + self.below(4) {
@@ -70,12 +74,27 @@ impl Chance {
                 }
                 json!({ "do": "case", "text": String::from_utf8_lossy(&case) }).to_string()
             }
-            2 => format!(r#"{{"do":"pace","pace":"{}"}}"#, self.one_of(&["real", "tenth", "free", "", "REAL"])),
-            3 => format!(r#"{{"do":"{}"}}"#, self.one_of(&["pause", "go", "step", "reset", "forget", "look", "save", "case"])),
-            4 => json!({ "do": "save", "name": self.one_of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]), "replace": self.below(2) == 1 }).to_string(),
-            5 => self.one_of(&["[[[[[[[[", "{\"do\":", "\"", "0", "{}", "{\"do\":{\"do\":1}}"]).repeat(1 + self.below(200)),
+            2 => {
+                format!(r#"{{"do":"pace","pace":"{}"}}"#, self.one_of(&["real", "tenth", "free", "", "REAL"]))
+            }
+            3 => {
+                let all = &["pause", "go", "step", "reset", "forget", "look", "save", "case"];
+                format!(r#"{{"do":"{}"}}"#, self.one_of(all))
+            }
+            4 => {
+                let name = self.one_of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]);
+                json!({ "do": "save", "name": name, "replace": self.below(2) == 1 }).to_string()
+            }
+            5 => {
+                let all = &["[[[[[[[[", "{\"do\":", "\"", "0", "{}", "{\"do\":{\"do\":1}}"];
+                self.one_of(all).repeat(1 + self.below(200))
+            }
             6 => format!(r#"{{"do":"look","visible":{}}}"#, self.one_of(VALUES)),
-            7 => return Message::binary((0..self.below(300)).map(|_| self.below(256) as u8).collect::<Vec<u8>>()),
+            7 => {
+                return Message::binary(
+                    (0..self.below(300)).map(|_| self.below(256) as u8).collect::<Vec<u8>>(),
+                );
+            }
             8 => return Message::Ping(vec![0; self.below(126)].into()),
             _ => (0..self.below(80)).filter_map(|_| char::from_u32(self.below(0x500) as u32)).collect(),
         };

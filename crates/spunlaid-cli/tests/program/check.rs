@@ -188,8 +188,8 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     );
     assert!(!said.contains("--set line.depth"), "{said}");
     // 0.2316 mg/m · 50 m/s · 1000 beside 1.204 kg/m³ · 45 m/s · 20 mm, and 50/45 of that.
-    let load = "# load on the air\n#   At the inlet the filaments have 1.1 % of the mass flow of the air and 1.2 % of its \
-        momentum flux.\n";
+    let load = "# load on the air\n#   At the inlet the filaments have 1.1 % of the mass flow of the air and 1.2 % of \
+        its momentum flux.\n";
     assert!(said.contains(load), "{said}");
     // Ten length scales of the air, for a web that is narrower.
     let narrow = ["web.width=0.1 m", "line.filaments_per_metre=5000"];

@@ -121,8 +121,8 @@ fn rejects_what_is_no_run() {
     assert!(!desk.path("results").exists());
 }
 
-/// The CV of a web over patches of 10 mm, and its formation number, which goes with the square. One web has few waves, so
-/// that its interval reaches up to the other one; the errors by chance alone would say the contrary.
+/// The CV of a web over patches of 10 mm, and its formation number, which goes with the square. One web has few waves,
+/// so that its interval reaches up to the other one; the errors by chance alone would say the contrary.
 #[test]
 fn invariant_a_cv_and_the_formation_number_have_one_verdict() {
     let desk = Desk::new();

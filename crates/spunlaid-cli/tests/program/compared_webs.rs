@@ -155,8 +155,8 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
 }
 
-/// A scan and the file of a line, in one step: the one is analysed, the other laid, and what one cannot know of the lamp
-/// stands in the first line.
+/// A scan and the file of a line, in one step: the one is analysed, the other laid, and what one cannot know of the
+/// lamp stands in the first line.
 #[test]
 fn my_scan_is_compared_with_my_line_in_one_step() {
     let desk = desk();

@@ -1,4 +1,5 @@
-//! One plane diffuser in several axes of its file: the line in it is the same, and sources lie along the axes of the file.
+//! One plane diffuser in several axes of its file: the line in it is the same, and sources lie along the axes of the
+//! file.
 
 use crate::desk::{Desk, refusal, success};
 use serde_json::Value;
@@ -187,7 +188,8 @@ fn a_web_whose_air_changes_across_its_width_is_doubted() {
         assert!(output.status.success());
         String::from_utf8(output.stderr).unwrap()
     };
-    let doubt = "lets the air change by 20 % of its mean speed along the cross direction (z of the field), over the 100 mm";
+    let doubt = "lets the air change by 20 % of its mean speed along the cross direction (z of the field), over \
+        the 100 mm";
     let uneven = desk("x", &table(axes, 3, faster));
     let said = told(&uneven, &[]);
     assert!(said.contains(doubt) && said.contains("If z is the machine direction, write it here"), "{said}");

@@ -236,8 +236,8 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }
 
-/// The speed of the belt in place of the weight, what is known of slot and air in place of guesses, and the rest through
-/// a pipe with a decimal comma.
+/// The speed of the belt in place of the weight, what is known of slot and air in place of guesses, and the rest
+/// through a pipe with a decimal comma.
 #[test]
 fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
     let desk = Desk::new();
@@ -279,8 +279,8 @@ fn rejects_a_line_that_is_not_whole_or_cannot_run() {
     assert_eq!(
         refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
         "error: the numbers of the line are incomplete: --throughput, --basis-weight (or --belt-speed) and \
-        --air-speed are missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` has \
-        examples\n"
+        --air-speed are missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` \
+        has examples\n"
     );
     let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
     let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);

@@ -117,8 +117,8 @@ fn identical_a_field_at_its_own_points() {
     assert!(said.contains(&format!("1 of {} places", rows.len())), "{said}");
 }
 
-/// The middle of the diffuser of `spunbond_field.toml` is 60 m/s × 15 mm / (15 mm + 0.15 x), and v = u y/b × 0.15: 1 % is
-/// what its mesh leaves. The axes of the line begin at the root.
+/// The middle of the diffuser of `spunbond_field.toml` is 60 m/s × 15 mm / (15 mm + 0.15 x), and v = u y/b × 0.15: 1 %
+/// is what its mesh leaves. The axes of the line begin at the root.
 #[test]
 fn analytic_the_middle_of_a_plane_diffuser() {
     let places = "x_m,y_m,z_m\n0.1,0,0\n0.25,0.005,0\n0.4,-0.008,0.01\n";

@@ -2,7 +2,7 @@
 //!
 //! | array | at points | in cells |
 //! |---|---|---|
-//! | `vtkGhostType` | 1: another piece has it too; 2: hidden | 1: another piece has it too; 8: finer cells lie in its place; 32: hidden |
+//! | `vtkGhostType` | 1: in another piece too; 2: hidden | 1: in another piece too; 8: finer cells; 32: hidden |
 //! | `vtkGhostLevels` | above 0: another piece has it too | the same |
 //! | `vtkValidPointMask` | 0: outside of the data that were resampled | |
 //!

@@ -86,10 +86,11 @@ fn rejects_files_of_other_programs_by_name() {
     let ensight = "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: a.geo\n\nTIME\ntime set: 1\nnumber of steps: 2\n\
         filename start number: 0\nfilename increment: 1\ntime values:\n0.0\n0.1\n";
     let series = "{\"file-series-version\":\"1.0\",\"files\":[{\"name\":\"a.vti\",\"time\":0}]}\n";
-    let several_of_series = "a list of several times (.series); the mean flow of a field is that of one; name the file of \
-        one time, or of the mean over time";
+    let several_of_series = "a list of several times (.series); the mean flow of a field is that of one; name the file \
+        of one time, or of the mean over time";
     let json = "a JSON file, not a field; name the file that holds the air, like .vtu";
-    let xdmf = "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\"><Domain/></Xdmf>";
+    let xdmf = "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n\
+        <Xdmf Version=\"2.0\"><Domain/></Xdmf>";
     let pvd = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\
         <DataSet timestep=\"0\" file=\"a.vtu\"/></Collection></VTKFile>";
     let case = "a case of EnSight, which is not read; ";

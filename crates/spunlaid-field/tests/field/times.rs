@@ -25,8 +25,8 @@ fn said(text: &str) -> String {
     Field::parse(text.as_bytes(), "a.csv").expect_err(text).to_string()
 }
 
-const WAY_OUT: &str = "these seem to be several times, and the mean flow of a field is that of one; write one time only, \
-    or the mean over time";
+const WAY_OUT: &str = "these seem to be several times, and the mean flow of a field is that of one; write one time \
+    only, or the mean over time";
 
 #[test]
 fn rejects_columns_of_several_times() {
@@ -142,12 +142,14 @@ fn vtu(times: &str, from: f64) -> String {
         (0..8).map(|i| format!("{} {} {} ", from + f64::from(i & 1), i >> 1 & 1, i >> 2)).collect();
     let array = |name: &str, kind: &str, of: usize, values: &str| {
         format!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{of}\" format=\"ascii\">{values}</DataArray>"
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{of}\" \
+             format=\"ascii\">{values}</DataArray>"
         )
     };
     format!(
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid><FieldData><Array type=\"String\" \
-        Name=\"note\"/>{}</FieldData><Piece NumberOfPoints=\"8\" NumberOfCells=\"1\"><PointData>{}</PointData><Points>{}\
+        Name=\"note\"/>{}</FieldData><Piece NumberOfPoints=\"8\" NumberOfCells=\"1\"><PointData>{}</PointData><Points>\
+        {}\
         </Points><Cells>{}{}{}</Cells></Piece></UnstructuredGrid></VTKFile>",
         array("TimeValue", "Float64", 1, times),
         array("U", "Float64", 3, &"10 0 0 ".repeat(8)),

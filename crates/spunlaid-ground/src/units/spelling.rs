@@ -203,8 +203,8 @@ mod tests {
         let told = |text| comma(text).to_string();
         assert_eq!(
             told("1,500 MPa"),
-            "has a comma; write \"1500 MPa\" if the comma stands between thousands, or \"1.500 MPa\" if it is a decimal \
-             sign"
+            "has a comma; write \"1500 MPa\" if the comma stands between thousands, or \"1.500 MPa\" if it is a \
+             decimal sign"
         );
         assert_eq!(
             told("0,6 g/min"),

@@ -161,7 +161,9 @@ impl Session {
             let PageRequest { page, command } = &heard[i];
             // Of several values of one key that came at once, only the last counts; each gets its answer.
             let replaced = matches!(command, Command::Set { key, .. }
-                if heard[i + 1..].iter().any(|later| matches!(&later.command, Command::Set { key: other, .. } if other == key)));
+            if heard[i + 1..].iter().any(|later| {
+                matches!(&later.command, Command::Set { key: other, .. } if other == key)
+            }));
             let answer = match command {
                 Command::Set { stamp, .. } if replaced => {
                     Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })

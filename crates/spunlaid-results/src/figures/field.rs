@@ -58,9 +58,9 @@ pub fn field_figure(case: &Case, results: Option<&Results>) -> Option<Figure> {
         None => String::new(),
     };
     let caption = format!(
-        "Speed of the mean flow in two planes through the root, of {}{fibres}. The arrows are the machine direction (MD), \
-         in which the belt runs, and the cross direction (CD), each with its axis in the field. The spot, the {}, is at {} \
-         of the field. Grey: outside the field.",
+        "Speed of the mean flow in two planes through the root, of {}{fibres}. The arrows are the machine direction \
+         (MD), in which the belt runs, and the cross direction (CD), each with its axis in the field. The spot, the \
+         {}, is at {} of the field. Grey: outside the field.",
         placed.field.describe(),
         if case.line.is_some() { "middle of the slot" } else { "root" },
         PlacedField::in_words(placed.root),

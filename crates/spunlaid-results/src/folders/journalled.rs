@@ -4,8 +4,8 @@
 //! ```text
 //! new folder → journal begun
 //! journal of this input → goes on
-//! complete results of the same command, from before its input changed → stay whole, while the new work is done in a hidden folder;
-//!   when it is complete, they make room for it
+//! complete results of the same command, from before its input changed → stay whole until the new ones,
+//!   which are made in a hidden folder, are complete
 //! ```
 
 use super::contents::{Contents, Making};

@@ -96,7 +96,10 @@ pub fn summary(
 
 /// Fibres that were lost, counted from 1.
 pub fn lost_fibres(lost: &[LostFibre]) -> Json {
-    let entry = |fibre: &LostFibre| json!({"replicate": fibre.replicate + 1, "time_s": fibre.time, "reason": fibre.reason});
+    let entry = |LostFibre { replicate, time, reason, .. }: &LostFibre| {
+        let number = replicate + 1;
+        json!({"replicate": number, "time_s": time, "reason": reason})
+    };
     lost.iter().map(entry).collect()
 }
 

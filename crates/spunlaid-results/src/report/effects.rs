@@ -40,8 +40,8 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         return card(Vec::new(), untried("What would make it more even", tried.awaited));
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
-        let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to fly \
-            (laydown.case).";
+        let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to \
+            fly             (laydown.case).";
         return card(Vec::new(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {
@@ -291,7 +291,8 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
     let unknown = match sorted.iter().all(|tried| tried.on(patch).is_some()) {
         true => "",
         false => {
-            " Where there is no number, too few filaments were flown of that web: its command flies as many as it takes."
+            " Where there is no number, too few filaments were flown of that web: its command flies as many as it \
+             takes."
         }
     };
     card(rows, words + unknown + &failed_words(guesses))

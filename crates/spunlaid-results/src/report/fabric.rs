@@ -21,7 +21,8 @@ pub(super) fn fabric_section(fabric: &Fabric) -> Section<'static> {
             match fabric.is_of_map_alone {
                 true => "From the map",
                 false => {
-                    "From the map, from the directions of the fibres and from what the file says of the fabric ([fabric])"
+                    "From the map, from the directions of the fibres and from what the file says of the fabric \
+                     ([fabric])"
                 }
             }
         ));

@@ -55,8 +55,8 @@ pub fn load_words(load: &Load) -> String {
             line.filaments_per_metre."
                 .to_owned()
         }
-        false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it in \
-        line.depth, beside line.filaments_per_metre."
+        false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it \
+        in line.depth, beside line.filaments_per_metre."
             .to_owned(),
     });
     let on_way = load.at_belt().map(on_way);

@@ -1,7 +1,8 @@
 //! `report.html`: one file that shows results to whoever opens it, offline.
 //!
 //! ```text
-//! results → a function for each product (run, web, study, …) → Report: headline, notes, sections of parts → one template (assets/page.html)
+//! results → a function for each product (run, web, study, …) → Report: headline, notes, sections of parts
+//!   → one template (assets/page.html)
 //! ```
 //!
 //! `document` has the parts, `table` tables, `view` what is looked at. `words`, `unevenness`, `methods` and

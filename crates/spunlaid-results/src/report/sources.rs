@@ -30,8 +30,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
             force(&sources.along)
         ),
         false => format!(
-            "The flights are not steady, so there are no sources: from the inlet to 95 % of the way the filaments drive the \
-             air with {} by their drag, and with {} by the balance of their momentum.",
+            "The flights are not steady, so there are no sources: from the inlet to 95 % of the way the filaments \
+             drive the air with {} by their drag, and with {} by the balance of their momentum.",
             force(&sources.above_belt[0]),
             force(&sources.above_belt[1])
         ),
@@ -80,8 +80,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         .table(Table::of_facts(forces.into_iter().chain(heats)))
         .caption(format!(
             "Forces and heat per metre of width, ± one standard error. The force from the inlet to 95 % of the way is \
-             found in two ways from the same flights: from the drag on each element, and from what momentum the filaments \
-             have lost; {difference}."
+             found in two ways from the same flights: from the drag on each element, and from what momentum the \
+             filaments have lost; {difference}."
         ))
         .told();
     let openfoam = match has_order_of_openfoam(case) {
@@ -94,8 +94,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     };
     let cooling = match sources.heat {
         Ok(_) => {
-            " They begin with the temperature at the end of their spinline and cool by its law in air of one temperature, \
-             theory (121)."
+            " They begin with the temperature at the end of their spinline and cool by its law in air of one \
+             temperature, theory (121)."
         }
         Err(_) => "",
     };
@@ -105,8 +105,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     ));
     let arrays_of_heat = if sources.heat.is_ok() { "Sh, ShT, heat, " } else { "" };
     let fields = format!(
-        "sources.vtu has the cells with Su, Sp, {arrays_of_heat}their standard errors, the force in the given air and the \
-         number of hits.{openfoam} All sums are in summary.json, beside this page."
+        "sources.vtu has the cells with Su, Sp, {arrays_of_heat}their standard errors, the force in the given air and \
+         the number of hits.{openfoam} All sums are in summary.json, beside this page."
     );
     let fields = if sources.are_steady() {
         fields

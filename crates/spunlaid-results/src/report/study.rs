@@ -78,9 +78,9 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     Some(section.table(table).caption(format!(
         "Change of the mean from the least to the greatest value of a factor, on the straight line that fits \
         the points best, or from one word to another, ± one standard error. Grey values \
-        have a 95\u{202f}% confidence interval that contains zero. “Explained” is the fraction of the variation between points \
-        that straight lines explain (adjusted R²). If it is low, the response is curved or the factors act \
-        together, and the figures tell more than the ranking. {}",
+        have a 95\u{202f}% confidence interval that contains zero. “Explained” is the fraction of the variation \
+        between points that straight lines explain (adjusted R²). If it is low, the response is curved or the factors \
+        act together, and the figures tell more than the ranking. {}",
         intervals(study)
     )))
 }

@@ -65,7 +65,8 @@ pub(super) fn largest_clouds(clouds: &Clouds) -> Option<String> {
     let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
     let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
     Some(format!(
-        "Of all octaves of wavelength, that of {} to {} holds most of the variance: {} % of what lies between {} and {}{}.",
+        "Of all octaves of wavelength, that of {} to {} holds most of the variance: {} % of what lies between {} and \
+         {}{}.",
         millimetres(waves[0]),
         millimetres(waves[1]),
         significant(PER_CENT * variance.mean / whole, 2),

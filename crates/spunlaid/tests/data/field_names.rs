@@ -140,7 +140,8 @@ fn identical_with_german_names_in_every_table() {
         ("x_m;y_m;z_m;Gx;Gy;Gz;Turbulenzenergie;Dissipation", ";", components("Gx, Gy, Gz")),
         // The name of the vector stands for its components, as ParaView writes them.
         (
-            "\"Points:0\",\"Points:1\",\"Points:2\",\"Geschwindigkeit:0\",\"Geschwindigkeit:1\",\"Geschwindigkeit:2\",Turbulenzenergie,Dissipation",
+            "\"Points:0\",\"Points:1\",\"Points:2\",\
+            \"Geschwindigkeit:0\",\"Geschwindigkeit:1\",\"Geschwindigkeit:2\",Turbulenzenergie,Dissipation",
             ",",
             GERMAN,
         ),

@@ -17,7 +17,8 @@ fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
 
 prop_compose! {
     fn fibre()(
-        length in between(-2, 2), diameter in between(-5, -3), density in between(2, 4), youngs_modulus in between(7, 11),
+        length in between(-2, 2), diameter in between(-5, -3), density in between(2, 4),
+        youngs_modulus in between(7, 11),
         elements in 1usize..3000, root in prop::sample::select(vec![Root::Pinned, Root::Clamped, Root::Free]),
         x in prop_oneof![-1f64..-1e-3, 1e-3f64..1.0], y in -1f64..1.0, z in prop::sample::select(vec![0.0, -0.0, 0.3]),
     ) -> Fibre {
@@ -53,15 +54,19 @@ fn friction_law() -> impl Strategy<Value = FrictionLaw> {
 prop_compose! {
     fn case()(
         fibre in fibre(),
-        (velocity, turbulence_intensity, length_scale, cutoff_frequency) in (-50f64..50.0, 0f64..1.0, between(-2, 1), between(0, 3)),
+        (velocity, turbulence_intensity, length_scale, cutoff_frequency)
+            in (-50f64..50.0, 0f64..1.0, between(-2, 1), between(0, 3)),
         (density, kinematic_viscosity, more_harmonics, along, across) in (
             0f64..2.0, between(-6, -4), 1usize..50, friction_law(), prop::sample::select(NormalLaw::ALL.to_vec()),
         ),
-        (share, steps, spin_up, output, damping) in (0.01f64..0.99, 1u64..1_000_000_000, 0f64..1.0, 0f64..1.0, 0f64..100.0),
-        (replicates, seed, leapfrog, gravity, lateral) in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0, lateral()),
+        (share, steps, spin_up, output, damping)
+            in (0.01f64..0.99, 1u64..1_000_000_000, 0f64..1.0, 0f64..1.0, 0f64..100.0),
+        (replicates, seed, leapfrog, gravity, lateral)
+            in (1u64..100, any::<u64>(), any::<bool>(), -10f64..10.0, lateral()),
     ) -> Case {
         let air = Air {
-            velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity, harmonics: 1, lateral,
+            velocity, turbulence_intensity, length_scale, cutoff_frequency, density, kinematic_viscosity,
+            harmonics: 1, lateral,
             ..Air::uniform(1.0, 0.0, 1.0, 1.0)
         };
         let scheme = if leapfrog { Scheme::Leapfrog } else { Scheme::SemiImplicitEuler };

@@ -96,7 +96,9 @@ proptest! {
     }
 
     #[test]
-    fn invariant_force_is_minus_the_gradient_of_the_energy(seed in 0usize..10_000, angle in 0.0..1.5f64, node in 1usize..11) {
+    fn invariant_force_is_minus_the_gradient_of_the_energy(
+        seed in 0usize..10_000, angle in 0.0..1.5f64, node in 1usize..11,
+    ) {
         for root in [Root::Free, Root::Clamped] {
             let strand = Strand { gravity: 0.0, drag: NO_DRAG, ..stubby(root) };
             let r = crooked(&strand, angle, seed);

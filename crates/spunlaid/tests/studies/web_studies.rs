@@ -209,7 +209,8 @@ fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
     let study = |layer: &str| {
         let text = format!(
             "web = 'web.toml'\ndesign = 'grid'\n[vary]\nlayer.{layer}.line.filaments_per_metre = [100, 300]\n[link]\n\
-             layer.1.line.belt_speed = 'layer.1.line.feed_speed / 10'\n'layer.{layer}.laydown.sigma_md' = '1000 * layer.2.fibre.diameter'\n"
+             layer.1.line.belt_speed = 'layer.1.line.feed_speed / 10'\n'layer.{layer}.laydown.sigma_md' = '1000 * \
+             layer.2.fibre.diameter'\n"
         );
         study_beside_cases(LAYERS, &text, &[]).unwrap_or_else(|error| panic!("{error}"))
     };

@@ -195,7 +195,8 @@ proptest! {
         let filaments = Filaments::Rows(vec![Row::new(offset, pitch, filaments)]);
         let fibres = Fibres::Surrogate(Surrogate { sigma_md: sigma, sigma_cd: 0.7 * sigma, noise });
         let belt_speed = 50.0 * ratio;
-        let layer = Layer { linear_density: LINEAR_DENSITY, feed_speed: 50.0, belt_speed, filaments, fibres, defects: Vec::new() };
+        let (linear_density, defects) = (LINEAR_DENSITY, Vec::new());
+    let layer = Layer { linear_density, feed_speed: 50.0, belt_speed, filaments, fibres, defects };
         let web = Web { sheet: Sheet { edges, ..Sheet::new(width, length, cell) }, layers: vec![layer], seed };
         let laid = laid(&web);
         let whole = LINEAR_DENSITY * web.fibre_length();

@@ -131,7 +131,8 @@ fn place_in_field(placed: &PlacedField, filaments: &Filaments) -> String {
     let [_, machine, cross] = placed.axes().map(Axis::name);
     format!(
         "  the middle of the slot is at {} of the field (air.field_root); filaments are fed {fed} from there along the \
-        machine direction, {machine}, and side by side along the cross direction, {cross}, where all meet the same mean flow",
+        machine direction, {machine}, and side by side along the cross direction, {cross}, where all meet the same \
+        mean flow",
         PlacedField::in_words(placed.root)
     )
 }

@@ -9,8 +9,8 @@ use crate::say;
 use spunlaid::ground::Fault;
 use std::io::BufRead;
 
-/// The numbers with those that were missing, from a person's answers. Where nobody answers, those that cannot be missing
-/// are refused.
+/// The numbers with those that were missing, from a person's answers. Where nobody answers, those that cannot be
+/// missing are refused.
 ///
 /// * `answers` – lines that a person types, or that come through a pipe
 pub(super) fn complete(mut numbers: LineNumbers, answers: &mut impl BufRead) -> Result<LineNumbers, Failure> {

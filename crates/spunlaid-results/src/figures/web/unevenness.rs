@@ -72,8 +72,8 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars \
-        are one standard error of the map by chance, from its waves. The expected curve is that of independent filaments \
-        {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the same mass in \
+        are one standard error of the map by chance, from its waves. The expected curve is that of independent \
+        filaments {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the same mass in \
         all directions would give CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the \
         first layer’s fibre: the distance to them is what the loops of the lay-down cost.",
         significant(tenth, 2)

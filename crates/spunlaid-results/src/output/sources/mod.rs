@@ -30,10 +30,10 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
     let time = |seconds: f64| Dimension::Time.pretty_to(seconds, 2);
     (!sources.are_steady()).then(|| {
         format!(
-            "the force of the filaments on the air is {drag} N/m by their drag and {balance} N/m by the balance of their \
-             momentum, which differ by more than chance: the flights are not steady, most likely because run.spin_up = \
-             {} is too short for filaments that need {} to come down. No fields are written; write run.spin_up = \
-             \"{}\" or more, and lengthen run.duration by as much",
+            "the force of the filaments on the air is {drag} N/m by their drag and {balance} N/m by the balance of \
+             their momentum, which differ by more than chance: the flights are not steady, most likely because \
+             run.spin_up = {} is too short for filaments that need {} to come down. No fields are written; write \
+             run.spin_up = \"{}\" or more, and lengthen run.duration by as much",
             time(spin_up),
             time(way),
             time(WAYS * way.max(spin_up))

@@ -81,7 +81,8 @@ fn field(
 ) -> String {
     let mut text = format!(
         "FoamFile\n{{\n    version     2.0;\n    format      ascii;\n    class       {class};\n    location    \
-         \"constant\";\n    object      {name};\n}}\n\ndimensions      [{mass} {length} {time} {temperature} 0 0 0];\n\n\
+         \"constant\";\n    object      {name};\n}}\n\n\
+         dimensions      [{mass} {length} {time} {temperature} 0 0 0];\n\n\
          internalField   nonuniform List<{of}>\n{}\n(\n",
         cells.len()
     );
@@ -89,7 +90,8 @@ fn field(
         let _ = writeln!(text, "{}", value(cell));
     }
     text.push_str(
-        ")\n;\n\nboundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" { type zeroGradient; }\n}\n",
+        ")\n;\n\nboundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\" { type zeroGradient; \
+         }\n}\n",
     );
     text
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! settings of the line → webs with one of them changed, on the belt that lays the same weight
-//!   → flown anew in the same gusts → expected CV, compared with that of the web itself fibre by fibre, or block by block
+//!   → flown anew in the same gusts → expected CV, compared with that of the web fibre by fibre, or block by block
 //!   → in one air the best ones flown once more in another air → Advice
 //! ```
 

@@ -4,8 +4,8 @@
 //!
 //! ```text
 //! factors → design (rows of values) → points (a whole experiment each) → jobs (one replicate of one point)
-//!   → pack (eight fibres to a flight, across points) webs (one after another) or spinlines → journal (a record per replicate)
-//!   → statistics per point → effects
+//!   → pack (eight fibres to a flight, across points) webs (one after another) or spinlines
+//!   → journal (a record per replicate) → statistics per point → effects
 //! ```
 //!
 //! A study is data: it is read from a file (`input::read_study`) or made in code, [`Study::of_cases`].

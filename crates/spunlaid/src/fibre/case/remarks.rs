@@ -14,7 +14,8 @@ const LOW_DRAG: f64 = 0.5;
 const LEAST_SLOWING: f64 = 0.9;
 /// Change of the velocity over the width of a web, over its mean, above which a web is warned [-].
 const MOST_ACROSS: f64 = 0.05;
-/// Speed over the largest along the machine direction at the inlet from which on a place lies in the air of the slot [-].
+/// Speed over the largest along the machine direction at the inlet from which on a place lies in the air of the slot
+/// [-].
 const IN_SLOT: f64 = 0.5;
 /// Distance of a row from the middle of that air, over the width of the air, above which a web is warned [-].
 const MOST_OFF_MIDDLE: f64 = 0.125;

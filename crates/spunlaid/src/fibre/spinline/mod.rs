@@ -5,8 +5,9 @@
 //!                                                                                     theory.md (84) to (99)
 //!
 //! ```text
-//! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die) → shooting (the tension that meets the
-//!   end) → Solution; curtain: row after row, each in the air that the one before has warmed and dragged
+//! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die)
+//!   → shooting (the tension that meets the end) → Solution
+//! curtain: row after row, each in the air that the one before has warmed and dragged
 //! ```
 
 mod cooling;

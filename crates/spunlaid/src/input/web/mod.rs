@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! file, and the case that it names → values of one document ┬ web/open.rs: layers, sheet, belt            
-//!                                                           └ filament.rs: the case of a filament ┬ a web: flown and laid
-//!                                                                                                 └ a case: `spunlaid run`, `spin`, `air`
+//!                                                           └ filament.rs: the case of a filament,
+//!                                                             of a web, or for `spunlaid run`, `spin`, `air`
 //! ```
 
 mod check;

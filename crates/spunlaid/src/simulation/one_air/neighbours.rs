@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! points of a block → deviations from the straight trace → sums over each pair and stretch of fed length → correlation
-//!                             the scatter of the stretches, and what stays with a pair from stretch to stretch, is its error ┘
+//!                    its error: the scatter of the stretches, and what stays with a pair from stretch to stretch ┘
 //! ```
 //!
 //! Nothing but the sums is kept, so the memory does not grow with the points.

@@ -89,8 +89,8 @@ impl Display for Doubt {
             ),
             Self::StrongField { field } => write!(
                 f,
-                "the charge of the filaments gives a field of {} at the edge of the curtain, and air breaks down at {}, at edges \
-                of metal long before: a line would lose a part of this charge (line.charge)",
+                "the charge of the filaments gives a field of {} at the edge of the curtain, and air breaks down at \
+                {}, at edges of metal long before: a line would lose a part of this charge (line.charge)",
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
             ),

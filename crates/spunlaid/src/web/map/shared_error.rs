@@ -1,8 +1,9 @@
 //! The error of a mean over filaments that hang in one air, and so are not independent.
 //!
 //! ```text
-//! parts of the mean: filaments × stretches of the belt → cells, so wide and long that one hardly knows of another → their scatter
-//!                                                       → what stays with a filament from stretch to stretch: its place
+//! parts of the mean: filaments × stretches of the belt
+//!   → cells, so wide and long that one hardly knows of another → their scatter
+//!   → what stays with a filament from stretch to stretch: its place
 //! ```                                                                                                theory.md (72a)
 
 /// What a stretch of a filament adds to a mean.

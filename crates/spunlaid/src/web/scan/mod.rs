@@ -9,9 +9,9 @@
 //! | format | what is read |
 //! |---|---|
 //! | PNG | 8 or 16 bits, or fewer as sBIT tells; colours become luminance; pixels that are not opaque have no value |
-//! | TIFF | the first of the largest pages; 8, 16 or 32 bits or floating point, plain, Deflate, LZW or PackBits; fewer bits as MaxSampleValue tells |
+//! | TIFF | the first of the largest pages; 8, 16 or 32 bits or floating point, plain, Deflate, LZW, PackBits |
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
-//! | CSV | a line for each row of the map, as [`crate::ground::table`] describes; an empty cell is a missing pixel; numbers of the rows and columns beside the map are left out |
+//! | CSV | a line for each row of the map, as [`crate::ground::table`] describes; an empty cell is a missing pixel |
 //!
 //! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by
 //! their resolution, in the unit that ImageJ or OME-XML writes into the description, unless it is given. A PNG that

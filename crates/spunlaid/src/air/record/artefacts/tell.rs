@@ -52,8 +52,8 @@ impl Teller<'_> {
         let values =
             if low == high { number(low) } else { format!("between {} and {}", number(low), number(high)) };
         let message = format!(
-            "{} samples ({} %), the first in {}, are all {values} m/s, apart from all others: these are dropouts and no \
-             velocities, which make the rms too large",
+            "{} samples ({} %), the first in {}, are all {values} m/s, apart from all others: these are dropouts and \
+             no velocities, which make the rms too large",
             apart.samples.len(),
             self.share(apart.samples.len()),
             self.place(apart.samples.first().copied().unwrap_or(0)),
@@ -103,8 +103,8 @@ impl Teller<'_> {
         let (written, rate) = (1.0 / self.record.interval, 1.0 / (self.record.interval * times));
         let on_average = if times.fract() == 0.0 { "" } else { " on average" };
         let message = format!(
-            "each value stands {} times in a row{on_average}, so the true sampling rate is {} and not {}: a staircase has \
-             another spectrum and another integral time than the air",
+            "each value stands {} times in a row{on_average}, so the true sampling rate is {} and not {}: a staircase \
+             has another spectrum and another integral time than the air",
             number(times),
             hertz(rate),
             hertz(written),

@@ -15,7 +15,7 @@
 //! | design | fit |
 //! |---|---|
 //! | one-at-a-time | one line for each factor, through its own points and the base case only |
-//! | Latin hypercube | one fit; with enough points also `x_j² − 1/3` and `x_j x_k`, so that the curvature of one factor does not disturb the effect of another |
+//! | Latin hypercube | one fit; with enough points also `x_j² − 1/3` and `x_j x_k`, for the curvature |
 //! | others | one fit of straight lines |
 //!
 //! The interval comes from the replicates. With common phases, replicate r of all points is one experiment, and the

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! curves of n filaments → map of all, of the even ones, of the odd ones → CV
-//!                       → patches of single ones and of their neighbours → what a filament makes alone, and together with others
+//!                       → patches of single ones and of their neighbours → what a filament makes alone and with others
 //! ```
 //!
 //! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on
