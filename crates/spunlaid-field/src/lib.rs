@@ -63,7 +63,8 @@
 //! taken only for the bytes that are there, never for what a header promises.
 //!
 //! The crate is the reader of fields of the simulator `spunlaid`. The same file and place give the same bits on every
-//! machine. Where a message names a key of a case, `air.field_velocity`, another program sets a name of [`FieldLayout`].
+//! machine. Where a message names a key of a case, `air.field_velocity`, another program sets a name of
+//! [`FieldLayout`].
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]

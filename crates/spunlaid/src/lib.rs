@@ -4,8 +4,8 @@
 //!
 //! | wing | what it is for |
 //! |---|---|
-//! | [`ground`] | the crate `spunlaid-ground`: numbers in lanes, units, errors, tables, statistics, measures; nothing of fibres |
-//! | [`air`] | fields of CFD (the crate [`spunlaid-field`](spunlaid_field)), records of a hot wire, turbulence: the velocity at a place and time |
+//! | [`ground`] | the crate `spunlaid-ground`: numbers in lanes, units, errors, tables, statistics, measures |
+//! | [`air`] | CFD fields (the crate [`spunlaid-field`](spunlaid_field)), hot-wire records, turbulence |
 //! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
 //! | [`web`] | curves on the belt, the map of a web, the fabric, scans |
 //! | [`simulation`] | ensembles, filaments in one air, and what is measured |

@@ -124,10 +124,10 @@ fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item
 #[test]
 fn every_measure_stands_in_the_docs() {
     let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
-        (`simulation/observe/` of the library, `measures.rs` of other rooms). Names are those of `summary.json`, of a \
-        velocity record those of `analysis.json`, and end with the unit; a name without one is that of a ratio or a count. Studies keep \
-        those marked *study*, some under another name, here of patches of 10 mm and of strips along MD. \
-        [results.md](results.md) says where they stand.\n"
+        (`simulation/observe/` of the library, `measures.rs` of other rooms). Names are those of `summary.json`, \
+        of a velocity record those of `analysis.json`, and end with the unit; a name without one is that of a \
+        ratio or a count. Studies keep those marked *study*, some under another name, here of patches of 10 mm \
+        and of strips along MD. [results.md](results.md) says where they stand.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
