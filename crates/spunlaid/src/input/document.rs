@@ -25,8 +25,9 @@ pub(super) struct Document<'a, T: 'static> {
     name: String,
     source: Source<'a>,
     version: Option<Entry<'a>>,
-    pub(super) entries: BTreeMap<String, (&'static Key<T>, Entry<'a>)>,
     pub(super) key_values: WrittenValues,
+    /// What is wrong with values that cannot be read.
+    faults: BTreeMap<String, Fault>,
     /// What stands in tables whose keys have any name, and values that another key reads.
     pub(super) named: Vec<Named<'a, T>>,
     /// Whether the file has a list of tables at its top, whose entries have tables of their own.
@@ -68,13 +69,13 @@ pub(super) fn open<'a, T>(
     let root = root(&source, text)?;
     check_kind(keys, &root, &source)?;
     let layered = keys.lists.iter().any(|list| root.contains_key(list.name));
-    let (name, entries, named) = (name.to_owned(), BTreeMap::new(), Vec::new());
-    let mut document = Document { keys, name, source, version: None, entries, key_values, named, layered };
+    let (name, faults, named) = (name.to_owned(), BTreeMap::new(), Vec::new());
+    let mut document = Document { keys, name, source, version: None, key_values, faults, named, layered };
     document.take_table("", "", root, None);
     overrides.iter().for_each(|set| document.take_overrides(set));
-    // A newer format may mean other things, so this check comes first.
+    // A newer format may mean other things, so that no other problem counts.
     document.version.take().map_or(Ok(()), |entry| check_version(&entry))?;
-    document.read_entries();
+    document.reject_unreadable();
     Ok(document)
 }
 
@@ -130,11 +131,6 @@ fn is_table_of_other(full: &str) -> bool {
         || name != "layer" && WEB.list(&name).is_some()
 }
 
-/// Whether the file of a web has a list of layers, whose numbers stand in the names of its keys.
-pub(super) fn has_layers(text: &str) -> bool {
-    DeTable::parse(text).is_ok_and(|root| root.get_ref().contains_key("layer"))
-}
-
 impl<'a, T> Document<'a, T> {
     /// Takes what stands in a table: keys, tables and lists. The top of the file is a table without a name.
     ///
@@ -186,7 +182,7 @@ impl<'a, T> Document<'a, T> {
         } else if let Some(row) = key.filter(|key| matches!(key.kind, Kind::Other(_))) {
             self.named.push(Named { row, name: full, entry });
         } else if let Some(key) = key {
-            self.entries.insert(full, (key, entry));
+            self.read_entry(&full, key, entry);
         } else if let Some(row) = self.keys.of_any_name(table) {
             self.take_named(row, "", name, entry);
         } else {
@@ -248,7 +244,7 @@ impl<'a, T> Document<'a, T> {
 
     /// Takes a list of tables in place of the one there was.
     fn take_list(&mut self, full: &str, list: &'static TableList, mut entry: Entry<'a>) {
-        self.remove(full);
+        self.key_values.remove(full);
         let tables = match std::mem::replace(&mut entry.value, DeValue::Boolean(false)) {
             DeValue::Array(tables) if !tables.is_empty() => Ok(tables),
             DeValue::Array(_) => Err("an empty list"),
@@ -278,20 +274,6 @@ impl<'a, T> Document<'a, T> {
         self.keys.lists.iter().find(|list| list.tables.contains(&table))
     }
 
-    /// Removes a key, or a list with all its entries.
-    pub(super) fn remove(&mut self, full: &str) {
-        self.key_values.remove(full);
-        let in_list = |name: &str| name.strip_prefix(full).is_some_and(|rest| rest.starts_with('.'));
-        self.entries.retain(|name, _| name != full && !in_list(name));
-    }
-
-    /// Reads what has been taken.
-    pub(super) fn read_entries(&mut self) {
-        for (full, (key, entry)) in std::mem::take(&mut self.entries) {
-            self.read_entry(full, key, entry);
-        }
-    }
-
     /// An entry as a value of this kind.
     pub(super) fn as_kind(&self, kind: &Kind, entry: &Entry<'_>) -> Result<Value, Fault> {
         read_value(kind, &entry.value, |named| self.beside(&entry.place, named))
@@ -306,7 +288,8 @@ impl<'a, T> Document<'a, T> {
         }
     }
 
-    fn read_entry(&mut self, full: String, key: &'static Key<T>, entry: Entry<'_>) {
+    /// Reads the value of a key in place of the one there was.
+    fn read_entry(&mut self, full: &str, key: &'static Key<T>, entry: Entry<'_>) {
         let Entry { place, shown, value, .. } = entry;
         let value = match value {
             DeValue::String(unit) if key.relations.takes_unit && unit.chars().all(char::is_alphabetic) => {
@@ -327,9 +310,16 @@ impl<'a, T> Document<'a, T> {
                 (None, Some(removed.unwrap_or_else(|| fault.or_words(key.words))))
             }
         };
-        self.key_values.set(full.clone(), WrittenValue { place, shown, value });
-        if let Some(fault) = fault {
-            self.key_values.reject(&full, fault);
+        self.key_values.set(full.to_owned(), WrittenValue { place, shown, value });
+        self.faults.extend(fault.map(|fault| (full.to_owned(), fault)));
+    }
+
+    /// Records what is wrong with the values that have been taken and cannot be read, unless others replace them.
+    pub(super) fn reject_unreadable(&mut self) {
+        for (full, fault) in std::mem::take(&mut self.faults) {
+            if self.key_values.get(&full).is_some_and(|written_value| written_value.value.is_none()) {
+                self.key_values.reject(&full, fault);
+            }
         }
     }
 

@@ -163,14 +163,11 @@ fn open_values(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenC
 pub fn write_changed_case(text: &str, name: &str, set: Overrides<'_>) -> Result<String, Error> {
     let values = values_of_case(&Resources::default(), text, name, &[set])?;
     let full = |path: &std::path::PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
-    let line = |key: &Key| {
-        let value = match values.get(key.name)?.value.clone()? {
-            Value::Paths(paths) => Value::Paths(paths.iter().map(full).collect()),
-            value => value,
-        };
-        Some(format!("{} = {}", key.short(), write::toml_value(&key.kind, value)))
+    let value = |key: &Key| match values.get(key.name)?.value.clone()? {
+        Value::Paths(paths) => Some(Value::Paths(paths.iter().map(full).collect())),
+        value => Some(value),
     };
-    let table = |table| (table, keys::keys_of_table(table).filter_map(line).collect::<Vec<_>>());
+    let table = |table| (table, write::lines(&keys::CASE, table, value));
     let tables = keys::TABLES.into_iter().map(table).filter(|(_, lines)| !lines.is_empty());
     Ok(tables.map(|(table, lines)| format!("[{table}]\n{}\n", write::in_lines(&lines))).collect())
 }

@@ -1,7 +1,7 @@
 //! Makes a case from the written values, the files that they name and the defaults of the other keys.
 
 use super::data::DataFiles;
-use super::written_values::{WrittenValue, WrittenValues, sorted};
+use super::written_values::{WrittenValues, sorted};
 use crate::air::{FieldLayout, Flow, RecordLayout};
 use crate::fibre::case::keys::{self, Content, DataFile, Key, Kind, Omission, Value};
 use crate::fibre::{Case, Line, Note, Remark, Spinline};
@@ -44,41 +44,28 @@ pub(super) fn open_part(
     let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
     sort_by_key(&mut in_order, |key| rank(key));
     for key in in_order {
-        let Some(WrittenValue { place, shown, value }) = key_values.get(key.name).cloned() else {
-            if let Err(fault) = leave_out(key, &mut case, &key_values)
-                && !key_values.is_excused(key.name)
-            {
-                key_values.reject(key.name, fault);
-            }
-            continue;
-        };
-        let beside = key.beside_alternative(|other| key_values.get(other).is_some());
-        let set = match (value, key.kind) {
-            (None, Kind::File(_)) => {
-                key_values.excuse(key.relations.gives);
-                continue;
-            }
-            (None, _) => continue,
-            (Some(_), _) if beside.is_some() => beside.map_or(Ok(()), Err),
-            (Some(Value::Paths(paths)), Kind::File(kind)) => match load(files, kind, &paths, &key_values) {
+        let mut written = key_values.get(key.name).map(|written_value| written_value.value.clone());
+        if let (Some(Some(Value::Paths(paths))), Kind::File(kind)) = (&written, key.kind)
+            && key.beside_alternative(|other| key_values.get(other).is_some()).is_none()
+        {
+            written = Some(match load(files, kind, paths, &key_values) {
                 Ok((content, remarks)) => {
-                    notes.extend(remarks.into_iter().map(|what| Note {
-                        place: place.clone(),
-                        key: key.name.to_owned(),
-                        value: shown.clone(),
-                        what,
-                    }));
-                    key.apply(&mut case, &Value::Content(content))
+                    let finding = |what| Note { value: None, ..keys::finding(key.name, 0.0, what) };
+                    notes.extend(remarks.into_iter().map(|what| key_values.placed(finding(what))));
+                    Some(Value::Content(content))
                 }
                 Err(error) => {
-                    key_values.excuse(key.relations.gives);
                     key_values.reject(key.name, error.into());
-                    continue;
+                    None
                 }
-            },
-            (Some(_), _) if key.read_last => Ok(()),
-            (Some(value), _) => key.apply(&mut case, &value),
-        };
+            });
+        }
+        if let (Some(None), Kind::File(_)) = (&written, key.kind) {
+            key_values.excuse(key.relations.gives);
+        }
+        let is_written = |other: &str| key_values.get(other).is_some();
+        let missing = |case: &Case| Some(missing(key, case, &key_values));
+        let set = keys::CASE.fill((key, &mut case), written, is_written, missing);
         if let Err(fault) = set
             && !key_values.is_excused(key.name)
         {
@@ -107,29 +94,15 @@ fn rank(key: &Key) -> usize {
     before.map(|key| rank(key) + 1).fold(own, usize::max)
 }
 
-/// Sets what applies if a key is left out.
-///
-/// # Errors
-/// If the key is missing.
-fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(), Fault> {
-    if let Some(value) = key.default_in(case) {
-        if !key.read_last {
-            // A key without a meaning for this case refuses its default, which is then not needed.
-            drop(key.set(case, value));
-        }
-        return Ok(());
-    }
-    let is_written = |other: &str| key_values.get(other).is_some();
-    if key.infer(case) || !key.is_needed(case) || keys::CASE.is_given(key.name, is_written) {
-        return Ok(());
-    }
+/// The fault of a key that is missing.
+fn missing(key: &Key, case: &Case, key_values: &WrittenValues) -> Fault {
     let (table, line) = (key.table(), key.example());
     let why = match &case.air.flow {
         Flow::Field(placed) if table == "air" => placed.field.why_no_turbulence(),
         _ => None,
     };
     let of_fed = OF_FED.iter().find(|other| **other != table && key_values.has_table(other));
-    Err(match (why, of_fed) {
+    match (why, of_fed) {
         (Some(Fault { message, remedy, .. }), _) => Fault::new(
             format!("is missing, and the field does not contain it: it {message}"),
             format!("{remedy}, or add {line} to [{table}]"),
@@ -139,7 +112,7 @@ fn leave_out(key: &Key, case: &mut Case, key_values: &WrittenValues) -> Result<(
             format!("add {line} to [{table}], or leave out [{other}]"),
         ),
         _ => Fault::missing(table, &line),
-    })
+    }
 }
 
 /// What the case says of the files of its records.

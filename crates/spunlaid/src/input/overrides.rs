@@ -22,51 +22,20 @@ impl<'a, T> Document<'a, T> {
             let (key, entry) = (key.trim(), Entry::from_override(word, text));
             match self.target(key) {
                 Ok((before, table, name)) => {
-                    let path = format!("{table}.{name}");
+                    let (full, path) = (format!("{before}{name}"), format!("{table}.{name}"));
                     let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
                     if is_known && text.trim().trim_matches('"') == AUTO {
-                        self.remove(&format!("{before}{name}"));
+                        self.key_values.remove(&full);
                     } else {
                         self.take(&before, table, name, entry);
-                        // What comes before the two names without the tables that both have.
-                        let layer = before.strip_suffix(&format!("{table}.")).unwrap_or(&before).to_owned();
-                        set.push((layer, path));
+                        set.extend(is_known.then(|| full.clone()));
                     }
+                    self.key_values.set.push(full);
                 }
                 Err(what) => self.key_values.problems.push(entry.problem(key, what)),
             }
         }
-        self.leave_out_alternatives(&set);
-    }
-
-    /// Leaves out the keys whose values are set in other words, or for all layers at once, unless they are set too.
-    ///
-    /// * `set` – what comes before their names where these depend on a layer, and the names
-    fn leave_out_alternatives(&mut self, set: &[(String, String)]) {
-        let keys = self.keys;
-        let of_all_layers = |name: &str| keys.find(name).is_some_and(|key| key.relations.of_all_layers);
-        for (layer, path) in set {
-            let here: Vec<&str> =
-                set.iter().filter(|(other, _)| other == layer).map(|(_, path)| &**path).collect();
-            let is_common = self.layered && layer.is_empty();
-            let replaced_by =
-                |names: &[&str]| [keys.replaced_by(names), keys.replaced_between(names)].concat();
-            let mut replaced = replaced_by(&here);
-            let common: Vec<&str> = here.iter().copied().filter(|name| of_all_layers(name)).collect();
-            let replaced_everywhere = replaced_by(&common);
-            if is_common {
-                replaced.extend(keys.find(path).map(|key| key.name));
-            }
-            for other in replaced {
-                let everywhere = is_common || of_all_layers(other) || replaced_everywhere.contains(&other);
-                let all = self.entries.iter().filter(|(_, (key, _))| everywhere && key.name == other);
-                let mut left_out: Vec<String> = all.map(|(full, _)| full.clone()).collect();
-                left_out.push(format!("{layer}{other}"));
-                let is_set =
-                    |full: &str| set.iter().any(|(layer, path)| full.strip_prefix(&**layer) == Some(&**path));
-                left_out.iter().filter(|full| !is_set(full)).for_each(|full| self.remove(full));
-            }
-        }
+        self.key_values.give_way(&set.iter().map(String::as_str).collect::<Vec<_>>());
     }
 
     /// Where a key stands.
@@ -108,18 +77,21 @@ impl<'a, T> Document<'a, T> {
         let by_number = (1..=count.max(u64::from(is_alone)))
             .find_map(|number| Some((number, after(&number.to_string())?)));
         let by_name = || {
-            let name = |number| self.entries.get(&format!("{full}.{number}.name"))?.1.value.as_str();
-            (1..=count).find_map(|number| Some((number, after(name(number)?)?)))
+            let name = |number| self.key_values.text(&format!("{full}.{number}.name"));
+            (1..=count).find_map(|number| Some((number, after(&name(number)?)?)))
         };
-        by_number.or_else(by_name).ok_or_else(|| {
-            let there = match (count, list.tables) {
-                (0, []) => format!("write {}", list.wanted),
-                (0, _) => "it has no [[layer]], so write the key without layer".to_owned(),
-                (1, _) => format!("it has one, {full}.1"),
-                (_, []) => format!("it has {full}.1 to {full}.{count}"),
-                _ => format!("it has {full}.1 to {full}.{count}, which may also be called by their names"),
-            };
-            Fault::new(format!("is of {} that the file does not have", list.entry), there)
-        })
+        by_number.or_else(by_name).ok_or_else(|| no_entry(full, count, list))
     }
+}
+
+/// The fault of a key of an entry that a list, of so many entries, does not have.
+pub(super) fn no_entry(full: &str, count: u64, list: &TableList) -> Fault {
+    let there = match (count, list.tables) {
+        (0, []) => format!("write {}", list.wanted),
+        (0, _) => "it has no [[layer]], so write the key without layer".to_owned(),
+        (1, _) => format!("it has one, {full}.1"),
+        (_, []) => format!("it has {full}.1 to {full}.{count}"),
+        _ => format!("it has {full}.1 to {full}.{count}, which may also be called by their names"),
+    };
+    Fault::new(format!("is of {} that the file does not have", list.entry), there)
 }

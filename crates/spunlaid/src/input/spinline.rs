@@ -3,6 +3,7 @@
 
 use super::data::DataFiles;
 use super::open::{OpenCase, open_part};
+use super::write::own_value;
 use super::written_values::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, Resources, file, open_values, values_of_case, write};
 use crate::air::{Flow, Hint};
@@ -92,13 +93,12 @@ pub fn write_spinline(spec: &SpinSpec) -> String {
     let case = Case::from(spec);
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in TABLES {
-        let lines = write::lines(&keys::CASE, table, &case, |_, value| value);
+        let lines = write::lines(&keys::CASE, table, |key| own_value(key, &case));
         text += &format!("\n[{table}]\n{}", write::in_lines(&lines));
     }
     if spec.air.is_some() {
-        let mut lines = write::lines(&keys::CASE, "air", &case, |_, value| value);
-        lines
-            .retain(|line| line.split_once(" = ").is_some_and(|(key, _)| is_of_field(&format!("air.{key}"))));
+        let of_field = |key: &Key| own_value(key, &case).filter(|_| is_of_field(key.name));
+        let lines = write::lines(&keys::CASE, "air", of_field);
         text += &format!("\n[air]\n{}", write::in_lines(&lines));
     }
     text
@@ -108,18 +108,13 @@ impl SpinFile {
     pub(super) fn from_open(open: OpenCase) -> Self {
         let OpenCase { key_values, case, mut notes } = open;
         notes.extend(case.unusual_in(&TABLES).into_iter().map(|note| key_values.placed(note)));
-        let spinline = case.spinline.map_or(Spinline::UNKNOWN, |spinline| *spinline);
-        let takes_field = matches!(spinline.air, Surroundings::Field { .. });
-        let air = takes_field.then(|| Box::new(case.air));
-        Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes, key_values }
+        Self { spec: spec_of(&case), notes, key_values }
     }
 
     /// The spinline from which a case is fed; `None` if it has none.
     pub fn from_case(case: &Case) -> Option<Self> {
-        let (spinline, key_values) = (case.spinline.as_deref()?.clone(), WrittenValues::new(Place::Code));
-        let takes_field = matches!(spinline.air, Surroundings::Field { .. });
-        let air = takes_field.then(|| Box::new(case.air.clone()));
-        Some(Self { spec: SpinSpec { spinline, drag: case.drag, air }, notes: Vec::new(), key_values })
+        let (key_values, notes) = (WrittenValues::new(Place::Code), Vec::new());
+        case.spinline.is_some().then(|| Self { spec: spec_of(case), notes, key_values })
     }
 
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.
@@ -132,6 +127,13 @@ impl SpinFile {
             .solve_rows(self.spec.drag.along)
             .map_err(|failure| rejected(&self.key_values, &Case::from(&self.spec), failure))
     }
+}
+
+/// The spinline of a case, with the air of a CFD field if it takes that.
+fn spec_of(case: &Case) -> SpinSpec {
+    let spinline = case.spinline.as_deref().cloned().unwrap_or(Spinline::UNKNOWN);
+    let takes_field = matches!(spinline.air, Surroundings::Field { .. });
+    SpinSpec { spinline, drag: case.drag, air: takes_field.then(|| Box::new(case.air.clone())) }
 }
 
 /// A failure at the place of the key to blame, after the unusual values that may be why.

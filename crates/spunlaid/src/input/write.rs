@@ -25,26 +25,25 @@ pub fn write_case(case: &Case) -> String {
 
 /// The lines of a table of a case.
 pub(super) fn lines_of_case(case: &Case, table: &str) -> Vec<String> {
-    lines(&keys::CASE, table, case, |key, value| tidy(case, key, value))
+    lines(&keys::CASE, table, |key| match own_value(key, case)? {
+        Value::Number(value) if key.read_last => Some(Value::Number(tidy(case, key, value))),
+        value => Some(value),
+    })
 }
 
-/// A line for each key of a table that has a value, without those that the flow gives.
-///
-/// * `tidy` – gives the number to write for one that is counted in elements or steps
+/// The value of a key, unless the flow gives it.
+pub(super) fn own_value<T>(key: &Key<T>, input: &T) -> Option<Value> {
+    key.get(input).filter(|_| !key.is_derived(input))
+}
+
+/// A line for each key of a table that has a value.
 pub(super) fn lines<T>(
     keys: &KeyTable<T>,
     table: &str,
-    input: &T,
-    tidy: impl Fn(&Key<T>, f64) -> f64,
+    value: impl Fn(&Key<T>) -> Option<Value>,
 ) -> Vec<String> {
-    let line = |key: &Key<T>| {
-        let value = match key.get(input)? {
-            Value::Number(value) if key.read_last => Value::Number(tidy(key, value)),
-            value => value,
-        };
-        Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))
-    };
-    keys.keys_of_table(table).filter(|key| !key.is_derived(input)).filter_map(line).collect()
+    let line = |key| Some(format!("{} = {}", Key::short(key), toml_value(&key.kind, value(key)?)));
+    keys.keys_of_table(table).filter_map(line).collect()
 }
 
 /// Lines as a text.

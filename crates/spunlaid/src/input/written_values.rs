@@ -3,6 +3,7 @@
 use crate::fibre::case::keys::{self, Key, Omission, Value};
 use crate::ground::error::Place;
 use crate::ground::{Fault, Finding, Problem};
+use crate::simulation::layers::full_names::displaced_by;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -16,6 +17,18 @@ pub(super) struct WrittenValue {
     pub(super) value: Option<Value>,
 }
 
+impl WrittenValue {
+    /// A value that is set at a place outside of the file.
+    pub(super) fn new(place: &Place, shown: impl Into<Option<String>>, value: Value) -> Self {
+        Self { place: place.clone(), shown: shown.into(), value: Some(value) }
+    }
+
+    /// Whether it is set beside the file.
+    pub(super) const fn is_set(&self) -> bool {
+        matches!(self.place, Place::Override(_))
+    }
+}
+
 /// The values of a file, and the problems found so far.
 #[derive(Clone, Debug)]
 pub(super) struct WrittenValues {
@@ -25,11 +38,13 @@ pub(super) struct WrittenValues {
     pub(super) problems: Vec<Problem>,
     /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
+    /// What is set beside the file, or taken out by that.
+    pub(super) set: Vec<String>,
 }
 
 impl WrittenValues {
     pub(super) const fn new(file: Place) -> Self {
-        Self { file, values: BTreeMap::new(), problems: Vec::new(), excused: Vec::new() }
+        Self { file, values: BTreeMap::new(), problems: Vec::new(), excused: Vec::new(), set: Vec::new() }
     }
 
     /// The file as a place.
@@ -69,9 +84,26 @@ impl WrittenValues {
         part
     }
 
-    /// Takes a value out, as if it had not been written.
+    /// Takes a value out, as if it had not been written; with a list, all its entries.
     pub(super) fn remove(&mut self, key: &str) -> Option<WrittenValue> {
+        let is_in_list = |name: &str| name.strip_prefix(key).is_some_and(|rest| rest.starts_with('.'));
+        self.values.retain(|name, _| !is_in_list(name));
         self.values.remove(key)
+    }
+
+    /// Leaves out what these keys take the place of.
+    pub(super) fn give_way(&mut self, set: &[&str]) {
+        let is_displaced = displaced_by(set, self.get("layer").is_some());
+        let displaced: Vec<_> = self.values.keys().filter(|name| is_displaced(name)).cloned().collect();
+        displaced.iter().for_each(|name| drop(self.remove(name)));
+    }
+
+    /// The same with other values of keys, which take the place of all that is written in other words.
+    pub(super) fn with(&self, changes: impl IntoIterator<Item = (String, WrittenValue)>) -> Self {
+        let (mut new, changes) = (self.clone(), changes.into_iter().collect::<Vec<_>>());
+        new.give_way(&changes.iter().map(|(name, _)| &**name).collect::<Vec<_>>());
+        new.values.extend(changes.into_iter().map(|(name, value)| (Cow::Owned(name), value)));
+        new
     }
 
     /// The number of a key, if it is written.
@@ -112,11 +144,16 @@ impl WrittenValues {
 
     /// Records a problem with a key: with its value, or that it is missing.
     pub(super) fn reject(&mut self, key: &str, what: Fault) {
+        self.problems.push(self.problem(key, what));
+    }
+
+    /// A problem with a key.
+    pub(super) fn problem(&self, key: &str, what: Fault) -> Problem {
         let (place, value) = match self.get(key) {
             Some(written_value) => (written_value.place.clone(), written_value.shown.clone()),
             None => (self.file.clone(), None),
         };
-        self.problems.push(Finding { place, key: key.to_owned(), value, what });
+        Finding { place, key: key.to_owned(), value, what }
     }
 
     /// Adds the place and the written text of the value to a finding.

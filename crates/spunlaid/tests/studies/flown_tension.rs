@@ -6,8 +6,7 @@ use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{Case, Note};
 use spunlaid::ground::{Dimension, Error, Isa};
 use spunlaid::input::{
-    CaseWithNotes, Overrides, Resources, StudyChanges, StudyFile, parse_case, parse_spinline, parse_study,
-    parse_web,
+    CaseWithNotes, Overrides, Resources, StudyFile, parse_case, parse_spinline, parse_study, parse_web,
 };
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{Keep, RunControl};
@@ -148,8 +147,7 @@ fn rejects_at_once_what_no_flight_mends() {
 
 fn study(vary: &str, set: Overrides<'_>) -> Result<StudyFile, Error> {
     let text = format!("case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n{vary}\n");
-    let changes = StudyChanges { set, ..None.into() };
-    parse_study(&text, "study.toml", changes, |_, _| Ok((case(), NAME.to_owned())))
+    parse_study(&text, "study.toml", set, |_, _| Ok((case(), NAME.to_owned())))
 }
 
 #[test]
@@ -197,8 +195,7 @@ fn identical_cases_of_layers_of_which_one_has_another_throughput() {
 #[test]
 fn rejects_flights_in_a_study_of_a_spinline_alone() {
     let text = "spinline = 'case.toml'\ndesign = 'grid'\n[vary]\n'spinline.throughput' = ['0.45 g/min', '0.5 g/min']\n";
-    let changes = StudyChanges { set: Overrides::from(&[][..]), ..None.into() };
-    let read = parse_study(text, "study.toml", changes, |_, _| Ok((case(), NAME.to_owned())));
+    let read = parse_study(text, "study.toml", None, |_, _| Ok((case(), NAME.to_owned())));
     let said = read.unwrap_err().to_string();
     assert!(
         said.contains("spinline.end_tension = \"flown\" needs flights, and a study of a spinline"),

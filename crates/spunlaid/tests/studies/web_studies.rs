@@ -3,7 +3,7 @@
 use spunlaid::experiment::Point;
 use spunlaid::ground::Error;
 use spunlaid::input::{
-    LaydownSource, Overrides, StudyChanges, StudyFile, WebFile, parse_study, parse_web, write_experiment,
+    LaydownSource, Overrides, StudyFile, WebFile, parse_study, parse_web, write_experiment,
 };
 use spunlaid::web::map::Filaments;
 use std::path::Path;
@@ -26,18 +26,18 @@ length = "250 mm"
 seed = 3
 "#;
 
-fn changes<'a>(set: &'a [(String, String)]) -> StudyChanges<'a> {
-    StudyChanges { set: Overrides::new(set, "--set"), ..None.into() }
-}
-
 fn study_of(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web.toml");
-    parse_study(study, "study.toml", changes(set), |_, _| Ok((web.to_owned(), cases.display().to_string())))
+    parse_study(study, "study.toml", Overrides::new(set, "--set"), |_, _| {
+        Ok((web.to_owned(), cases.display().to_string()))
+    })
 }
 
 /// A study of a web whose cases are beside those of the bad webs.
 pub fn study_beside_cases(web: &str, study: &str, set: &[(String, String)]) -> Result<StudyFile, Error> {
-    parse_study(study, "study.toml", changes(set), |_, _| Ok((web.to_owned(), BESIDE_CASES.to_owned())))
+    parse_study(study, "study.toml", Overrides::new(set, "--set"), |_, _| {
+        Ok((web.to_owned(), BESIDE_CASES.to_owned()))
+    })
 }
 
 /// A web beside these cases.

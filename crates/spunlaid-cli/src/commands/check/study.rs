@@ -7,14 +7,12 @@ use crate::commands::{LISTED, aligned, plural};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::{Point, Study};
-use spunlaid::input::{StudyChanges, read_study};
+use spunlaid::input::read_study;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
-    let file = looked_at(|resources| {
-        let set = overrides(&check.source.set).with(resources);
-        read_study(&check.source.case, StudyChanges { set, ..None.into() })
-    })?;
+    let file =
+        looked_at(|resources| read_study(&check.source.case, overrides(&check.source.set).with(resources)))?;
     file.notes.iter().for_each(say::study_note);
     let study = &file.study;
     let replicates = &study.replicates;

@@ -5,9 +5,9 @@ use super::super::spinline::{self, SpinFile};
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::super::{Overrides, Resources, values_of_case};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, advice};
+use super::{Base, ExperimentWithNotes, advice, written_at};
 use crate::experiment::{Experiment, Point, Quantity, Study};
-use crate::fibre::case::keys::{self, Value, VariedKey};
+use crate::fibre::case::keys::{self, VariedKey};
 use crate::fibre::{Note, Remark, SpinSpec, Spinline};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault, FileKind, Problem};
@@ -94,24 +94,7 @@ impl Base for CaseBase {
         seed: Option<u64>,
         resources: &Resources,
     ) -> ExperimentWithNotes {
-        let (mut key_values, mut faults) = (self.open.key_values.clone(), Vec::new());
-        let varied: Vec<&str> = values.iter().map(|(key, _)| &*key.name).collect();
-        keys::CASE.replaced_by(&varied).into_iter().for_each(|other| drop(key_values.remove(other)));
-        for (key, value) in values {
-            let shown = Some(key.shown(*value));
-            match key.value(*value) {
-                Ok(value) => {
-                    key_values
-                        .set(key.name.clone(), WrittenValue { place: at.clone(), shown, value: Some(value) });
-                }
-                Err(what) => {
-                    faults.push(Problem { place: at.clone(), key: key.name.clone(), value: shown, what });
-                }
-            }
-        }
-        if !faults.is_empty() {
-            return Err(faults.into());
-        }
+        let mut key_values = self.open.key_values.with(written_at(values, at)?);
         let seed = seed.unwrap_or(plan.seed);
         if self.kind == FileKind::Spinline {
             let (opened, unneeded) = self.open(key_values, values, resources);
@@ -124,10 +107,7 @@ impl Base for CaseBase {
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
-            if let Some(key) = keys::find(name) {
-                let (shown, value) = (Some(value.to_string()), Some(Value::Whole(value)));
-                key_values.set(key.name, WrittenValue { place: at.clone(), shown, value });
-            }
+            key_values.set(name, WrittenValue::new(at, value.to_string(), value.into()));
         }
         let (opened, unneeded) = self.open(key_values, values, resources);
         let (case, mut notes) = resources.resolve(opened?)?;

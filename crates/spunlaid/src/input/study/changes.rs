@@ -3,7 +3,7 @@
 use super::super::web::Guess;
 use super::super::{Overrides, Resources, file};
 use super::Base;
-use super::line::{OpenWeb, changes_of_line};
+use super::line::WebToChange;
 use super::web::WebBase;
 use crate::experiment::{Change, setting};
 use crate::fibre::case::keys::VariedKey;
@@ -39,10 +39,10 @@ pub fn parse_changes(
 ) -> Result<Vec<Change>, Error> {
     let own = Resources::default();
     let resources = set.resources.unwrap_or(&own);
-    let base = WebBase::new(text, name.to_owned(), [Overrides::new(&[], set.word), set], resources)?;
-    let web = OpenWeb { base: &base, set: set.values, resources };
+    let base = WebBase::new(&text, name.to_owned(), &[set], resources)?;
+    let web = WebToChange { base: &base, set: set.values, resources };
     Ok(match changes {
-        Changes::OfLine => changes_of_line(web),
+        Changes::OfLine => web.changes_of_line(),
         Changes::OfGuesses => changes_of_guesses(&web),
     })
 }
@@ -55,7 +55,7 @@ const CUTOFF: &str = "air.lateral_cutoff";
 /// half as long waves would take four times the memory.
 const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.length_constant"];
 
-fn changes_of_guesses(web: &OpenWeb<'_>) -> Vec<Change> {
+fn changes_of_guesses(web: &WebToChange<'_>) -> Vec<Change> {
     let spec = web.base.spec();
     let named = spec.guessed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
     named
@@ -65,7 +65,7 @@ fn changes_of_guesses(web: &OpenWeb<'_>) -> Vec<Change> {
 }
 
 /// The web with another value of a guess; None if that is no other value.
-fn with_guess(web: &OpenWeb<'_>, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
+fn with_guess(web: &WebToChange<'_>, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
     let value = factor * guess.value;
     let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
     let mut values: Vec<(VariedKey, f64)> =

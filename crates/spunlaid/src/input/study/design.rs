@@ -191,7 +191,7 @@ impl<'a> Reader<'a> {
     ) -> Option<Levels> {
         let (name, problems) = (|key: &str| format!("{}.{key}", varied.name), self.problems());
         self.take_table(&name(""), RANGE, table, None);
-        self.read_entries();
+        self.reject_unreadable();
         let mut ends = [None; 2];
         for Named { row, name, entry } in self.named(RANGE) {
             ends[usize::from(row.short() == "to")] = self.level(varied, &name, &entry);

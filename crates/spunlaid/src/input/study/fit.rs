@@ -49,7 +49,7 @@ pub fn parse_fit(
 ) -> Result<FitFile, Error> {
     let own = Resources::default();
     let resources = set.resources.unwrap_or(&own);
-    let base = WebBase::new(text, name.to_owned(), [Overrides::new(&[], set.word), set], resources)?;
+    let base = WebBase::new(&text, name.to_owned(), &[set], resources)?;
     let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Problem>::new());
     for item in vary {
         let (key, range) =
@@ -73,7 +73,7 @@ pub fn parse_fit(
     if !problems.is_empty() {
         return Err(problems.into());
     }
-    let start = base.file(&[], None, resources)?;
+    let start = base.with(&[], None, resources)?;
     Ok(FitFile { base, start, parameters })
 }
 
@@ -85,7 +85,7 @@ impl FitFile {
     pub fn web(&self, values: &[f64], resources: &Resources) -> Result<WebFile, Error> {
         let keys = self.parameters.iter().map(|parameter| parameter.key.clone());
         let values: Vec<(VariedKey, f64)> = keys.zip(values.iter().copied()).collect();
-        self.base.file(&values, None, resources)
+        self.base.with(&values, None, resources)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::Resources;
 use super::super::entry::Entry;
 use super::super::influence::{Step, changed_key};
-use super::super::web::{WebFile, replaces};
+use super::super::web::WebFile;
 use super::Base;
 use super::web::WebBase;
 use crate::air::{Air, Flow};
@@ -11,16 +11,12 @@ use crate::experiment::plausible::leads_outside;
 use crate::experiment::{Change, ChangedWeb, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Dimension, Error, Setting};
-use crate::simulation::layers::web_key;
+use crate::simulation::layers::full_names::{displaced_by, web_key};
 use crate::simulation::{LayerSpec, WebSpec};
 use crate::web::map::Filaments;
 
 /// How settings are changed.
 const STEPS: [Step; 2] = [Step { factor: 0.8, kelvin: -10.0 }, Step { factor: 1.2, kelvin: 10.0 }];
-
-pub(super) fn changes_of_line(web: OpenWeb<'_>) -> Vec<Change> {
-    LineChanges { web }.changes()
-}
 
 /// Digits of a changed setting.
 const CHANGED: usize = 4;
@@ -40,20 +36,16 @@ fn throughput(layer: usize, power: f64) -> (String, f64) {
     (format!("layer.{layer}.{THROUGHPUT}"), power)
 }
 
-/// The line of a web, whose settings change.
-struct LineChanges<'a> {
-    web: OpenWeb<'a>,
-}
-
 /// Keys that change together, each with the power of the factor by which it changes.
 type KeyPowers = Vec<(String, f64)>;
 
-impl LineChanges<'_> {
+impl WebToChange<'_> {
     fn spec(&self) -> &WebSpec {
-        self.web.base.spec()
+        self.base.spec()
     }
 
-    fn changes(&self) -> Vec<Change> {
+    /// The changes of the settings of the line.
+    pub(super) fn changes_of_line(&self) -> Vec<Change> {
         let (groups, all) = (self.equal_layers(), Vec::new());
         let of_each = |layers: &[usize], keys: &dyn Fn(usize) -> KeyPowers| {
             vec![layers.iter().flat_map(|layer| keys(*layer)).collect::<KeyPowers>()]
@@ -71,7 +63,7 @@ impl LineChanges<'_> {
         if self.spec().flies() {
             let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
             // The spinline decides the titre.
-            if self.web.base.number_of_cases("spinline.throughput").is_none() {
+            if self.base.number_of_cases("spinline.throughput").is_none() {
                 settings.push((setting::TITRE, &all, of_each(&every, &titre)));
             }
             settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
@@ -83,7 +75,8 @@ impl LineChanges<'_> {
                 settings.push((setting::TITRE, named(group), of_each(group, &titre)));
             }
         }
-        let changes = settings.iter().flat_map(|(setting, layers, ways)| self.change(*setting, layers, ways));
+        let changes =
+            settings.iter().flat_map(|(setting, layers, ways)| self.changes_of(*setting, layers, ways));
         changes.filter(|change| !leads_outside(self.spec(), &change.experiment.spec)).collect()
     }
 
@@ -174,9 +167,9 @@ impl LineChanges<'_> {
 
     /// The value of a key.
     fn number(&self, name: &str, key: &VariedKey) -> Option<f64> {
-        let number = self.web.base.value(key);
+        let number = self.base.value(key);
         if !number.is_nan() && !name.starts_with("layer.") {
-            return self.web.base.number_of_cases(name);
+            return self.base.number_of_cases(name);
         }
         if !number.is_nan() {
             return Some(number);
@@ -188,11 +181,11 @@ impl LineChanges<'_> {
 
     /// The webs with less and with more of a setting, in the first of some ways in which both can be made;
     /// none if there is no such way.
-    fn change(&self, setting: Setting, layers: &[usize], ways: &[KeyPowers]) -> Vec<Change> {
+    fn changes_of(&self, setting: Setting, layers: &[usize], ways: &[KeyPowers]) -> Vec<Change> {
         let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
             let known: Vec<(VariedKey, f64, f64)> = (way.iter())
                 .map(|(name, power)| {
-                    let key = self.web.base.varied(name).ok()?;
+                    let key = self.base.varied(name).ok()?;
                     let number = self.number(name, &key).filter(|number| *number != 0.0)?;
                     Some((key, number, *power))
                 })
@@ -230,7 +223,7 @@ impl LineChanges<'_> {
             (key.clone(), to)
         };
         let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
-        let mut made = self.web.with(&values).ok()?;
+        let mut made = self.with(&values).ok()?;
         let belt = made.spec.belt_speed_for(self.weight());
         let slowest = made.spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
@@ -238,11 +231,11 @@ impl LineChanges<'_> {
         }
         made.spec.set_belt_speed(belt).ok()?;
         let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
-            (*power != 0.0 && from != to).then(|| self.web.changed_key(key, [*from, *to]))
+            (*power != 0.0 && from != to).then(|| self.changed_key(key, [*from, *to]))
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
         let new = self.settings_of(&values);
-        (!keys.is_empty()).then(|| self.web.change((setting, layers.to_vec()), keys, new, Ok(made)))
+        (!keys.is_empty()).then(|| self.change((setting, layers.to_vec()), keys, new, Ok(made)))
     }
 
     /// Whether the file says the throughput of a layer itself, so that it holds.
@@ -250,18 +243,18 @@ impl LineChanges<'_> {
         let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
         let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
         let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
-        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.web.base.value(key)))
+        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
     }
 
     /// The keys and values that make a changed web of the file: the values, and what else has to be held.
     fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
         let spec = self.spec();
         let is_new =
-            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.web.base.value(key));
+            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.base.value(key));
         let mut new: Vec<(String, String)> =
-            values.iter().filter(is_new).map(|value| self.web.setting(value)).collect();
+            values.iter().filter(is_new).map(|value| self.setting(value)).collect();
         if spec.basis_weight.is_none() {
-            let weight = self.web.base.short_name("layer.1.line.basis_weight").to_owned();
+            let weight = self.base.short_name("layer.1.line.basis_weight").to_owned();
             new.push((weight, Dimension::BasisWeight.written(self.weight())));
         }
         new
@@ -277,17 +270,17 @@ impl LineChanges<'_> {
 }
 
 /// A web that is changed.
-pub(super) struct OpenWeb<'a> {
+pub(super) struct WebToChange<'a> {
     pub(super) base: &'a WebBase,
     /// What is set beside the file.
     pub(super) set: &'a [(String, String)],
     pub(super) resources: &'a Resources,
 }
 
-impl OpenWeb<'_> {
+impl WebToChange<'_> {
     /// The web with these values of keys.
     pub(super) fn with(&self, values: &[(VariedKey, f64)]) -> Result<WebFile, Error> {
-        self.base.changed(values, self.resources)
+        self.base.with(values, None, self.resources)
     }
 
     /// What has changed of a key, with the name that it has in the file.
@@ -312,8 +305,10 @@ impl OpenWeb<'_> {
         new: Vec<(String, String)>,
         made: Result<WebFile, Error>,
     ) -> Change {
-        let is_replaced = |set: &str| new.iter().any(|(key, _)| replaces(key, set.trim()));
-        let before = self.set.iter().filter(|(key, _)| !is_replaced(key));
+        let names: Vec<&str> = new.iter().map(|(key, _)| &**key).collect();
+        let is_displaced = displaced_by(&names, self.base.is_layered());
+        let stays = |set: &str| !names.contains(&set) && !is_displaced(set);
+        let before = self.set.iter().filter(|(key, _)| stays(self.base.short_name(key.trim())));
         let before = before.map(|(key, value)| (key.clone(), Entry::plain_override(value)));
         let set = before.chain(new.iter().cloned()).collect();
         let (spec, refusal) = match made {

@@ -17,13 +17,13 @@ pub use points::StudyNote;
 pub use write::{differences, starter_study};
 
 use super::document::{self, Document};
-use super::written_values::sorted;
+use super::written_values::{WrittenValue, sorted};
 use super::{Overrides, Resources, file};
 use crate::experiment::{Experiment, Quantity, Replicates, STUDY, Study};
 use crate::fibre::case::keys::{self, VariedKey};
 use crate::fibre::{Note, Remark};
 use crate::ground::error::Place;
-use crate::ground::{Error, Fault, FileKind, Finding, Position, Removed};
+use crate::ground::{Error, Fault, FileKind, Finding, Position, Problem, Removed};
 use plan::Plan;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -79,7 +79,14 @@ impl StudyChanges<'_> {
 /// No changes, with this number of points requested.
 impl From<Option<u64>> for StudyChanges<'_> {
     fn from(points: Option<u64>) -> Self {
-        Self { points, replicates: None, set: Overrides::new(&[], "override") }
+        Self { points, ..Overrides::new(&[], "override").into() }
+    }
+}
+
+/// Keys that are the same at all points, and no other changes.
+impl<'a> From<Overrides<'a>> for StudyChanges<'a> {
+    fn from(set: Overrides<'a>) -> Self {
+        Self { points: None, replicates: None, set }
     }
 }
 
@@ -164,7 +171,7 @@ fn open_base(
     resources: &Resources,
 ) -> Result<Box<dyn Base>, Error> {
     Ok(match kind {
-        FileKind::Web => Box::new(web::WebBase::new(text, name.to_owned(), set, resources)?),
+        FileKind::Web => Box::new(web::WebBase::new(&text, name.to_owned(), &set, resources)?),
         _ => Box::new(base::CaseBase::new(text, name, &set, kind, resources)?),
     })
 }
@@ -210,6 +217,22 @@ trait Base {
 
     /// The file of what is varied, and what it does not have of the keys that are the same at all points.
     fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>);
+}
+
+/// Values of keys as if they were written at a place.
+///
+/// # Errors
+/// Those that their keys do not take.
+fn written_at(values: &[(VariedKey, f64)], at: &Place) -> Result<Vec<(String, WrittenValue)>, Error> {
+    let (mut written, mut problems) = (Vec::new(), Vec::<Problem>::new());
+    for (key, value) in values {
+        let (name, shown) = (key.name.clone(), Some(key.shown(*value)));
+        match key.value(*value) {
+            Ok(value) => written.push((name, WrittenValue::new(at, shown, value))),
+            Err(what) => problems.push(Finding { place: at.clone(), key: name, value: shown, what }),
+        }
+    }
+    if problems.is_empty() { Ok(written) } else { Err(problems.into()) }
 }
 
 /// An experiment, and the remarks on it.

@@ -1,29 +1,25 @@
 //! The web that a study varies, with the cases that it flies.
 
-use super::super::web::{WebFile, flies_none, is_of_case, parse_set, replaces, write_web_to_vary};
-use super::super::written_values::WrittenValues;
-use super::super::{Overrides, Resources, document};
+use super::super::web::{WebFile, WrittenWeb, flies_none, is_of_case, write_web_to_vary};
+use super::super::written_values::{WrittenValue, WrittenValues};
+use super::super::{Overrides, Resources};
 use super::plan::Plan;
-use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER};
+use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, written_at};
 use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value, VariedKey};
-use crate::ground::Error;
 use crate::ground::error::{Place, nearest_word};
+use crate::ground::{Error, Problem};
 use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
 use crate::simulation::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {
-    text: String,
     /// The path of its file.
     path: String,
-    /// What is the same at all points, each with the word for where it is set: of the study file, and asked
-    /// for from outside.
-    set: Vec<(Vec<(String, String)>, String)>,
+    /// What is written, with what is the same at all points.
+    written: WrittenWeb,
     /// Whether it flies a case.
     flies: bool,
-    /// Whether its file has a list of layers.
-    is_layered: bool,
     spec: WebSpec,
     /// What is written of the filament of each layer.
     filaments: Vec<Option<WrittenValues>>,
@@ -33,45 +29,36 @@ impl WebBase {
     /// * `path` – of the file
     /// * `set` – keys that are the same at all points: those of the study file, and those that replace them
     pub(super) fn new(
-        text: String,
+        text: &str,
         path: String,
-        set: [Overrides<'_>; 2],
+        set: &[Overrides<'_>],
         resources: &Resources,
     ) -> Result<Self, Error> {
-        let (WebFile { spec, .. }, filaments) = parse_set(&text, &path, &set, resources)?;
-        let flies = spec.layers.iter().any(|layer| matches!(layer.source, LaydownSource::Case { .. }));
-        let is_layered = document::has_layers(&text);
-        let set = set.map(|Overrides { values, word, .. }| (values.to_vec(), word.to_owned())).to_vec();
-        Ok(Self { text, path, set, flies, is_layered, spec, filaments })
+        let written = WrittenWeb::open(text, &path, set)?;
+        let (WebFile { spec, .. }, filaments) = written.clone().read(resources)?;
+        Ok(Self { path, written, flies: spec.flies(), spec, filaments })
     }
 
     /// The web with these values of keys, and with a seed of its own if there is one.
-    pub(super) fn file(
+    pub(super) fn with(
         &self,
         values: &[(VariedKey, f64)],
         seed: Option<u64>,
         resources: &Resources,
     ) -> Result<WebFile, Error> {
-        let value = |(key, value): &(VariedKey, f64)| (key.name.clone(), key.exact(*value));
-        let seed = seed.map(|seed| ("web.seed".to_owned(), seed.to_string()));
-        let point: Vec<(String, String)> = values.iter().map(value).chain(seed).collect();
-        let set = self.set.iter().map(|(values, word)| Overrides::new(values, word));
-        let set: Vec<Overrides<'_>> = set.chain([Overrides::new(&point, "point")]).collect();
-        Ok(parse_set(&self.text, &self.path, &set, resources)?.0)
-    }
-
-    /// [`WebBase::file`] with values that take the place of what is set in other words.
-    pub(super) fn changed(
-        &self,
-        values: &[(VariedKey, f64)],
-        resources: &Resources,
-    ) -> Result<WebFile, Error> {
-        let point = |key: &str| values.iter().any(|(value, _)| replaces(&value.name, key.trim()));
-        let without = |set: &[(String, String)]| set.iter().filter(|(key, _)| !point(key)).cloned().collect();
-        let set = self.set.iter().map(|(values, word)| (without(values), word.clone())).collect();
-        let (text, path) = (self.text.clone(), self.path.clone());
-        let (spec, filaments) = (self.spec.clone(), Vec::new());
-        Self { text, path, set, spec, filaments, ..*self }.file(values, None, resources)
+        let at = Place::Override("point".to_owned());
+        let seed =
+            seed.map(|seed| ("web.seed".to_owned(), WrittenValue::new(&at, seed.to_string(), seed.into())));
+        let mut changes: Vec<_> = written_at(values, &at)?.into_iter().chain(seed).collect();
+        changes.iter_mut().for_each(|(name, _)| *name = self.short_name(name).to_owned());
+        let no_layer = |(name, value): &(String, WrittenValue)| {
+            let what = self.written.no_layer(name)?;
+            Some(Problem { place: at.clone(), key: name.clone(), value: value.shown.clone(), what })
+        };
+        match changes.iter().find_map(no_layer) {
+            Some(problem) => Err(vec![problem].into()),
+            None => Ok(self.written.with(&changes).read(resources)?.0),
+        }
     }
 
     /// The web before its keys vary.
@@ -84,9 +71,14 @@ impl WebBase {
         &self.path
     }
 
+    /// Whether its file has a list of layers.
+    pub(super) fn is_layered(&self) -> bool {
+        self.written.is_layered()
+    }
+
     /// The name of a key in its file, which has no number of a layer where the file has no list of them.
     pub(super) fn short_name<'n>(&self, full: &'n str) -> &'n str {
-        full.strip_prefix("layer.1.").filter(|_| !self.is_layered).unwrap_or(full)
+        full.strip_prefix("layer.1.").filter(|_| !self.is_layered()).unwrap_or(full)
     }
 
     /// The number of a key of the cases, if all that are flown have the same.
@@ -162,7 +154,7 @@ impl Base for WebBase {
         seed: Option<u64>,
         resources: &Resources,
     ) -> ExperimentWithNotes {
-        let WebFile { spec, notes, .. } = self.file(values, seed, resources)?;
+        let WebFile { spec, notes, .. } = self.with(values, seed, resources)?;
         Ok((Experiment::Web(spec), notes))
     }
 

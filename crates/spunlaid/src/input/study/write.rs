@@ -1,7 +1,7 @@
 //! Writes a study as a file, with every default.
 
 use super::super::source::fit;
-use super::super::write::{in_lines, lines, quoted};
+use super::super::write::{in_lines, lines, own_value, quoted};
 use super::super::{FORMAT_VERSION, Resources, file, kind_of, read_case, read_spinline, read_web};
 use super::{Base, open_base, parse_study};
 use crate::experiment::{Factor, Levels, Replicates, STUDY, Study};
@@ -19,7 +19,7 @@ use toml::de::{DeTable, DeValue};
 ///
 /// * `set` – the keys that are the same at all points, with their values as TOML
 pub(super) fn write_study(study: &Study, set: &[(String, String)]) -> String {
-    let lines = |table: &str| in_lines(&lines(&STUDY, table, study, |_, value| value));
+    let lines = |table: &str| in_lines(&lines(&STUDY, table, |key| own_value(key, study)));
     let mut text = format!("version = {FORMAT_VERSION}\n{}", lines(""));
     let Replicates { until, .. } = &study.replicates;
     if !until.is_empty() {

@@ -2,13 +2,12 @@
 //! that of a case which the layer names, or in both; what the file of the web says takes the place of what
 //! the other one says.
 
+use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
-use super::super::{Overrides, document, file, open_values};
 use super::read::{CASE, Reading, THROUGHPUT};
 use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
 use crate::fibre::{Case, Note, Remark};
-use crate::ground::error::Place;
-use crate::ground::{Dimension, Error, Fault, FileKind, Problem};
+use crate::ground::{Dimension, Error, Fault, Problem};
 use crate::simulation::layers::keys::{EITHER, WEB};
 use crate::simulation::{LaydownSource, LayerSpec, WebKey};
 use std::path::{Path, PathBuf};
@@ -61,9 +60,8 @@ impl Filament {
 
     /// Sets a number that follows from a key of the web.
     fn derive(&mut self, name: &'static str, dimension: Dimension, number: f64, from: (&str, &WrittenValue)) {
-        let shown = Some(format!("{} (from {})", dimension.pretty(number), from.0));
-        let value = Some(Value::Number(number));
-        self.values.set(name, WrittenValue { place: from.1.place.clone(), shown, value });
+        let shown = format!("{} (from {})", dimension.pretty(number), from.0);
+        self.values.set(name, WrittenValue::new(&from.1.place, shown, number.into()));
     }
 
     /// A case of which nothing but the size of the filament is known.
@@ -107,27 +105,14 @@ impl Filament {
 
 impl Reading<'_> {
     /// The filament of a layer; none if the file that it names cannot be read, which is noted.
-    ///
-    /// # Errors
-    /// If that file cannot be read for another reason than what is in it.
-    pub(super) fn filament(&mut self, prefix: &str) -> Result<Option<Filament>, Error> {
-        let named = format!("{prefix}{CASE}");
-        let (values, path) = if self.is_written(&named) {
-            let Some(path) = self.path(&named) else { return Ok(None) };
-            match self.named_case(prefix, &path) {
-                Ok(values) => (values, path),
-                Err(Error::File(error)) => {
-                    self.key_values.reject(&named, error.into());
-                    return Ok(None);
-                }
-                Err(Error::Rejected(problems)) => {
-                    self.key_values.problems.extend(problems);
-                    return Ok(None);
-                }
-                Err(other) => return Err(other),
-            }
+    pub(super) fn filament(&mut self, prefix: &str) -> Option<Filament> {
+        let (values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
+            let (path, named) = self.named.remove(prefix)?;
+            let mut values = named.map_err(|problems| self.key_values.problems.extend(problems)).ok()?;
+            self.key_values.problems.append(&mut values.problems);
+            (values, path)
         } else {
-            (WrittenValues::new(self.key_values.whole()), self.file.clone())
+            (WrittenValues::new(self.key_values.whole()), self.path.clone())
         };
         let mut filament = Filament { values, path, replaced: Vec::new() };
         let is_of_case = |name: &str| keys::find(name).is_some();
@@ -141,7 +126,7 @@ impl Reading<'_> {
             self.give(&mut filament, prefix, key);
         }
         complete_for_one_air(&mut filament);
-        Ok(Some(filament))
+        Some(filament)
     }
 
     /// Takes what a key of the web gives of the case, which the same file must not say too.
@@ -177,29 +162,6 @@ impl Reading<'_> {
             // The belt follows when all layers are known.
             (None, _) => filament.values.excuse("belt.speed"),
         }
-    }
-
-    /// The values of the case that a layer names, with what is set for it.
-    fn named_case(&mut self, prefix: &str, path: &Path) -> Result<WrittenValues, Error> {
-        let text = file::read(path, FileKind::Case)?;
-        let set: Vec<Vec<(String, String)>> = self.set.iter().map(|set| self.set_for(prefix, set)).collect();
-        let set: Vec<Overrides<'_>> =
-            (set.iter().zip(self.set)).map(|(values, set)| Overrides::new(values, set.word)).collect();
-        let mut values = document::read(&OF_CASE, &text, &path.display().to_string(), &set)?;
-        self.key_values.problems.append(&mut values.problems);
-        Ok(values)
-    }
-
-    /// What is set of the case of a layer, by the names of a case.
-    fn set_for(&self, prefix: &str, set: &Overrides<'_>) -> Vec<(String, String)> {
-        let name = self.key_values.text(&format!("{prefix}name")).map(|name| format!("layer.{name}."));
-        let of_case = |(key, value): &(String, String)| {
-            let key = key.trim();
-            let here = [Some(prefix), name.as_deref()].into_iter().flatten();
-            let key = here.filter_map(|start| key.strip_prefix(start)).next().unwrap_or(key);
-            keys::find(key).map(|_| (key.to_owned(), value.clone()))
-        };
-        set.values.iter().filter_map(of_case).collect()
     }
 
     /// The case of a filament, checked, as the source of its layer; none if there is a problem with it, which is noted.
@@ -254,9 +216,8 @@ impl Reading<'_> {
         else {
             return;
         };
-        let is_set = |written_value: &WrittenValue| matches!(written_value.place, Place::Override(_));
         if (own / used - 1.0).abs() > ROUNDED
-            && !(by.ends_with(name) && self.key_values.get(by).is_some_and(is_set))
+            && !(by.ends_with(name) && self.key_values.get(by).is_some_and(WrittenValue::is_set))
         {
             let [used, own] = [used, *own].map(|value| dimension.pretty(value));
             let (case, of_case) = (path.display(), key.name);
@@ -326,9 +287,8 @@ impl Reading<'_> {
 fn complete_for_one_air(filament: &mut Filament) {
     let needed = |(name, written): (&str, &WrittenValue)| {
         let (needed, value) = keys::find(name)?.relations.with_in_one_air?;
-        let is_set = matches!(written.place, Place::Override(_)) && filament.values.get(needed).is_none();
-        let value = Some(Value::Text(value.to_owned()));
-        is_set.then(|| (needed, WrittenValue { place: written.place.clone(), shown: None, value }))
+        let is_needed = written.is_set() && filament.values.get(needed).is_none();
+        is_needed.then(|| (needed, WrittenValue::new(&written.place, None, value.into())))
     };
     let needed: Vec<_> = filament.values.all().filter_map(needed).collect();
     needed.into_iter().for_each(|(name, written_value)| filament.values.set(name, written_value));

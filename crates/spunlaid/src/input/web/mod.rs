@@ -1,34 +1,35 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 //!
 //! ```text
-//! file, and the case that it names → values of one document ┬ web/open.rs: layers, sheet, belt            
-//!                                                           └ filament.rs: the case of a filament,
-//!                                                             of a web, or for `spunlaid run`, `spin`, `air`
+//! file, and the cases that it names → `WrittenWeb` ┬ web/open.rs: layers, sheet, belt
+//!                                                  └ filament.rs: the case of a filament,
+//!                                                    of a web, or for `spunlaid run`, `spin`, `air`
 //! ```
 
 mod check;
 mod filament;
 mod guessed;
-mod of_case;
 mod open;
 mod read;
 mod sheet;
 mod write;
 
 pub(super) use guessed::Guess;
-pub(super) use of_case::{flies_none, is_of_case, replaces};
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 
-use super::written_values::WrittenValues;
+use super::overrides::no_entry;
+use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, Resources, document, file};
 use crate::fibre::Note;
-use crate::fibre::case::keys;
+use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
 use crate::ground::{Error, Fault, FileKind, Problem};
 use crate::simulation::WebSpec;
-use crate::simulation::layers::keys::WEB_FILE;
+use crate::simulation::layers::keys::{WEB, WEB_FILE};
 use crate::simulation::layers::web_key;
-use std::path::Path;
+use read::CASE;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// The file of a web, read.
 #[derive(Clone, Debug)]
@@ -61,22 +62,119 @@ pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<
 pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
     let (overrides, own) = (overrides.into(), Resources::default());
     let resources = overrides.resources.unwrap_or(&own);
-    parse_set(text, name, &[overrides], resources).map(|(file, _)| file)
+    WrittenWeb::open(text, name, &[overrides])?.read(resources).map(|(file, _)| file)
 }
 
-/// [`parse_web`] with what is set from several places, each of which replaces those before it; and what is
-/// written of the filament of each layer.
-pub(super) fn parse_set(
-    text: &str,
-    name: &str,
-    set: &[Overrides<'_>],
-    resources: &Resources,
-) -> Result<(WebFile, Vec<Option<WrittenValues>>), Error> {
-    let open = open::open(values(text, name, set)?, name, set, resources)?;
-    let filaments = open.filaments();
-    let (spec, notes) = open.spec()?;
-    let text = write_web(&spec);
-    Ok((WebFile { spec, notes, text }, filaments))
+/// What is written of a web: in its file, and in the cases that its layers name.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenWeb {
+    values: WrittenValues,
+    /// Its path.
+    path: PathBuf,
+    /// The named cases, or why they cannot be read, by what comes before the names of the layer's keys.
+    named: BTreeMap<String, NamedCase>,
+}
+
+/// The path of a case that a layer names, and what is written there.
+type NamedCase = (PathBuf, Result<WrittenValues, Vec<Problem>>);
+
+impl WrittenWeb {
+    /// * `set` – what is set from several places, each of which replaces those before it
+    ///
+    /// # Errors
+    /// If the text is no such file, or if a case cannot be read for another reason than what is in it.
+    pub(super) fn open(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<Self, Error> {
+        let values = values(text, name, set)?;
+        let mut web = Self { values, path: PathBuf::from(name), named: BTreeMap::new() };
+        for prefix in open::prefixes(&web.values) {
+            if let Some(path) = web.path_of_case(&prefix) {
+                let named = web.named_case(&prefix, &path)?;
+                web.named.insert(prefix, (path, named));
+            }
+        }
+        Ok(web)
+    }
+
+    /// The path of the case that a layer names, relative to the folder of the file.
+    fn path_of_case(&self, prefix: &str) -> Option<PathBuf> {
+        let written_value = self.values.get(&format!("{prefix}{CASE}"))?;
+        let Some(Value::Text(named)) = &written_value.value else { return None };
+        let folder = self.path.parent().filter(|_| !written_value.is_set());
+        Some(folder.map_or_else(|| PathBuf::from(named), |folder| folder.join(named)))
+    }
+
+    fn named_case(&self, prefix: &str, path: &Path) -> Result<Result<WrittenValues, Vec<Problem>>, Error> {
+        let read = |text: String| document::read(&OF_CASE, &text, &path.display().to_string(), &[]);
+        let mut case = match file::read(path, FileKind::Case).and_then(read) {
+            Ok(case) => case,
+            Err(Error::Rejected(problems)) => return Ok(Err(problems)),
+            Err(Error::File(error)) => {
+                return Ok(Err(vec![self.values.problem(&format!("{prefix}{CASE}"), error.into())]));
+            }
+            Err(other) => return Err(other),
+        };
+        let set = || self.values.set.iter().filter_map(|full| Some((full, name_in_case(prefix, full)?)));
+        case = case
+            .with(set().filter_map(|(full, name)| Some((name.to_owned(), self.values.get(full)?.clone()))));
+        set()
+            .filter(|(full, _)| self.values.get(full).is_none())
+            .for_each(|(_, name)| drop(case.remove(name)));
+        Ok(Ok(case))
+    }
+
+    /// The same web with other values of keys.
+    pub(super) fn with(&self, changes: &[(String, WrittenValue)]) -> Self {
+        let mut web = Self { values: self.values.with(changes.iter().cloned()), ..self.clone() };
+        for (prefix, (_, named)) in &mut web.named {
+            let of_case = |(full, value): &(String, WrittenValue)| {
+                Some((name_in_case(prefix, full)?.to_owned(), value.clone()))
+            };
+            if let Ok(case) = named {
+                *case = case.with(changes.iter().filter_map(of_case));
+            }
+        }
+        web
+    }
+
+    /// Whether its file has a list of layers, whose numbers stand in the names of their keys.
+    pub(super) fn is_layered(&self) -> bool {
+        self.values.get("layer").is_some()
+    }
+
+    /// What is wrong with the full name of a key of a layer that is not there.
+    pub(super) fn no_layer(&self, full: &str) -> Option<Fault> {
+        let (number, _) = full.strip_prefix("layer.")?.split_once('.')?;
+        let count = self.values.number("layer").map_or(0, |count| count as u64);
+        let is_there = number.parse().is_ok_and(|number: u64| (1..=count).contains(&number));
+        WEB.list("layer").filter(|_| !is_there).map(|list| no_entry("layer", count, list))
+    }
+
+    /// The web; and what is written of the filament of each layer.
+    ///
+    /// # Errors
+    /// Every problem with it.
+    pub(super) fn read(self, resources: &Resources) -> Result<(WebFile, Vec<Option<WrittenValues>>), Error> {
+        let open = open::open(self, resources);
+        let filaments = open.filaments();
+        let (spec, notes) = open.spec()?;
+        let text = write_web(&spec);
+        Ok((WebFile { spec, notes, text }, filaments))
+    }
+}
+
+/// The name of a key of the case of a layer, by its full name in the file of the web.
+fn name_in_case<'n>(prefix: &str, full: &'n str) -> Option<&'n str> {
+    keys::find(full.strip_prefix(prefix).unwrap_or(full)).map(|key| key.name)
+}
+
+/// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
+pub(super) fn is_of_case(name: &str, flies: bool) -> bool {
+    keys::find(name).is_some() && (flies || WEB.find(name).is_none())
+}
+
+/// Why a key of a filament cannot be set or varied, in words.
+pub(super) fn flies_none() -> String {
+    "is a key of a filament that flies, and this web flies none".to_owned()
 }
 
 /// What is written of the filament of a web, as the values of a case.
@@ -89,9 +187,9 @@ pub(super) fn filament(
     set: &[Overrides<'_>],
     resources: &Resources,
 ) -> Result<WrittenValues, Error> {
-    let values = values(text, name, set)?;
-    let place = values.whole();
-    open::open(values, name, set, resources)?.filament()?.ok_or_else(|| {
+    let web = WrittenWeb::open(text, name, set)?;
+    let place = web.values.whole();
+    open::open(web, resources).filament()?.ok_or_else(|| {
         let fault = Fault::new(
             "flies no filament: how its fibres lie is known",
             "to lay the web, read the file as that of a web",

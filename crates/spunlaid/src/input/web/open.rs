@@ -1,19 +1,17 @@
 //! Makes the web of its file: layers, sheet and belt from what is written, then each filament, and all of it
 //! checked together.
 
+use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
-use super::super::{Overrides, Resources};
 use super::filament::Filament;
-use super::flies_none;
 use super::read::{CASE, Reading, THROUGHPUT, as_web};
-use crate::fibre::case::keys::{self, Value};
+use super::{WrittenWeb, flies_none};
+use crate::fibre::case::keys;
 use crate::fibre::{Note, Remark};
-use crate::ground::error::Place;
 use crate::ground::{Error, Fault};
 use crate::simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
 use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::map::Filaments;
-use std::path::PathBuf;
 
 /// The file of a web, read as far as it goes before its filaments are spun and flown.
 pub(super) struct OpenWeb<'a> {
@@ -23,38 +21,21 @@ pub(super) struct OpenWeb<'a> {
 }
 
 /// Reads the layers, the sheet, and what is written of the filaments.
-///
-/// # Errors
-/// A case that cannot be read for another reason than what is in it.
-pub(super) fn open<'a>(
-    key_values: WrittenValues,
-    name: &str,
-    set: &'a [Overrides<'a>],
-    resources: &'a Resources,
-) -> Result<OpenWeb<'a>, Error> {
-    let (notes, basis_weight_key) = (Vec::new(), String::new());
-    let prefixes = prefixes(&key_values);
-    let mut reading = Reading {
-        key_values,
-        file: PathBuf::from(name),
-        set,
-        resources,
-        notes,
-        prefixes: prefixes.clone(),
-        basis_weight_key,
-    };
-    let (mut web, mut layers) = (WebSpec::unknown(), Vec::new());
-    for prefix in &prefixes {
-        layers.push(reading.layer(prefix)?);
-    }
+pub(super) fn open(written: WrittenWeb, resources: &Resources) -> OpenWeb<'_> {
+    let WrittenWeb { values: key_values, path, named } = written;
+    let (notes, basis_weight_key, prefixes) = (Vec::new(), String::new(), prefixes(&key_values));
+    let mut reading =
+        Reading { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
+    let mut web = WebSpec::unknown();
+    let mut layers: Vec<Layer> = prefixes.iter().map(|prefix| reading.layer(prefix)).collect();
     reading.fill(&mut web, "web", "web.", false);
     reading.fill(&mut web, "fabric", "fabric.", false);
     reading.lay_weight(&mut web, &mut layers);
-    Ok(OpenWeb { reading, web, layers })
+    OpenWeb { reading, web, layers }
 }
 
 /// What comes before the names of each layer's keys.
-fn prefixes(key_values: &WrittenValues) -> Vec<String> {
+pub(super) fn prefixes(key_values: &WrittenValues) -> Vec<String> {
     match key_values.get("layer") {
         None => vec![String::new()],
         Some(_) => {
@@ -145,10 +126,10 @@ impl OpenWeb<'_> {
 
 impl Reading<'_> {
     /// A layer. Its values are NaN where there is a problem with them, which is noted.
-    fn layer(&mut self, prefix: &str) -> Result<Layer, Error> {
+    fn layer(&mut self, prefix: &str) -> Layer {
         let way = self.way(prefix);
         let by_case = way == Way::Fly;
-        let filament = if by_case { self.filament(prefix)? } else { None };
+        let filament = if by_case { self.filament(prefix) } else { None };
         if by_case && filament.is_none()
             || way == Way::Unknown && self.key_values.is_excused(&format!("{prefix}laydown."))
         {
@@ -174,7 +155,7 @@ impl Reading<'_> {
             spec.feed_speed = throughput / spec.linear_density();
         }
         let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
-        Ok(Layer { spec, way, filament, spun })
+        Layer { spec, way, filament, spun }
     }
 
     /// Excuses that the numbers are missing which a case would give.
@@ -237,8 +218,7 @@ impl Reading<'_> {
             }
         };
         if let Some((key, written_value)) = own {
-            let is_set = matches!(written_value.place, Place::Override(_));
-            let fault = match is_set {
+            let fault = match written_value.is_set() {
                 true => Fault::new(flies_none(), "leave it out"),
                 false => Fault::excludes(&format!("{prefix}{other}"), ONE_SOURCE),
             };
@@ -257,15 +237,5 @@ impl Reading<'_> {
         let found = self.key_values.all().filter(|(full, _)| is_of_flight(full).is_some());
         let first = found.min_by(|a, b| a.1.place.cmp(&b.1.place))?;
         Some((first.0.to_owned(), first.1.clone()))
-    }
-
-    /// The path that a key names: of the file, relative to its folder.
-    pub(super) fn path(&self, key: &str) -> Option<PathBuf> {
-        let written_value = self.key_values.get(key)?;
-        let Some(Value::Text(named)) = &written_value.value else { return None };
-        Some(match &written_value.place {
-            Place::Override(_) => PathBuf::from(named),
-            _ => self.file.parent().map_or_else(|| PathBuf::from(named), |folder| folder.join(named)),
-        })
     }
 }

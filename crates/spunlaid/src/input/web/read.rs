@@ -1,7 +1,8 @@
 //! Makes the web from the written values, from what the flown cases give, and from the defaults.
 
+use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues};
-use super::super::{Overrides, Resources};
+use super::NamedCase;
 use crate::fibre::Note;
 use crate::fibre::case::keys::Value;
 use crate::fibre::case::unusual;
@@ -11,6 +12,7 @@ use crate::simulation::layers::keys::{NUMBERS, WEB, in_rows};
 use crate::simulation::{LaydownSource, LayerSpec, WebKey, WebSpec};
 use crate::web::map::Filaments;
 use crate::web::{Defect, Row};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The keys of a file that has the case of a layer, of the throughput of a hole, and of the belt on which all
@@ -23,9 +25,9 @@ pub(super) const BELT_SPEED: &str = "line.belt_speed";
 pub(super) struct Reading<'a> {
     pub(super) key_values: WrittenValues,
     /// Its path.
-    pub(super) file: PathBuf,
-    /// What is set from outside, which the named cases take too.
-    pub(super) set: &'a [Overrides<'a>],
+    pub(super) path: PathBuf,
+    /// The cases that the layers name.
+    pub(super) named: BTreeMap<String, NamedCase>,
     /// Files and tensions of the cases.
     pub(super) resources: &'a Resources,
     pub(super) notes: Vec<Note>,
@@ -124,21 +126,10 @@ impl Reading<'_> {
                 let (_, short) = name.rsplit_once('.').unwrap_or(("", name));
                 self.is_written(&format!("{before}{short}"))
             };
-            let is_given = || key.relations.of_all_layers || WEB.is_given(key.name, is_there);
             let written = self.written(&full).map(|written_value| written_value.value.clone());
-            let set = match (written, key.default_in(web)) {
-                (Some(None), _) => Ok(()),
-                (Some(Some(value)), _) => match key.beside_alternative(is_there) {
-                    Some(fault) => Err(fault),
-                    // They are settled when all else is known.
-                    None if key.read_last => Ok(()),
-                    None => key.apply(web, &value),
-                },
-                (None, Some(text)) => key.set(web, text).map_err(|problem| problem.what),
-                (None, None) if !key.is_needed(web) || is_given() => Ok(()),
-                (None, None) => Err(Fault::missing(&without_numbers(before), &key.example())),
-            };
-            if let Err(fault) = set
+            let missing = |_: &WebSpec| Fault::missing(&without_numbers(before), &key.example());
+            let missing = |web: &WebSpec| (!key.relations.of_all_layers).then(|| missing(web));
+            if let Err(fault) = WEB.fill((key, &mut *web), written, is_there, missing)
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {
                 self.key_values.reject(&full, fault);

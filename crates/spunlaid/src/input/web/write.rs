@@ -1,9 +1,9 @@
 //! Writes a web as a file that reads back to the same bits.
 
 use super::super::FORMAT_VERSION;
-use super::super::write::{in_lines, lines, lines_of_case, toml_value};
+use super::super::write::{in_lines, lines, lines_of_case, own_value};
 use super::super::written_values::WrittenValues;
-use crate::fibre::case::keys::{self, Key};
+use crate::fibre::case::keys;
 use crate::simulation::layers::keys::WEB;
 use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::Defect;
@@ -24,15 +24,10 @@ pub fn write_web(spec: &WebSpec) -> String {
 ///
 /// * `filaments` – what is written of that of each layer
 pub(in super::super) fn write_web_to_vary(spec: &WebSpec, filaments: &[Option<WrittenValues>]) -> String {
-    let lines = |_: &LayerSpec, number: usize, table: &str| {
-        let values = filaments.get(number).and_then(Option::as_ref);
-        let line = |key: &Key| {
-            let value = values?.get(key.name)?.value.clone()?;
-            Some(format!("{} = {}", key.short(), toml_value(&key.kind, value)))
-        };
-        keys::keys_of_table(table).filter_map(line).collect()
+    let lines_of_case = |_: &LayerSpec, number: usize, table: &str| {
+        lines(&keys::CASE, table, |key| filaments.get(number)?.as_ref()?.get(key.name)?.value.clone())
     };
-    write_with(spec, &lines)
+    write_with(spec, &lines_of_case)
 }
 
 /// The lines of a table of the case that a layer flies, whose number from 0 is given.
@@ -92,7 +87,7 @@ fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
 type Tables = Vec<(&'static str, Vec<String>)>;
 
 fn lines_of_web(spec: &WebSpec, table: &str) -> Vec<String> {
-    lines(&WEB, table, spec, |_, value| value)
+    lines(&WEB, table, |key| own_value(key, spec))
 }
 
 /// Tables as text, without those that are empty; `[line]` is always there, because rows may follow.

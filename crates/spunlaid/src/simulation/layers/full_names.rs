@@ -1,8 +1,8 @@
 //! Keys of a web by their full names, which have the numbers of a layer and of a row: `layer.2.line.rows.1.pitch`.
 
-use super::keys::{WEB, WebKey};
+use super::keys::{WEB, WEB_FILE, WebKey};
 use super::{LayerSpec, WebSpec};
-use crate::fibre::case::keys::{CASE, Value};
+use crate::fibre::case::keys::Value;
 use crate::web::map::Filaments;
 
 /// The key of a full name, `layer.2.line.rows.1.pitch`.
@@ -13,23 +13,38 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
     WEB.find(&name).or_else(|| WEB.find(in_layer()?)).or_else(|| WEB.find(in_named_layer()?))
 }
 
-/// Whether one of two keys of a case or a web gives the value of the other, by their full names.
-pub(crate) fn are_alternatives(one: &str, other: &str) -> bool {
-    let (key, found) = match [one, other].map(web_key) {
-        [Some(key), Some(found)] => (key, found),
-        [Some(key), None] => return WEB.gives(key.name, other),
-        [None, Some(found)] => return WEB.gives(found.name, one),
-        [None, None] => return CASE.are_alternatives(one, other),
-    };
-    let is_of_same_layer = || one.strip_suffix(key.name) == other.strip_suffix(found.name);
-    WEB.are_alternatives(key.name, found.name) && (key.relations.of_all_layers || is_of_same_layer())
+/// Says of a key whether these, which are set, take its place: they give its value in other words, or are it for
+/// all layers at once. All are keys of a case or a web by their full names.
+///
+/// * `layered` – whether the file has a list of layers
+pub(crate) fn displaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&str) -> bool + 's {
+    let names: Vec<(&str, String)> = set.iter().map(|full| layer_and_name(full)).collect();
+    let of_all_layers = |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers);
+    // Each with the layer in which it is displaced; with none, in all.
+    let mut displaced: Vec<(Option<&str>, String)> = Vec::new();
+    for (layer, _) in &names {
+        let here: Vec<&str> = names.iter().filter(|(of, _)| of == layer).map(|(_, name)| &**name).collect();
+        let common: Vec<&str> = here.iter().copied().filter(of_all_layers).collect();
+        let everywhere = WEB_FILE.replaced_by(&common);
+        let is_common = layered && layer.is_empty();
+        for name in WEB_FILE.replaced_by(&here).into_iter().chain(here.into_iter().filter(|_| is_common)) {
+            let in_all = is_common || of_all_layers(&name) || everywhere.contains(&name);
+            displaced.push(((!in_all).then_some(*layer), name.to_owned()));
+        }
+    }
+    move |other| {
+        let (layer, name) = layer_and_name(other);
+        let is_it =
+            |(of, displaced): &(Option<&str>, String)| *displaced == name && of.is_none_or(|of| of == layer);
+        !set.contains(&other) && displaced.iter().any(is_it)
+    }
 }
 
-/// Whether keys of a case or a web give all that another one gives, by their full names, and so replace it.
-pub(crate) fn is_replaced(other: &str, names: &[&str]) -> bool {
-    let is_of_web = |name: &str| web_key(name).is_some() || web_key(other).is_some();
-    let gives = |name: &&str| is_of_web(name) && are_alternatives(name, other);
-    !names.contains(&other) && (CASE.replaced_by(names).contains(&other) || names.iter().any(gives))
+/// What says of which layer a full name is, `layer.2.`, if anything; and the name without numbers.
+fn layer_and_name(full: &str) -> (&str, String) {
+    let dot = full.strip_prefix("layer.").and_then(|rest| rest.find('.'));
+    let (layer, name) = full.split_at(dot.map_or(0, |dot| "layer.".len() + dot + 1));
+    (layer, without_numbers(name))
 }
 
 /// The full name of a key that a user has named, with the number of its layer in place of the layer's name.

@@ -1,7 +1,8 @@
 //! The keys of a kind of input, and how its file is divided into tables.
 
-use super::{Key, Omission, Relations};
+use super::{Key, Omission, Relations, Value};
 use crate::fibre::case::Case;
+use crate::ground::Fault;
 use crate::ground::error::{by_similarity, nearest_word};
 
 /// The keys of a kind of input: those of a case, or those of a web.
@@ -36,7 +37,8 @@ pub(crate) struct TableList {
 }
 
 impl<T> KeyTable<T> {
-    /// The other keys whose values these keys give, if all of them are set: each may be replaced by them.
+    /// The other keys whose values these keys give, if all of them are set: each may be replaced by them. Of a web
+    /// with its cases these are also the keys of the cases that they give, and those that give one of these.
     pub fn replaced_by(&self, names: &[&str]) -> Vec<&'static str> {
         let mut replaced: Vec<&'static str> = Vec::new();
         let relations = || self.rows.iter().filter(|key| !key.relations.alternative_to.is_empty());
@@ -47,18 +49,19 @@ impl<T> KeyTable<T> {
                 others if others.iter().all(|other| gives(other)) => vec![key.name],
                 _ => Vec::new(),
             });
-            let Some(next) = others.into_iter().find(|other| !gives(other)) else { return replaced };
+            let Some(next) = others.into_iter().find(|other| !gives(other)) else { break };
             replaced.push(next);
         }
-    }
-
-    /// The keys of flown cases whose values these keys give, and the keys that give a value of these in other
-    /// words: all of them are replaced where these are set.
-    pub(crate) fn replaced_between(&self, names: &[&str]) -> Vec<&'static str> {
-        let giving = || self.rows.iter().filter(|key| !key.relations.gives_case.is_empty());
-        let given = giving().filter(|key| names.contains(&key.name)).flat_map(|key| key.relations.gives_case);
-        let others = giving().filter(|key| key.relations.gives_case.iter().any(|name| names.contains(name)));
-        given.copied().chain(others.map(|key| key.name)).filter(|name| !names.contains(name)).collect()
+        for key in self.rows {
+            let of_case = key.relations.gives_case;
+            if names.contains(&key.name) {
+                replaced.extend(of_case);
+            } else if of_case.iter().any(|name| names.contains(name)) {
+                replaced.push(key.name);
+            }
+        }
+        replaced.retain(|name| !names.contains(name));
+        replaced
     }
 
     /// Whether a table may stand at the top of the file beside the list in whose entries it stands.
@@ -73,16 +76,44 @@ impl<T> KeyTable<T> {
         self.rows.iter().any(gives)
     }
 
-    /// Whether a key gives the value of another one, of its own file or of a case, by their names.
-    pub(crate) fn gives(&self, name: &str, other: &str) -> bool {
-        let gives =
-            |key: &Key<T>| [key.relations.alternative_to, key.relations.gives_case].concat().contains(&other);
-        self.find(name).is_some_and(gives)
-    }
-
     /// Whether one of two keys gives the value of the other, by their names.
     pub(crate) fn are_alternatives(&self, one: &str, other: &str) -> bool {
-        self.gives(one, other) || self.gives(other, one)
+        let gives = |name, other| self.is_given(other, |written| written == name);
+        gives(one, other) || gives(other, one)
+    }
+
+    /// Sets a key of an input: what is written, or else what applies without it.
+    ///
+    /// * `written` – its value, if it is written; none if that cannot be read
+    /// * `missing` – what is wrong if it is needed and missing
+    ///
+    /// # Errors
+    /// What is wrong with its value, or that it is missing.
+    pub(crate) fn fill(
+        &self,
+        (key, input): (&Key<T>, &mut T),
+        written: Option<Option<Value>>,
+        is_written: impl Fn(&str) -> bool,
+        missing: impl FnOnce(&T) -> Option<Fault>,
+    ) -> Result<(), Fault> {
+        match (written, key.default_in(input)) {
+            (Some(None), _) => Ok(()),
+            (Some(Some(value)), _) => match key.beside_alternative(is_written) {
+                Some(fault) => Err(fault),
+                // They are settled when all else is known.
+                None if key.read_last => Ok(()),
+                None => key.apply(input, &value),
+            },
+            // A key without a meaning for this input refuses its default, which is then not needed.
+            (None, Some(text)) => {
+                if !key.read_last {
+                    drop(key.set(input, text));
+                }
+                Ok(())
+            }
+            _ if key.infer(input) || !key.is_needed(input) || self.is_given(key.name, is_written) => Ok(()),
+            _ => missing(input).map_or(Ok(()), Err),
+        }
     }
 
     /// What applies if a key is left out, in words, with backquotes around values and names of keys.
