@@ -220,9 +220,9 @@ it, most likely in a wrong unit, and uses it. Quantities are above zero unless t
 ";
 const WEB_HEAD: &str = "# The keys of a web
 
-This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, searched (`spunlaid keys
---web gsm`) and marked as those of a case ([keys.md](keys.md)). `--set layer.2.line.filaments_per_metre=4000` sets one
-of a layer, by its number or name; `line.rows.1.pitch` is that of a row of nozzles.
+This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, marked and searched as
+those of a case ([keys.md](keys.md)): `spunlaid keys --web gsm`. `--set layer.2.line.filaments_per_metre=4000` sets
+one of a layer, by its number or name; `line.rows.1.pitch` is that of a row of nozzles.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study
