@@ -65,7 +65,7 @@ def test_figures_are_written_as_asked_for(study: dict[str, object], tmp_path: Pa
     small = {**study, "replicates": 2, "vary": {"air.velocity": [5.0, 10.0]}}
     spunlaid.sweep(small, out=tmp_path / "s", figures=["pdf"], figure_width="one-column")
     assert {path.suffix for path in (tmp_path / "s" / "figures").iterdir()} == {".csv", ".pdf"}
-    with pytest.raises(ValueError, match="figures: write svg"):
+    with pytest.raises(ValueError, match="figures: write one of svg"):
         spunlaid.sweep(small, out=tmp_path / "none", figures=["gif"])
     assert not (tmp_path / "none").exists()
     with pytest.raises(ValueError, match="name one: out"):
