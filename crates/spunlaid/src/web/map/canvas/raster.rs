@@ -186,8 +186,9 @@ impl<S: Register> Ink<S> {
         let by = by.map(|by| by * of.share);
         // Nothing that starts so far inside ends outside.
         let parts = of.parts as f64;
-        let is_far =
-            [0, 1].into_iter().any(|i| (at[i] - self.middle[i]).abs().any_above(self.half[i] - parts));
+        // Without a closure, which would not be compiled for the instruction set.
+        let is_far = (at[0] - self.middle[0]).abs().any_above(self.half[0] - parts)
+            || (at[1] - self.middle[1]).abs().any_above(self.half[1] - parts);
         if is_far {
             self.finish(part);
         }
