@@ -65,7 +65,10 @@ pub(crate) fn force_pass<S: Register>(
             viscous: viscosity.is_some(),
         });
         if powers {
-            elements.iter_mut().for_each(|item| own.half_drag.raise(&mut item.split));
+            // Without a closure, which would not be compiled for the instruction set.
+            for item in &mut *elements {
+                own.half_drag.raise(&mut item.split);
+            }
         } else {
             for (j, item) in (start..).zip(&mut *elements) {
                 own.half_drag.look_up(j, &mut item.split);
