@@ -17,8 +17,26 @@ use std::path::{Path, PathBuf};
 /// The rooms of the program from left to right; those of one group may not import one another.
 const PROGRAM: &[&[&str]] = &[&["args", "failure", "say"], &["progress"], &["commands"]];
 
-const RESULTS: &[&[&str]] =
-    &[&["command", "failure", "numbers"], &["effects"], &["figures"], &["output"], &["report"], &["folders"]];
+const RESULTS: &[&[&str]] = &[
+    &["command", "failure", "numbers"],
+    &["effects"],
+    &["figures"],
+    &["files"],
+    &["page"],
+    &["folders"],
+    &["products"],
+];
+
+const PRODUCTS: &[&[&str]] = &[
+    &["spinline"],
+    &["load"],
+    &["run"],
+    &["air", "record", "sources"],
+    &["web"],
+    &["finished", "scan"],
+    &["fit", "paper", "study"],
+    &["comparison", "declared"],
+];
 
 const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],
@@ -39,6 +57,8 @@ fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut wrong = faults(&crates.join("spunlaid-cli/src"), None, PROGRAM, &["lib", "main"]);
     wrong.extend(faults(&crates.join("spunlaid-results/src"), None, RESULTS, &["lib"]));
+    let products = crates.join("spunlaid-results/src/products");
+    wrong.extend(faults(&products, Some("products"), PRODUCTS, &["mod"]));
     wrong.extend(faults(&crates.join("spunlaid-charts/src"), None, CHARTS, &["lib"]));
     for name in ["cli", "live", "results", "charts", "python"] {
         wrong.extend(circles(&crates.join(format!("spunlaid-{name}/src"))));
@@ -91,7 +111,7 @@ fn every_key_that_a_text_names_exists() {
         names.contains(name)
             || names.iter().any(|key| key.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
             || table == "layer" && tables.contains(rest)
-            || ["toml", "html", "svg", "csv", "json", "parquet"].contains(&rest)
+            || ["toml", "html", "svg", "csv", "js", "json", "parquet"].contains(&rest)
             || ["laydown.surrogate", "fibre.elements"].contains(&name)
     };
     let mut seen = BTreeSet::new();

@@ -15,13 +15,14 @@ use spunlaid::ground::FileKind;
 use spunlaid::input::{Overrides, parse_spinline, write_spinline};
 use spunlaid::simulation::{CurveValue, Trajectory};
 use spunlaid_results::Failure;
+use spunlaid_results::files::folder::Staging;
 use spunlaid_results::folders::Contents;
-use spunlaid_results::folders::comparison::{ComparedFolders, Folders};
-use spunlaid_results::folders::products::{ScanFolder, SpinFolder};
-use spunlaid_results::folders::run::RunFolder;
-use spunlaid_results::folders::web::WebFolder;
-use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::spinline::COLUMNS;
+use spunlaid_results::products::comparison::{ComparedFolders, Folders};
+use spunlaid_results::products::run::RunFolder;
+use spunlaid_results::products::scan::ScanFolder;
+use spunlaid_results::products::spinline::SpinFolder;
+use spunlaid_results::products::spinline::files::COLUMNS;
+use spunlaid_results::products::web::WebFolder;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -177,7 +178,7 @@ impl Computed {
 fn write<C: Contents>(
     contents: &C,
     path: &Path,
-    (force, figures): (bool, spunlaid_results::output::pictures::FigureFiles),
+    (force, figures): (bool, spunlaid_results::files::pictures::FigureFiles),
     written: Option<&Path>,
     watch: &Watch,
 ) -> Result<(), Failure> {

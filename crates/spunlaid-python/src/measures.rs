@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use spunlaid::ground::units::udunits;
 use spunlaid::simulation::{FibreMeasure, MEASURES};
-use spunlaid_results::figures::Scale;
-use spunlaid_results::output::tables::unit_of_column;
+use spunlaid_results::products::run::unit_of_column;
+use spunlaid_results::products::study::Scale;
 
 /// Name and meaning of a measure, and the scales of its axes: of a curve along and up.
 pub(crate) fn described<'py>(py: Python<'py>, measure: &FibreMeasure) -> PyResult<Bound<'py, PyDict>> {

@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
+use spunlaid_results::files::pictures::{FigureFiles, Format, width_named};
 
 /// Formats and width of figures, as [`figure_files`] reads them.
 pub(crate) type Figures<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);

@@ -20,8 +20,7 @@ use spunlaid::input::{
 };
 use spunlaid::simulation::{RunControl, WebSpec};
 use spunlaid_results::Failure;
-use spunlaid_results::figures::Scale;
-use spunlaid_results::folders::study as folder;
+use spunlaid_results::products::study::{self as folder, Scale};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};

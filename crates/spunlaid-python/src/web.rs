@@ -12,7 +12,7 @@ use spunlaid::ground::{FileKind, Measure, measure};
 use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::{OF_PATCHES, OF_SCANNED_PATCHES};
-use spunlaid_results::folders::web::WebFolder;
+use spunlaid_results::products::web::WebFolder;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;

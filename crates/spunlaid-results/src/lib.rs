@@ -2,8 +2,9 @@
 //! at all.
 //!
 //! ```text
-//! results of the library → figures (drawn with spunlaid-charts) → output (files of a folder)
-//! → report (one page that shows all) → folders (everything of a run, of a study, of a web)
+//! figures, files, page, folders – what all products share: charts with spunlaid-charts, files of a folder,
+//!   a page, and the one way in which a folder is written
+//! products – each has its figures, files, report and folder
 //! ```
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
@@ -16,12 +17,14 @@ pub mod numbers;
 
 mod effects;
 
-pub mod figures;
+mod figures;
 
-pub mod output;
+pub mod files;
 
-pub mod report;
+pub mod page;
 
 pub mod folders;
+
+pub mod products;
 
 pub use failure::Failure;

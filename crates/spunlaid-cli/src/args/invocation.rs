@@ -3,7 +3,7 @@
 use super::{Arguments, is_standard};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory};
-use spunlaid_results::output::origin::Origin;
+use spunlaid_results::files::origin::Origin;
 use std::path::{Path, PathBuf};
 
 /// Options that do not decide what results are: they say where and how fast they are made, how they are

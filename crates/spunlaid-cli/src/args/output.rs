@@ -1,8 +1,8 @@
 //! Options that most commands have in common.
 
 use clap::{Args, ValueHint};
-use spunlaid_results::output::pictures::{FigureFiles, Format, width_named};
-use spunlaid_results::output::table::TableFormat;
+use spunlaid_results::files::pictures::{FigureFiles, Format, width_named};
+use spunlaid_results::files::table::TableFormat;
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 

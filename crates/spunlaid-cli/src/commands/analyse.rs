@@ -10,7 +10,8 @@ use spunlaid::air::{Layout, Settings, SpectrumSettings};
 use spunlaid::ground::{Fault, FileError, Problem};
 use spunlaid::web::ScanRequest;
 use spunlaid::web::scan::{columns_of_map, is_picture_file};
-use spunlaid_results::folders::products::{RecordFolder, ScanFolder};
+use spunlaid_results::products::record::RecordFolder;
+use spunlaid_results::products::scan::ScanFolder;
 use std::time::Instant;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {

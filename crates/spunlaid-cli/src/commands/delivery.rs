@@ -6,10 +6,10 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::JournalState;
 use spunlaid::ground::{Error, Fault};
+use spunlaid_results::files::folder::Staging;
+use spunlaid_results::files::origin::Origin;
+use spunlaid_results::files::pictures::FigureFiles;
 use spunlaid_results::folders::{Contents, Making};
-use spunlaid_results::output::folder::Staging;
-use spunlaid_results::output::origin::Origin;
-use spunlaid_results::output::pictures::FigureFiles;
 use std::path::{Path, PathBuf};
 
 /// The folder of a command, if it writes one, and what is said.

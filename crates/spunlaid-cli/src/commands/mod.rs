@@ -69,5 +69,5 @@ fn plural(count: u64, noun: &str) -> String {
 /// A table whose columns stand below their heads. Columns for which the terminal is too narrow follow below,
 /// beside the first column once more.
 fn aligned(rows: &[Vec<String>]) -> String {
-    spunlaid_results::report::aligned(rows, &[], say::room())
+    spunlaid_results::page::aligned(rows, &[], say::room())
 }

@@ -17,10 +17,9 @@ use spunlaid::input::paper::{
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
 use spunlaid::simulation::{CurveValue, Keep, KeepShapes, Number, Results, RunControl, SpectrumPoint};
 use spunlaid_charts::Figure;
-use spunlaid_results::figures::paper as draw;
-use spunlaid_results::folders::products::PaperFolder;
-use spunlaid_results::output::pictures::Format;
-use spunlaid_results::output::study::shown;
+use spunlaid_results::files::pictures::Format;
+use spunlaid_results::products::paper::{PaperFolder, figures as draw};
+use spunlaid_results::products::study::shown;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 

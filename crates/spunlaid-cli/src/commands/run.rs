@@ -9,8 +9,8 @@ use crate::{progress, say};
 use spunlaid::fibre::{Case, Remark};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::{FinerChecks, FinerPlans, RunControl, RunPaths};
-use spunlaid_results::folders::{read_summary_of_run, run as files};
-use spunlaid_results::output::flown::Flights;
+use spunlaid_results::products::finished::read_summary_of_run;
+use spunlaid_results::products::run::{self as files, Flights};
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -64,9 +64,10 @@ fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
             // The allocator gives back at once what is free, so that the peak is what is in use.
             peak(run.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536"))
         };
-        // It wanders by some MB with the pictures that happen to be drawn side by side.
+        // It wanders by up to ten MB with the pictures that happen to be drawn side by side. The instants that `often`
+        // adds would take 90 MB if ten doubles of each were kept, so that a sixth of them would be seen.
         let taken = [few, many].map(|change| once(change).min(once(change)));
         println!("{name}: {:.0} MB for {few}, {:.0} MB for {many}", taken[0] / 1e6, taken[1] / 1e6);
-        assert!(taken[1] < taken[0] + 8e6, "{name}: {taken:?} bytes for {few} and {many}");
+        assert!(taken[1] < taken[0] + 15e6, "{name}: {taken:?} bytes for {few} and {many}");
     }
 }

@@ -24,44 +24,44 @@ const LINE: f64 = 18.0;
 const MARKS: [(Marker, Colour); 2] = [(Marker::Circle, BLUE), (Marker::Triangle, VERMILION)];
 
 /// A figure of effects.
-pub(super) struct EffectsFigure {
-    pub(super) name: String,
-    pub(super) title: String,
+pub(crate) struct EffectsFigure {
+    pub(crate) name: String,
+    pub(crate) title: String,
     /// One above the other, for effects of different units.
-    pub(super) panels: Vec<Panel>,
+    pub(crate) panels: Vec<Panel>,
 }
 
 /// Effects of one unit.
-pub(super) struct Panel {
+pub(crate) struct Panel {
     /// Above the names.
-    pub(super) heading: &'static str,
+    pub(crate) heading: &'static str,
     /// What each effect of a row is; empty if there is only one.
-    pub(super) keys: Vec<String>,
+    pub(crate) keys: Vec<String>,
     /// Of the axis.
-    pub(super) label: String,
-    pub(super) rows: Vec<Row>,
+    pub(crate) label: String,
+    pub(crate) rows: Vec<Row>,
     /// Of the numbers at the ends of bars.
-    pub(super) decimals: usize,
+    pub(crate) decimals: usize,
 }
 
 /// A change with its effects.
-pub(super) struct Row {
-    pub(super) name: String,
+pub(crate) struct Row {
+    pub(crate) name: String,
     /// What changes, below the name.
-    pub(super) detail: String,
+    pub(crate) detail: String,
     /// As many as there are keys, in the unit of the axis; None of one that is not known.
-    pub(super) effects: Vec<Option<Difference>>,
+    pub(crate) effects: Vec<Option<Difference>>,
 }
 
 /// A difference in another unit.
-pub(super) fn in_unit(difference: &Difference, factor: f64) -> Difference {
+pub(crate) fn in_unit(difference: &Difference, factor: f64) -> Difference {
     let (value, standard_error) = (factor * difference.value, factor * difference.standard_error);
     Difference { value, standard_error, ..*difference }
 }
 
 impl EffectsFigure {
     /// * `table` – the numbers
-    pub(super) fn figure(self, table: Table, caption: String) -> Figure {
+    pub(crate) fn figure(self, table: Table, caption: String) -> Figure {
         let (name, title) = (self.name.clone(), self.title.clone());
         Figure::drawn(&name, &title, Drawing::new(WIDTH, move |width| self.picture(width)), table, caption)
     }

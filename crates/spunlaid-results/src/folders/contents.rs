@@ -1,12 +1,13 @@
 //! What goes into a folder of results, and the one way in which it is written.
 
 use crate::Failure;
-use crate::output::folder::Staging;
-use crate::output::kept_input::Input;
-use crate::report::Report;
+use crate::files::folder::Staging;
+use crate::files::kept_input::Input;
+use crate::page::document::Report;
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
-use std::io::{self, Write};
+use std::io;
+use std::io::Write;
 use std::panic::resume_unwind;
 use std::sync::atomic::AtomicBool;
 

@@ -11,17 +11,17 @@
 use super::contents::{Contents, Making};
 use crate::Failure;
 use crate::failure::{not_a_folder, other_version};
-use crate::output::folder::{MARKS, Staging, refuse_others};
-use crate::output::leftovers;
-use crate::output::origin::{ORIGIN, Origin};
-use crate::output::pictures::FigureFiles;
+use crate::files::folder::{MARKS, Staging, refuse_others};
+use crate::files::leftovers;
+use crate::files::origin::{ORIGIN, Origin};
+use crate::files::pictures::FigureFiles;
 use spunlaid::experiment::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::SystemTime;
 
-pub(super) const JOURNAL: &str = "journal";
+pub(crate) const JOURNAL: &str = "journal";
 /// The folder in which new work is done while the results that it will replace are still there. Nobody else
 /// uses its name.
 const REPLACEMENT: &str = ".spunlaid-replacement";
@@ -44,22 +44,22 @@ pub struct JournalFolder<'a> {
 
 /// The files and folders that results are, besides journal and origin, in the order in which they are moved.
 /// The last one marks them as complete.
-pub(super) type Entries = &'static [&'static [&'static str]];
+pub(crate) type Entries = &'static [&'static [&'static str]];
 
 /// What is to be done in a folder.
 #[derive(Debug)]
-pub(super) struct Work<'a> {
+pub(crate) struct Work<'a> {
     /// The journal of the work begins like this.
-    pub(super) header: &'a Header,
-    pub(super) entries: Entries,
+    pub(crate) header: &'a Header,
+    pub(crate) entries: Entries,
     /// What describes the work and may be left of one that was killed before its journal began.
-    pub(super) description: &'static [&'static str],
+    pub(crate) description: &'static [&'static str],
     /// Whether what the folder holds is replaced.
-    pub(super) force: bool,
+    pub(crate) force: bool,
     /// The command that does it, if it may replace what it made before.
-    pub(super) origin: Option<&'a Origin>,
+    pub(crate) origin: Option<&'a Origin>,
     /// Most points, and most replicates of a point.
-    pub(super) size: (usize, u64),
+    pub(crate) size: (usize, u64),
 }
 
 impl<'a> JournalFolder<'a> {
@@ -68,7 +68,7 @@ impl<'a> JournalFolder<'a> {
     ///
     /// * `begin` – what is done in the folder before the journal begins
     /// * `other` – the error if the folder holds other work
-    pub(super) fn open(
+    pub(crate) fn open(
         path: &Path,
         work: &Work<'_>,
         stop: &'a AtomicBool,
@@ -149,7 +149,7 @@ impl<'a> JournalFolder<'a> {
     }
 
     /// Where the work is done.
-    pub(super) fn place(&self) -> &Path {
+    pub(crate) fn place(&self) -> &Path {
         &self.place
     }
 
@@ -168,14 +168,14 @@ impl<'a> JournalFolder<'a> {
     }
 
     /// Collects the files of results.
-    pub(super) fn staging<C: Contents>(&self) -> Result<Staging<'a>, Failure> {
+    pub(crate) fn staging<C: Contents>(&self) -> Result<Staging<'a>, Failure> {
         let mut staging = Staging::new(&self.place, C::ENTRIES, true, self.stop)?;
         staging.set_figures(&self.figures);
         Ok(staging)
     }
 
     /// Writes results beside what has been written of them.
-    pub(super) fn finish(
+    pub(crate) fn finish(
         &mut self,
         mut staging: Staging<'_>,
         contents: &impl Contents,
@@ -230,7 +230,7 @@ fn is_complete(path: &Path, entries: Entries) -> bool {
 }
 
 /// Removes a file or a folder, if it is there.
-pub(super) fn remove(path: &Path) -> Result<(), Failure> {
+pub(crate) fn remove(path: &Path) -> Result<(), Failure> {
     let removed = match path.symlink_metadata() {
         Err(_) => return Ok(()),
         Ok(about) if about.is_dir() => fs::remove_dir_all(path),

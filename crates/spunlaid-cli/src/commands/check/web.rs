@@ -12,8 +12,7 @@ use spunlaid::input::{LaydownSource, LayerSpec, WebSpec, read_web};
 use spunlaid::simulation::PlannedFlight;
 use spunlaid::web::map::Filaments;
 use spunlaid_results::numbers::{THIN, significant};
-use spunlaid_results::output::load::load_of;
-use spunlaid_results::report::load_words;
+use spunlaid_results::products::load::{load_of, load_words};
 
 /// Checks the file of a web.
 pub(super) fn web(check: &Check) -> Result<(), Failure> {

@@ -1,0 +1,356 @@
+//! A results folder that is written completely or not at all.
+
+use super::leftovers;
+use super::leftovers::Claim;
+use super::origin::{ORIGIN, Origin};
+use super::pictures::FigureFiles;
+use super::table::{Column, TABLES, Table};
+use crate::Failure;
+use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
+use spunlaid_charts::Figure;
+use std::borrow::Borrow;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::{fs, io};
+
+/// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
+pub const ENTRIES: &[&str] = &[
+    ORIGIN,
+    "case.toml",
+    CASE_FILES,
+    "end_node.parquet",
+    "energy.parquet",
+    "laid.parquet",
+    "laid.vtp",
+    "spinline.parquet",
+    TABLES,
+    "shape.pvd",
+    "shape",
+    "figures",
+    "report.html",
+    "air.toml",
+    "spectrum.csv",
+    "autocorrelation.csv",
+    "analysis.json",
+    COMPLETE,
+];
+const COMPLETE: &str = "summary.json";
+/// The folder for files that an input names.
+pub const CASE_FILES: &str = "case_files";
+/// Files that mark the results of any command, and the journal that studies of webs had before they were like
+/// all others.
+pub(crate) const MARKS: &[&str] = &[
+    COMPLETE,
+    "analysis.json",
+    "results.csv",
+    "comparison.json",
+    "fit.json",
+    "trials.csv",
+    "study.toml",
+    "webs.jsonl",
+];
+/// Folders in the staging folder: the new results, and the old ones while they are replaced.
+const NEW: &str = "new";
+const OLD: &str = "old";
+/// A file that replaces a published one.
+const NEXT: &str = "next";
+/// Files that are needed only while the results are made.
+const SCRATCH: &str = "scratch";
+
+/// A hidden folder, in or beside the results folder, that collects the files. It is removed unless
+/// [`Staging::publish`] is called.
+#[derive(Debug)]
+pub struct Staging<'a> {
+    folder: PathBuf,
+    staging: PathBuf,
+    /// The entries that are moved to the results folder, in this order.
+    entries: &'static [&'static str],
+    replace: bool,
+    /// What the results are made from, if the same command may replace them.
+    origin: Option<Origin>,
+    /// A lock that shows other runs that this one is alive.
+    claim: Option<Claim>,
+    /// Parent folders that were created for it, the deepest first. They are removed if nothing is published.
+    made: Vec<PathBuf>,
+    stop: &'a AtomicBool,
+    figures: FigureFiles,
+    /// What the results are computed from, once it is kept.
+    input: OnceLock<String>,
+    /// Whether the results are in their folder: a file that is written now takes the place of an earlier one.
+    is_published: bool,
+}
+
+impl<'a> Staging<'a> {
+    /// Prepares to write results to `folder`, and checks now whether this is possible.
+    ///
+    /// * `entries` – the possible files and folders of these results, in the order in which they are moved
+    /// * `replace` – whether results that the folder holds are replaced
+    /// * `stop` – if this is set, nothing more is written
+    pub fn new(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
+        Self::with_origin(folder, entries, replace, None, stop)
+    }
+
+    /// [`Staging::new`]. Results of the same origin, if there is one, are replaced in any case; `entries`
+    /// have [`ORIGIN`].
+    pub fn with_origin(
+        folder: &Path,
+        entries: &'static [&'static str],
+        replace: bool,
+        origin: Option<Origin>,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, Failure> {
+        let exists = folder.symlink_metadata().is_ok();
+        if exists && !folder.is_dir() {
+            return Err(not_a_folder(folder));
+        }
+        refuse_results(folder, entries, replace, origin.as_ref())?;
+        let unwritable = Failure::unwritable(folder);
+        let above = match folder.parent() {
+            Some(above) if above.as_os_str().is_empty() => Path::new("."),
+            Some(above) => above,
+            None => folder,
+        };
+        leftovers::remove(above);
+        // For an existing folder, staging happens inside it, so that publishing never crosses file systems.
+        let home = if exists { folder } else { above };
+        if exists {
+            leftovers::remove(folder);
+        }
+        let made: Vec<PathBuf> =
+            above.ancestors().take_while(|above| !above.exists()).map(Path::to_owned).collect();
+        let staging = fs::create_dir_all(home)
+            .and_then(|()| leftovers::hidden_folder(home))
+            .inspect_err(|_| remove_empty(&made))
+            .map_err(&unwritable)?;
+        let claim = Claim::on(&staging);
+        let (folder, figures) = (folder.to_owned(), FigureFiles::default());
+        let (input, is_published) = (OnceLock::new(), false);
+        let staging = Self {
+            folder,
+            staging,
+            entries,
+            replace,
+            origin,
+            claim,
+            made,
+            stop,
+            figures,
+            input,
+            is_published,
+        };
+        fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
+        staging.origin.iter().try_for_each(|origin| staging.write(ORIGIN, origin.text()))?;
+        Ok(staging)
+    }
+
+    /// From now on, figures are written like this.
+    pub fn set_figures(&mut self, figures: &FigureFiles) {
+        self.figures = figures.clone();
+    }
+
+    /// Whether the folder holds results of the same origin, which will be replaced.
+    pub fn replaces_own(&self) -> bool {
+        self.origin.as_ref().is_some_and(|origin| origin.is_of(&self.folder))
+    }
+
+    /// Where the results will be.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The present and the final path of a file of the results.
+    pub fn place(&self, name: &str) -> (PathBuf, PathBuf) {
+        (self.staging.join(NEW).join(name), self.folder.join(name))
+    }
+
+    /// A folder for files that are needed only while the results are made. It may not exist yet.
+    pub fn scratch(&self) -> PathBuf {
+        self.staging.join(SCRATCH)
+    }
+
+    /// The present and the final path of a file, whose parent folders are there.
+    pub(super) fn begin(&self, name: &str) -> Result<(PathBuf, PathBuf), Failure> {
+        if self.is_published {
+            return Ok((self.staging.join(NEXT), self.folder.join(name)));
+        }
+        self.go_on()?;
+        let (now, later) = self.place(name);
+        now.parent().map_or(Ok(()), fs::create_dir_all).map_err(Failure::unwritable(&later))?;
+        Ok((now, later))
+    }
+
+    /// Begins a table.
+    ///
+    /// * `name` – of its files, without the ending
+    /// * `usual` – the formats in which it is written besides those that are asked for
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn table(&self, name: &str, usual: &[&str], columns: &[Column]) -> Result<Table, Failure> {
+        Table::create(name, (usual, &self.figures.tables), columns, |file| self.begin(file))
+    }
+
+    /// What the results lack of the formats of tables that were asked for, in a sentence.
+    ///
+    /// * `fixed` – files that have one format
+    pub fn lacking_tables(&self, fixed: &[&str]) -> Option<String> {
+        let formats: Vec<&str> = self.figures.tables.iter().map(|format| format.name).collect();
+        let (new, formats) = (self.staging.join(NEW), formats.join(", "));
+        let fixed: Vec<&str> = fixed.iter().copied().filter(|file| new.join(file).exists()).collect();
+        let stay = format!("{} stay as they are: they have too many rows for text", fixed.join(", "));
+        match (formats.is_empty(), new.join(TABLES).is_dir(), fixed.is_empty()) {
+            (true, ..) | (_, true, true) => None,
+            (_, true, false) => Some(format!("not all tables are written as {formats} too: {stay}")),
+            (_, false, true) => {
+                Some(format!("nothing is written as {formats}: results of this kind have no tables"))
+            }
+            (_, false, false) => Some(format!("nothing is written as {formats}: {stay}")),
+        }
+    }
+
+    /// Writes a file and creates its parent folders.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+        self.write_with(name, |file| file.write_all(content.as_ref()))
+    }
+
+    /// The same, part by part. Who reads a file that is replaced finds the earlier one or this one, and each is whole.
+    pub fn write_with(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let (now, later) = self.begin(name)?;
+        fs::File::create(&now)
+            .map(BufWriter::new)
+            .and_then(|mut file| write(&mut file).and_then(|()| file.flush()))
+            .and_then(|()| if self.is_published { fs::rename(&now, &later) } else { Ok(()) })
+            .map_err(Failure::unwritable(&later))
+    }
+
+    /// Writes the files of figures; of results that are in their folder, those that they do not have yet.
+    pub fn write_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
+        let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
+        let is_new = |figure: &&Figure| !self.is_published || !self.folder.join(name(figure)).exists();
+        let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
+        self.figures.write(&new, |name, content| self.write(&format!("figures/{name}"), content))
+    }
+
+    /// What the results are computed from, as it is kept by the first who asks.
+    pub(crate) fn input(&self, keep: impl FnOnce() -> Result<String, Failure>) -> Result<String, Failure> {
+        match self.input.get() {
+            Some(kept) => Ok(kept.clone()),
+            None => keep().map(|kept| self.input.get_or_init(|| kept).clone()),
+        }
+    }
+
+    /// Whether the results are in their folder.
+    pub const fn is_published(&self) -> bool {
+        self.is_published
+    }
+
+    /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
+    /// moved one by one, and the one that marks the results as complete comes last. Files may be replaced later.
+    pub fn publish(&mut self) -> Result<(), Failure> {
+        self.go_on()?;
+        // Another run may have written results in the meantime.
+        refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
+        let (new, folder) = (self.staging.join(NEW), self.folder.clone());
+        let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
+        moved.map_err(Failure::unwritable(&folder))?;
+        self.made.clear();
+        self.is_published = true;
+        Ok(())
+    }
+
+    /// Replaces the old entries by the new ones. If this fails, the old entries are moved back.
+    fn swap(&self, new: &Path, folder: &Path) -> io::Result<()> {
+        let old = self.staging.join(OLD);
+        fs::create_dir(&old)?;
+        let exists = |path: &Path| path.symlink_metadata().is_ok();
+        let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
+        let mut step = |from: PathBuf, to: PathBuf| {
+            if !exists(&from) {
+                return Ok(());
+            }
+            fs::rename(&from, &to)?;
+            moved.push((from, to));
+            Ok(())
+        };
+        let swapped =
+            (self.entries.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
+                .and_then(|()| {
+                    self.entries.iter().try_for_each(|name| step(new.join(name), folder.join(name)))
+                });
+        if swapped.is_err() {
+            for (from, to) in moved.iter().rev() {
+                let _ = fs::rename(to, from);
+            }
+        }
+        swapped
+    }
+
+    fn go_on(&self) -> Result<(), Failure> {
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(Failure::Interrupted);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staging<'_> {
+    fn drop(&mut self) {
+        // Some operating systems cannot remove open files.
+        self.claim = None;
+        let _ = fs::remove_dir_all(&self.staging);
+        remove_empty(&self.made);
+    }
+}
+
+/// Rejects a folder that holds anything, unless it may be replaced or has the same origin.
+fn refuse_results(
+    folder: &Path,
+    entries: &[&str],
+    replace: bool,
+    origin: Option<&Origin>,
+) -> Result<(), Failure> {
+    if replace || origin.is_some_and(|origin| origin.is_of(folder)) {
+        return Ok(());
+    }
+    refuse_others(folder, entries, &[])
+}
+
+/// Rejects a folder that holds results, or files of others, with which results would be mixed. Hidden files
+/// are no reason.
+///
+/// * `results` – names of results, besides those that mark any results
+/// * `own` – names that may be there
+pub(crate) fn refuse_others(folder: &Path, results: &[&str], own: &[&str]) -> Result<(), Failure> {
+    let named =
+        |entry: io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_string_lossy().into_owned());
+    // A folder that cannot be read is told of where it is written to.
+    let mut found: Vec<String> = fs::read_dir(folder).into_iter().flatten().filter_map(named).collect();
+    found.retain(|name| !name.starts_with('.') && !own.contains(&name.as_str()));
+    found.sort_unstable();
+    match (
+        results.iter().chain(MARKS).find(|result| found.iter().any(|name| name == *result)),
+        found.as_slice(),
+    ) {
+        (Some(result), _) => Err(holds_results(folder, result)),
+        (None, []) => Ok(()),
+        (None, [first, more @ ..]) => Err(holds_files_of_others(folder, first, more.len())),
+    }
+}
+
+/// Removes those of the folders that are empty, the deepest first.
+fn remove_empty(folders: &[PathBuf]) {
+    for folder in folders {
+        let _ = fs::remove_dir(folder);
+    }
+}

@@ -1,0 +1,96 @@
+//! The report of a comparison: a table for each pair of results, their curves in one picture each, and webs
+//! beside each other.
+
+use super::files::{ComparedMeasure, Comparison};
+use super::maps::{Beside, ComparedPictures, caption};
+use crate::page::document::{Report, Section, View};
+use crate::page::methods::methods;
+use crate::page::table::{Cell, Row, Table, Tone};
+use spunlaid::ground::Difference;
+use spunlaid_charts::Figure;
+
+/// Results beside each other.
+///
+/// * `pictures` – of webs
+pub fn comparison_report<'a>(
+    comparisons: &[Comparison],
+    figures: &'a [Figure],
+    pictures: Option<&'a ComparedPictures>,
+) -> Report<'a> {
+    let title = title(comparisons);
+    let beside = pictures.map(|webs| {
+        let view = View::new(&Beside::new(webs), &[]);
+        Section::new("pictures", "Beside each other").view(view).caption(caption(&webs.pictures))
+    });
+    Report::new("compare", title)
+        .with_all(beside)
+        .with_all(pairs(comparisons).map(Section::told))
+        .with(Section::of_figures(figures))
+        .with(methods("compare", Vec::new(), ""))
+}
+
+fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {
+    (1..).zip(comparisons).map(|(number, comparison)| pair(number, comparison))
+}
+
+/// A result against another one, measure by measure.
+fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
+    let Comparison { run, against, reason, errors, measures, .. } = comparison;
+    let (beyond, all) = comparison.beyond_chance();
+    let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
+    Section::new(format!("pair-{number}"), format!("{run} against {against}"))
+        .paragraph(format!(
+            "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of \
+            the difference leaves out zero); of twenty without any difference, one would by chance."
+        ))
+        .table(table.rows(measures.iter().map(row)))
+        .caption(format!("{errors} The difference has its standard error, towards the other value."))
+}
+
+fn row(compared: &ComparedMeasure) -> Row {
+    let is_sure = compared.difference.is_some_and(|difference| difference.is_beyond_chance());
+    let tone = if is_sure { Tone::Plain } else { Tone::Faint };
+    let [first, other, difference, verdict] = compared.cells();
+    let unit = if compared.unit.is_empty() { String::new() } else { format!(" ({})", compared.unit) };
+    let cells = [Cell::from(first), Cell::from(other), Cell::new(difference, tone), Cell::new(verdict, tone)];
+    Row::new(format!("{}{unit}", compared.label), cells)
+}
+
+/// Why the first number that both have is not compared.
+fn first_doubt(comparison: &Comparison) -> Option<&str> {
+    let both = |measure: &&ComparedMeasure| measure.means.iter().all(|mean| mean.mean.is_finite());
+    comparison.measures.iter().filter(both).find_map(|measure| measure.doubt.as_deref())
+}
+
+/// What is compared, how much of it differs, and what most clearly.
+fn title(comparisons: &[Comparison]) -> String {
+    let first = comparisons.first().map_or("", |comparison| comparison.against.as_str());
+    let differing = |comparison: &Comparison| match comparison.beyond_chance() {
+        (_, 0) => match first_doubt(comparison) {
+            Some(doubt) => format!("what differs is not known: {doubt}"),
+            None => "too few data to tell what differs".to_owned(),
+        },
+        (0, all) => format!("none of {all} measures differs beyond chance"),
+        (beyond, all) => {
+            format!("{beyond} of {all} measures differ{}", clearest(comparison).unwrap_or_default())
+        }
+    };
+    match comparisons {
+        [one] => format!("{} against {first}: {}", one.run, differing(one)),
+        all => {
+            let each: Vec<String> =
+                all.iter().map(|one| format!("{}, {}", one.run, differing(one))).collect();
+            format!("Against {first}: {}", each.join("; "))
+        }
+    }
+}
+
+/// The measure whose difference is the most of its interval.
+fn clearest(comparison: &Comparison) -> Option<String> {
+    let beyond = comparison.measures.iter().filter_map(|measure| Some((measure, measure.difference?)));
+    let beyond = beyond.filter(|(_, difference)| difference.is_beyond_chance());
+    let clear = |difference: &Difference| difference.value.abs() / difference.half_width();
+    let (measure, _) = beyond.max_by(|a, b| clear(&a.1).total_cmp(&clear(&b.1)))?;
+    let [.., difference, _] = measure.cells();
+    Some(format!(", most clearly “{}”: {difference} {}", measure.label, measure.unit).trim_end().to_owned())
+}

@@ -1,0 +1,234 @@
+//! The report of a scanned web: the web on a light table, how uneven it is, and the figures.
+
+use crate::Failure;
+use crate::files::measured::text as shown_number;
+use crate::files::performance::Performance;
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::page::document::{Part, Report, Section};
+use crate::page::methods::methods;
+use crate::page::table::{Row, Table};
+use crate::page::words::{cost, grams, metres, millimetres};
+use crate::products::web::figures::clouds::SEEN;
+use crate::products::web::report::cards;
+use crate::products::web::report::cards::scale_card;
+use crate::products::web::report::fabric::fabric_section;
+use crate::products::web::report::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
+use crate::products::web::report::scale::Judged;
+use crate::products::web::report::unevenness::{CV_OF_PATCHES, headline, largest_clouds, per_cent};
+use spunlaid::ground::{Measure, Measured, measure};
+use spunlaid::web::map::nearest_to_seen;
+use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::scan::{Doubt, Findings, PatchFindings};
+use spunlaid::web::{Fabric, Map, OF_SCANNED_PATCHES, OF_SCANS};
+use spunlaid_charts::Figure;
+use std::borrow::Cow;
+
+/// A scanned web.
+///
+/// * `file` – its path
+/// * `findings` – of it, with what is told of its fabric
+///
+/// # Errors
+/// The picture cannot be drawn.
+pub fn scan_report<'a>(
+    file: &str,
+    (findings, fabric): (&Findings, &Fabric),
+    figures: &'a [Figure],
+    performance: Performance,
+) -> Result<Report<'a>, Failure> {
+    let sheet = sheet(&with_spots(findings), None, Some(MarkedPlaces::new(fabric)))?;
+    let headline = title(findings);
+    let summary = format!(
+        "A scan of {} across and {} along the web.",
+        metres(findings.map.columns as f64 * findings.map.cell),
+        metres(findings.map.rows as f64 * findings.map.cell)
+    );
+    let facts = facts(file, findings);
+    let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
+    let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
+    let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
+        "The map is in map.npy (kg/m², or parts of the mean where that is not known; one row of the web after \
+        the other), all numbers in summary.json, beside this page.",
+    );
+    let web = Section::new("web", "The web on a light table")
+        .view(sheet.view())
+        .with(Part::reading(caption))
+        .card();
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let judged = seen.map(|i| judged(findings, &findings.patches[i]));
+    let scale = judged.map(|judged| scale_card(&findings.map, judged)).transpose()?;
+    Ok(Report::new("analyse", headline)
+        .lead(summary)
+        .with(web)
+        .with_all(scale)
+        .with(uneven(findings).told())
+        .with(fabric_section(fabric))
+        .with(cards::fabric(fabric).into())
+        .with(Section::of_figures(figures))
+        .with(methods("analyse", Vec::new(), ""))
+        .with(read)
+        .costing(cost(performance)))
+}
+
+/// What is known of the unevenness over patches; where it is guessed, nothing.
+fn judged(findings: &Findings, PatchFindings { unevenness, interval, .. }: &PatchFindings) -> Judged {
+    let told = findings.guess.is_none().then_some((unevenness.cv, unevenness.standard_error));
+    let (patch, of_map, chance) = (unevenness.patch, unevenness.cv, None);
+    Judged { patch, of_map, told, interval: interval.ok().filter(|_| told.is_some()), chance }
+}
+
+fn title(findings: &Findings) -> String {
+    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let patch = nearest_patch.map(|i| &findings.patches[i].unevenness);
+    let weight = findings.mean_known.then(|| findings.map.basis_weight());
+    let (Some(guess), Some(patch)) = (findings.guess, patch) else {
+        return headline(weight.map(|weight| (weight, None)), patch, false);
+    };
+    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+    match guess {
+        // The lamp is no lighter than the largest level, so the density is no larger than what was found.
+        Doubt::White => format!(
+            "{web} that varies by at least {} over patches of {}: {guess}.",
+            rough(patch),
+            millimetres(patch.patch)
+        ),
+        Doubt::Shading => format!(
+            "{web} that varies by about {} over patches of {}: {guess}.",
+            rough(patch),
+            millimetres(patch.patch)
+        ),
+        _ => format!("{web} whose unevenness is not known: {guess}."),
+    }
+}
+
+/// A CV whose error is not known, to two digits.
+fn rough(patch: &Unevenness) -> String {
+    format!("{}{THIN}%", significant(100.0 * patch.cv, 2))
+}
+
+/// A CV with its error; to two digits where that is not known.
+fn cv(patch: &Unevenness) -> String {
+    match patch.standard_error {
+        Some(_) => per_cent(patch.cv, patch.standard_error),
+        None => rough(patch),
+    }
+}
+
+/// How uneven it is.
+fn uneven(findings: &Findings) -> Section<'static> {
+    let heads = ["Patch", "CV", "95 % interval"].into_iter();
+    let heads = heads.chain(told_of(findings).map(|measure| measure.label));
+    let is_map = is_map(findings);
+    Section::new("verdict", "What makes it uneven")
+        .paragraphs(verdict(findings))
+        .table(Table::new(heads).rows(findings.patches.iter().map(|patch| row(findings, patch))))
+        .caption(format!(
+            "{CV_OF_PATCHES} The interval is that of the web, of which the scan is one piece. The noise is as it \
+            was given, and then taken out of the CV, or the most that it can be.{}",
+            if is_map {
+                ""
+            } else {
+                " Where one more pixel of blur changes little, the camera’s own blur has changed little as well."
+            }
+        ))
+}
+
+/// Whether basis weights were read, which no camera has blurred.
+fn is_map(findings: &Findings) -> bool {
+    findings.patches.iter().all(|patch| patch.blur.is_none())
+}
+
+/// The measures that stand behind the interval.
+fn told_of(findings: &Findings) -> impl Iterator<Item = &'static Measure<PatchFindings>> + use<'_> {
+    let is_known = |measure: &&'static Measure<PatchFindings>| {
+        findings.patches.iter().any(|patch| measure.of(patch).value.is_some())
+    };
+    OF_SCANNED_PATCHES.iter().skip(1).filter(is_known)
+}
+
+fn row(findings: &Findings, patch: &PatchFindings) -> Row {
+    let mut cells = vec![
+        cv(&patch.unevenness),
+        patch.interval.map_or_else(
+            |doubt| format!("none: {doubt}"),
+            |[low, high]| {
+                format!("{} to {}{THIN}%", significant(100.0 * low, 3), significant(100.0 * high, 3))
+            },
+        ),
+    ];
+    // The CV stands before the interval.
+    cells.extend(told_of(findings).map(|measure| shown(&measure.of(patch)).unwrap_or_default()));
+    Row::new(millimetres(patch.unevenness.patch), cells)
+}
+
+/// The value of a measure with its unit; none if there is no value.
+fn shown<T>(row: &Measured<T>) -> Option<String> {
+    let (number, unit) = (shown_number(row)?, row.measure.unit.shown);
+    Some(if unit.is_empty() { number } else { format!("{number}{THIN}{unit}") })
+}
+
+/// The map with the spots that were left out, as dark as they were.
+fn with_spots(findings: &Findings) -> Cow<'_, Map> {
+    if findings.aside.mask.is_empty() {
+        return Cow::Borrowed(&findings.map);
+    }
+    let darkest = findings.map.cells.iter().copied().max().unwrap_or(0);
+    let cells = findings.map.cells.iter().zip(&findings.aside.mask);
+    let cells = cells.map(|(cell, is_spot)| if *is_spot { darkest } else { *cell }).collect();
+    Cow::Owned(Map { cells, ..findings.map.clone() })
+}
+
+fn verdict(findings: &Findings) -> Vec<String> {
+    let Some(clouds) = &findings.clouds else { return Vec::new() };
+    let (index, error) = clouds.cloudiness(SEEN[0], SEEN[1]);
+    let texture = clouds.texture_md();
+    let mut sentences: Vec<String> = largest_clouds(clouds).into_iter().collect();
+    sentences.push(format!(
+        "Cloudiness index, wavelengths from {} to {}: {}.",
+        millimetres(SEEN[0]),
+        millimetres(SEEN[1]),
+        per_cent(index, error.filter(|_| findings.guess.is_none()))
+    ));
+    sentences.push(format!(
+        "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine \
+        direction, 0 all across.",
+        plus_minus(texture.mean, texture.standard_error)
+    ));
+    sentences
+}
+
+/// How the scan was read: a name and a value each.
+fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
+    let mut facts = vec![
+        ("File", file.to_owned()),
+        (
+            "Pixels",
+            format!("{} × {} of {}", findings.map.columns, findings.map.rows, millimetres(findings.map.cell)),
+        ),
+    ];
+    if findings.aside.corner != [0, 0] {
+        let [right, down] =
+            findings.aside.corner.map(|pixels| millimetres(pixels as f64 * findings.map.cell));
+        let place = format!(
+            "{right} from the left and {down} from the top of the picture; all places are of the web"
+        );
+        facts.push(("The web begins", place));
+    }
+    // What is zero has not been found.
+    let is_found =
+        |row: &Measured<Findings>| !row.measure.label.is_empty() && row.measure.number(findings) != 0.0;
+    let labelled = measure::measured(OF_SCANS, findings).filter(is_found);
+    facts.extend(labelled.filter_map(|row| Some((row.measure.label, shown(&row)?))));
+    if let Some(largest) = findings.aside.spots.first() {
+        let spots = format!(
+            "{}, {}{THIN}mm² in all; the largest {}{THIN}mm², {} from the left and {} from the top of the web",
+            findings.aside.spots.len(),
+            significant(findings.aside.masked * 1e6, 3),
+            significant(largest.area * 1e6, 3),
+            millimetres(largest.place[0]),
+            millimetres(largest.place[1])
+        );
+        facts.push(("Dark spots that were left out", spots));
+    }
+    facts
+}

@@ -1,0 +1,195 @@
+//! A study: points with their results.
+
+pub(crate) mod figures;
+mod files;
+mod report;
+
+pub use figures::quantity::Scale;
+pub use files::shown;
+
+use crate::Failure;
+use crate::failure::other_study;
+use crate::files::folder::{CASE_FILES, Staging};
+use crate::files::kept_input::copy;
+use crate::files::origin::Origin;
+use crate::files::table::TABLES;
+use crate::folders::{Contents, JournalFolder, Maker, Making, Page, Work, remove};
+use figures::study_figures;
+use files::json::write_json;
+use report::study_report;
+use spunlaid::experiment::study::{judge, rankings};
+use spunlaid::experiment::{Claim, Experiment, Header, Journal, JournalState, PointResults, Rankings};
+use spunlaid::fibre::MOST_REPLICATES;
+use spunlaid::ground::Fault;
+use spunlaid::input::{StudyFile, StudyNote, differences};
+use std::io::Write;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::{fs, io};
+
+const STUDY: &str = "study.toml";
+/// Files that describe the study.
+const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
+/// What a study may have left that was killed before its journal existed.
+const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
+/// Files that are made from the journal; the last one marks them as complete.
+const MADE: &[&str] = &[
+    "results.csv",
+    "results.json",
+    "results.parquet",
+    "replicates.parquet",
+    TABLES,
+    "figures",
+    "report.html",
+];
+/// Files of other results, and the journal that studies of webs had before they were like all others.
+const OF_OTHERS: &[&str] =
+    &["summary.json", "end_node.parquet", "energy.parquet", "analysis.json", "webs.jsonl"];
+
+/// Opens the folder to begin a study, or to continue the same study. Returns its journal, and what that holds
+/// if there was one.
+///
+/// * `force` – what the folder holds is replaced
+/// * `origin` – the command that asks; a complete study that the same one made before is replaced too, when
+///   this one is complete
+/// * `stop` – if this is set, nothing more is written
+///
+/// # Errors
+/// If it cannot be written, or holds something else.
+pub fn open<'a>(
+    path: &Path,
+    file: &StudyFile,
+    force: bool,
+    origin: Option<&Origin>,
+    stop: &'a AtomicBool,
+) -> Result<(JournalFolder<'a>, Journal, Option<JournalState>), Failure> {
+    let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
+    let size = (file.study.points.len(), MOST_REPLICATES);
+    let entries = &[DESCRIPTION, MADE];
+    let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
+    let begin = |place: &Path| begin(place, file, stop);
+    let (at, journal, found) = JournalFolder::open(path, &work, stop, begin, |place| differs(place, file))?;
+    if found.is_some() {
+        let (stored, most) = (journal.most_held(), file.study.replicates.at_most);
+        if stored > most {
+            let fault = Fault::new(
+                format!("holds {stored} replicates of a point, more than the {most} of this study"),
+                format!("ask for {stored} or more, name another folder, or start again"),
+            );
+            let options = format!("--replicates {stored}, --out, --force");
+            return Err(Failure::folder(at.place(), fault.option(options)));
+        }
+        // These files follow from the study, so they are restored if someone has removed them. They are
+        // renewed for more replicates.
+        let was = fs::read_to_string(at.place().join(STUDY)).unwrap_or_default();
+        if was != file.text || !at.place().join(file.base_name()).exists() {
+            describe(at.place(), file, stop)?;
+        }
+    }
+    Ok((at, journal, found))
+}
+
+/// Makes the tables, the figures and the report from the journal. Returns what was found, and what a terminal shows.
+///
+/// * `name` – what the study is called
+///
+/// # Errors
+/// If a file cannot be written, or the journal cannot be read.
+pub fn write<'f>(
+    folder: &mut JournalFolder<'_>,
+    name: &str,
+    file: &'f StudyFile,
+    journal: &mut Journal,
+    making: Making<'_>,
+) -> Result<(FoundStudy<'f>, String), Failure> {
+    let staging = folder.staging::<FoundStudy<'_>>()?;
+    let results = files::write(&staging, &file.study, journal)?;
+    let rankings = rankings(&file.study, journal)?;
+    let claims = judge(&file.study, &results, &rankings.of_measures, journal)?;
+    let found = FoundStudy { name: name.to_owned(), file, results, rankings, claims };
+    let text = folder.finish(staging, &found, making)?;
+    Ok((found, text))
+}
+
+/// Removes the files of an earlier study, and describes this one.
+fn begin(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    OF_OTHERS.iter().chain(MADE).try_for_each(|name| remove(&place.join(name)))?;
+    describe(place, file, stop)
+}
+
+fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
+    let mut staging = Staging::new(place, DESCRIPTION, true, stop)?;
+    staging.write(file.base_name(), keep_files(file, &staging)?)?;
+    staging.write(STUDY, &file.text)?;
+    staging.publish()
+}
+
+/// The error that lists how the study in a folder differs.
+fn differs(place: &Path, file: &StudyFile) -> Failure {
+    let mut all = Vec::new();
+    for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
+        let was = fs::read_to_string(place.join(name)).unwrap_or_default();
+        all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+    }
+    other_study(place, all)
+}
+
+/// A study, and what was found. The tables are made from its journal.
+#[derive(Debug)]
+pub struct FoundStudy<'a> {
+    name: String,
+    file: &'a StudyFile,
+    /// The results of each point.
+    pub results: Vec<PointResults>,
+    rankings: Rankings,
+    claims: Vec<Claim>,
+}
+
+impl FoundStudy<'_> {
+    /// Why the keys are not ranked, if there are several.
+    pub fn refusal(&self) -> Option<String> {
+        let refusal = self.rankings.refusal.as_ref().filter(|_| self.file.study.factors.len() > 1);
+        refusal.map(ToString::to_string)
+    }
+}
+
+impl Contents for FoundStudy<'_> {
+    const ENTRIES: &'static [&'static str] = MADE;
+    const SUMMARY: &'static str = "results.json";
+
+    fn summary(&self) -> String {
+        let mut text = Vec::new();
+        // Writing into memory cannot fail.
+        let _ = self.write_summary(&mut text);
+        String::from_utf8_lossy(&text).into_owned()
+    }
+
+    fn write_summary(&self, to: &mut dyn Write) -> io::Result<()> {
+        write_json(to, &self.file.study, &self.results, (&self.rankings, &self.claims))
+    }
+
+    fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
+        let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
+        let figures = study_figures(study, &self.results, &self.rankings.of_measures);
+        let told = (&self.rankings.of_measures[..], refusal.as_deref(), &self.claims[..]);
+        let report = || Ok(study_report(study, &self.results, told, &figures, [text, base_text]));
+        maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
+    }
+}
+
+/// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
+fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
+    let files = file.study.points.iter().flat_map(|point| match &point.experiment {
+        Experiment::Case(case) => case.files(),
+        Experiment::Spinline(spec) => spec.files(),
+        Experiment::Web(web) => web.files(),
+    });
+    let copied = copy(files, &staging.place(CASE_FILES).0)?;
+    let folder = file.base_path.parent().unwrap_or(Path::new(""));
+    Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
+        let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+        // A case is the text of its user; a web has been written with whole paths.
+        let written = [from, from.strip_prefix(folder).unwrap_or(from)];
+        written.into_iter().fold(text, |text, from| text.replace(&quoted(from), &quoted(to)))
+    }))
+}

@@ -1,0 +1,100 @@
+//! The first screen of a web: what is asked of a line, answered in rows, in the words of its plant.
+
+use super::scale;
+use super::scale::{Judged, Scale};
+use crate::Failure;
+use crate::numbers::{THIN, significant};
+use crate::page::document::{Section, View};
+use crate::page::table::{Layout, Row, Table};
+use crate::page::words::{grams, grams_with_error};
+use crate::products::web::files::effects::HOUR;
+use crate::products::web::files::fabric::fabric_rows;
+use crate::products::web::files::summary::Layer;
+use spunlaid::experiment::plausible::implausible;
+use spunlaid::simulation::{LayerSpec, WebSpec};
+use spunlaid::web::map::Findings;
+use spunlaid::web::{Fabric, Map};
+use std::f64::consts::PI;
+
+/// What is asked, the answers, and what is to be said of them.
+#[derive(Debug)]
+pub(crate) struct Card {
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) words: Vec<String>,
+}
+
+impl From<Card> for Section<'static> {
+    fn from(Card { id, title, rows, words }: Card) -> Self {
+        let table = Table::new(["", ""]).laid_out(Layout::Facts).rows(rows);
+        Section::new(id, title).table(table).paragraphs(words).told().card()
+    }
+}
+
+/// Most layers whose filaments have rows of their own.
+const MOST_LAYERS: usize = 3;
+
+/// The line itself, and whether it is one.
+pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
+    let row = |name: &str, value: String| Row::new(name, [value]);
+    let speed = |speed: f64| {
+        format!("{}{THIN}m/min ({}{THIN}m/s)", significant(60.0 * speed, 4), significant(speed, 3))
+    };
+    let shown = |value: f64, unit: &str| format!("{}{THIN}{unit}", significant(value, 3));
+    let belt = layers.first().map_or(f64::NAN, |layer| layer.belt_speed_m_s);
+    let made = spec.mass_flow() / belt;
+    let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
+    let piece = format!("this piece {}; {faster}", grams_with_error(findings.basis_weight()));
+    let mut rows = vec![
+        row("Per metre of width", shown(HOUR * spec.mass_flow(), "kg/h")),
+        row("Belt", speed(belt)),
+        row("Basis weight", grams(made)).detail(piece),
+    ];
+    for (layer, LayerSpec { density, .. }) in layers.iter().zip(&spec.layers).take(MOST_LAYERS) {
+        let of = if layers.len() > 1 { format!(" of layer {}", layer.name) } else { String::new() };
+        let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
+        let size = (4.0 * titre / (PI * density)).sqrt();
+        let holes = significant(layer.filaments as f64 / spec.sheet.width, 4);
+        rows.extend([
+            row(
+                &format!("Filament{of}"),
+                format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm")),
+            ),
+            row(&format!("Spinning speed{of}"), speed(feed)),
+            row(
+                &format!("Holes per metre{of}"),
+                format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min")),
+            ),
+        ]);
+    }
+    let doubts = implausible(spec);
+    rows.push(row("Plausible", if doubts.is_empty() { "yes" } else { "doubtful" }.to_owned()));
+    let mut words: Vec<String> = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
+    if words.is_empty() {
+        words.push("No number is outside of what spunbond lines are known to have.".to_owned());
+    }
+    Card { id: "line", title: "The line", rows, words }
+}
+
+/// By how much faster a belt is told of [%].
+const FASTER: f64 = 10.0;
+
+/// What a buyer counts.
+pub(crate) fn fabric(fabric: &Fabric) -> Card {
+    let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
+    Card { id: "buyer", title: "What a buyer counts", rows, words: fabric.notes.clone() }
+}
+
+/// The scale as a card; without pictures if the web is too small for them.
+///
+/// # Errors
+/// If a picture cannot be drawn.
+pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, Failure> {
+    let section = Section::new("scale", "How even is that?");
+    let section = match Scale::new(map, judged)? {
+        Some(scale) => section.view(View::new(&scale, &[])),
+        None => section,
+    };
+    Ok(section.paragraph(scale::words(judged)).told().card())
+}

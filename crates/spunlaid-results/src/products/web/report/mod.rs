@@ -1,0 +1,331 @@
+//! The report of a web: the web on a light table, what makes it uneven, and the figures.
+
+pub(crate) mod cards;
+pub(crate) mod effects;
+pub(crate) mod fabric;
+pub(crate) mod light_table;
+pub(crate) mod scale;
+pub(crate) mod spinlines;
+pub(crate) mod unevenness;
+
+use super::files::summary::Layer;
+use crate::Failure;
+use crate::effects::PER_CENT;
+use crate::files::performance::Performance;
+use crate::numbers::{THIN, number, significant};
+use crate::page::document::{Part, Report, Section};
+use crate::page::methods::{methods, of_web};
+use crate::page::table::{Row, Table};
+use crate::page::words::{cost, count, grams, grams_with_error, metres, millimetres};
+use crate::products::load::section_of_loads;
+use cards::{Card, scale_card};
+use effects::{Advised, advice_card, effects_table, guess_card};
+use fabric::fabric_section;
+use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
+use scale::Judged;
+use spinlines::{LayerSpinline, sections_of_web};
+use spunlaid::fibre::{BREAKDOWN, Load};
+use spunlaid::ground::Dimension;
+use spunlaid::simulation::WebSpec;
+use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
+use spunlaid_charts::Figure;
+use unevenness::{CV_OF_PATCHES, headline, headline_patch, largest_clouds, patch_table, per_cent};
+
+/// A web.
+///
+/// * `web` – what is said of it, the same as a file, and the web
+/// * `findings` – of the web, with what is told of its fabric
+/// * `tried` – what was tried with it
+/// * `layers` – with the spinlines from which their filaments come
+/// * `strands` – the fibres in the window
+///
+/// # Errors
+/// The picture cannot be drawn.
+pub fn web_report<'a>(
+    (spec, toml, web): (&WebSpec, &str, &Web),
+    (findings, fabric): (&Findings, &Fabric),
+    tried: Advised<'_>,
+    (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
+    strands: &[Strand],
+    figures: &'a [Figure],
+    performance: Performance,
+) -> Result<Report<'a>, Failure> {
+    let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
+    let strands = Strands { window: spec.window(), strands, diameter };
+    let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)), Some(MarkedPlaces::new(fabric)))?;
+    let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
+    let table = Section::new("web", "The web on a light table")
+        .view(sheet.view())
+        .with(Part::reading(caption))
+        .card();
+    let loads = named_loads(layers);
+    let spun = spinlines
+        .first()
+        .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
+    let doubts = Card {
+        id: "doubt",
+        title: "What its error is made of",
+        rows: Vec::new(),
+        words: [error_sentences(findings), air_sentence(findings)].into(),
+    };
+    let judged = headline_patch(findings).map(|i| Judged::from(&findings.patches[i]));
+    let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
+    let mut sentences = verdict(findings);
+    Ok(Report::new("web", headline_of(findings))
+        .lead(sentences.pop().unwrap_or_default())
+        .lead(spun)
+        .with(table)
+        .with_all(scale)
+        .with_all(
+            [
+                cards::line(spec, findings, layers),
+                cards::fabric(fabric),
+                doubts,
+                guess_card(spec, findings, tried),
+                advice_card(spec, findings, tried),
+            ]
+            .map(Section::from),
+        )
+        .with(uneven(web, findings, sentences))
+        .with(effects(spec, findings, tried))
+        .with(fabric_section(fabric))
+        .with_all(section_of_loads(&loads))
+        .with(charge(spec, findings))
+        .with(Section::of_figures(figures))
+        .with_all(sections_of_web(web, layers, spinlines))
+        .with(methods("web", of_web(spec), "web.toml of the results"))
+        .with(file(layers, toml))
+        .costing(cost(performance)))
+}
+
+/// All that was changed, and all that was guessed.
+fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'static> {
+    let all =
+        [("What would make it more even", tried.advice), ("How much the guesses matter", tried.guesses)];
+    let tables = all.into_iter().filter_map(|(heading, effects)| {
+        Some((heading, effects_table(spec, findings, (effects?, tried.beside))?))
+    });
+    tables.fold(
+        Section::new("tried", "All that was changed and guessed"),
+        |section, (heading, (table, caption))| section.heading(heading).table(table).caption(caption),
+    )
+}
+
+/// How uneven it is over patches of each size.
+///
+/// * `verdict` – what makes it so, without what is said first
+fn uneven(web: &Web, findings: &Findings, verdict: Vec<String>) -> Section<'static> {
+    Section::new("verdict", "How uneven over which size, by the CV of the basis weight")
+        .paragraphs(verdict)
+        .table(patch_table(findings))
+        .caption(format!("{CV_OF_PATCHES} [What its error is made of](#doubt) stands above."))
+        .paragraph(sentences([summary(web), laid_weight(web, findings)]))
+        .both()
+}
+
+/// The loads of the layers on their air, with the names of these where there are several.
+fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
+    layers
+        .iter()
+        .filter_map(|layer| {
+            Some((Some(&layer.name[..]).filter(|_| layers.len() > 1), layer.curtain.as_ref()?))
+        })
+        .collect()
+}
+
+/// What the web was made from.
+fn file(layers: &[Layer], toml: &str) -> Section<'static> {
+    let heads =
+        ["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A", "Residual of the fit", "of which chance"];
+    Section::new("file", "The web file")
+        .table(Table::new(heads).rows(layers.iter().map(layer)))
+        .file("web-toml", toml)
+        .caption(
+            "The map is in map.npy (kg/m², one row of the web after the other), map.png (16 bit), the \
+            fibres of the window in fibres.vtp, all numbers in summary.json, beside this page.",
+        )
+}
+
+/// Sentences behind each other, without the empty ones.
+fn sentences<const N: usize>(all: [String; N]) -> String {
+    all.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+}
+
+fn summary(web: &Web) -> String {
+    let filaments: u64 = web.layers.iter().map(|layer| layer.count(&web.sheet)).sum();
+    let length = web.fibre_length();
+    let length = if length >= 2000.0 {
+        format!("{} km", number(length / 1e3))
+    } else {
+        format!("{} m", number(length))
+    };
+    format!(
+        "{} across, {} along the web: {} of {}.",
+        metres(web.sheet.width),
+        metres(web.sheet.length),
+        length,
+        count(filaments, "filament")
+    )
+}
+
+/// That the piece is lighter or heavier than the web that the line makes; nothing where it is as heavy.
+fn laid_weight(web: &Web, findings: &Findings) -> String {
+    let (laid, made) = (findings.basis_weight(), web.basis_weight());
+    if (laid.0 / made - 1.0).abs() < AS_HEAVY {
+        return String::new();
+    }
+    format!(
+        "The line makes {} in the mean, and this piece has {}: clouds that its ends and edges cut are in it by \
+        chance.",
+        grams(made),
+        grams_with_error(laid)
+    )
+}
+
+/// Relative difference of two basis weights up to which they are shown as one.
+const AS_HEAVY: f64 = 0.005;
+
+/// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
+fn headline_of(findings: &Findings) -> String {
+    let weight = findings.basis_weight();
+    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
+    if patch.is_none_or(|patch| patch.doubt.is_none()) {
+        return headline(
+            Some(weight),
+            patch.and_then(PatchFindings::told_with_whole_error).as_ref(),
+            findings.laid.flown.is_empty(),
+        );
+    }
+    let few = findings.laid.few().filter(|few| few.doubt().is_some());
+    let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+    let remedy = match enough.is_finite() {
+        true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
+        false => "Fly all of them, web.flown = \"all\"".to_owned(),
+    };
+    format!(
+        "A web of {}. How uneven it is, is not known: too few filaments were flown. {remedy}.",
+        grams_with_error(weight)
+    )
+}
+
+/// What the filaments of a web without independent filaments have in common, and what those with airs of
+/// their own leave out, in a sentence or two.
+fn air_sentence(findings: &Findings) -> String {
+    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
+    match (findings.laid.flown.is_empty(), patch.and_then(|patch| Some((patch, patch.independent()?)))) {
+        (false, Some((patch, independent))) if patch.doubt.is_some() => format!(
+            "In airs of their own the same filaments would give {}, which is a lower bound.",
+            per_cent(independent, None)
+        ),
+        (false, Some((patch, independent))) => format!(
+            "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
+            the same gusts, which carry them aside together and lay them in ropes and clouds.",
+            per_cent(independent, None),
+            significant(patch.map.cv / independent, 2)
+        ),
+        (false, None) => "All filaments were flown in one air.".to_owned(),
+        (true, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
+            and come down together, and σ and A of one filament do not say how. Name a case whose filament \
+            lies as this one (laydown.case) in place of the numbers to fly them in one air."
+            .to_owned(),
+    }
+}
+
+/// What the charge of the filaments does; nothing of filaments without charge.
+fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
+    let told = |(number, charged): (usize, &ChargedCurtain)| {
+        let layer = spec.layers.get(number)?;
+        let last = charged.heights.last()?;
+        let [behind, .., before] = last.places;
+        Some(format!(
+            "Charged with {}, the filaments{} drive each other apart: 95 % of them hang within {} along the \
+            machine direction just above the belt. The field beside them is {} at most, and air breaks \
+            down at {}.",
+            Dimension::SpecificCharge.pretty(layer.charge?),
+            if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() },
+            Dimension::Length.pretty_to(before - behind, 3),
+            Dimension::ElectricField.pretty_to(charged.edge_field, 2),
+            Dimension::ElectricField.pretty(BREAKDOWN),
+        ))
+    };
+    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(told)).told()
+}
+
+/// What the error in the headline is made of, in sentences.
+fn error_sentences(findings: &Findings) -> String {
+    let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
+    if patch.in_one_air && patch.few.is_none() {
+        return "The error is by chance: every filament of the sheet was flown, and another piece of the same web, in \
+            other gusts, has another CV."
+            .to_owned();
+    }
+    let error = patch.whole_error();
+    let part = |part: Option<f64>| match part {
+        Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
+        None => "an unknown part".to_owned(),
+    };
+    if patch.few.is_some() {
+        let filaments: u64 = findings.laid.few().map(|few| few.filaments).sum();
+        let sheets = findings.laid.few().map(|few| few.sheet.map(metres).join(" × "));
+        let mut sheets: Vec<String> = sheets.collect();
+        sheets.dedup();
+        let flown = format!(
+            "Of all filaments, {filaments} were flown, evenly across, on a sheet of {}",
+            sheets.join(" and of ")
+        );
+        if patch.doubt.is_some() {
+            return format!("{flown}; they are too few for the CV of all, and the map is no better.");
+        }
+        return format!(
+            "{flown}; the others follow from them. Chance contributes {} to the error, because the clouds \
+            on that sheet are few, and the small number of flown filaments {}.",
+            part(error.chance),
+            part(error.flight)
+        );
+    }
+    "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned()
+}
+
+fn layer(layer: &Layer) -> Row {
+    let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
+    let cells = [
+        layer.filaments.to_string(),
+        grams(layer.basis_weight_kg_m2),
+        spread(layer.sigma_md_m),
+        spread(layer.sigma_cd_m),
+        layer
+            .noise_per_sqrt_m
+            .map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
+        layer.fit_residual.map_or("–".to_owned(), |residual| significant(residual, 2)),
+        layer.fit_residual_by_chance.map_or("–".to_owned(), |residual| significant(residual, 2)),
+    ];
+    Row::new(&layer.name, cells)
+}
+
+/// What makes the web uneven, in sentences.
+fn verdict(findings: &Findings) -> Vec<String> {
+    let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
+    let Some(i) = headline_patch(findings) else { return sentences };
+    let patch = &findings.patches[i];
+    if patch.doubt.is_some() {
+        return Vec::new();
+    }
+    let is_shared = patch.in_one_air;
+    let cv = patch.single_fibres.filter(|_| !is_shared).map_or(patch.map.cv, |(cv, _)| cv);
+    let ratio = cv / patch.straight_fibres;
+    let why = if is_shared {
+        "filaments that come down together make clouds"
+    } else if ratio > 1.05 {
+        "each fibre comes back to its own place again and again, which makes clouds"
+    } else {
+        "nozzles at an even pitch make up for the unevenness of the loops"
+    };
+    sentences.push(format!(
+        "Over patches of {} the {}CV is {} times that of straight fibres of the same mass at random: {why}.",
+        millimetres(patch.map.patch),
+        if is_shared { "" } else { "expected " },
+        significant(ratio, 3)
+    ));
+    sentences
+}

@@ -1,0 +1,132 @@
+//! How uneven a web is, in the words that the reports of laid and of scanned webs share, and the table of its patches.
+
+use crate::files::measured::text;
+use crate::numbers::{THIN, plus_minus, significant};
+use crate::page::table::{Row, Table};
+use crate::page::words::{grams_with_error, millimetres};
+use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
+use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::{Findings, PatchFindings, nearest_to_seen};
+use spunlaid::web::{Clouds, OF_PATCHES};
+
+pub(super) const PER_CENT: f64 = 100.0;
+
+/// What is said below every table of CVs.
+pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
+    one standard error, in percentage points as the CV is; the interval holds the CV of all such webs in 95 % of \
+    the cases.";
+
+/// The patch nearest to what the eye judges first.
+pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
+    nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch))
+}
+
+/// * `weight` – mean basis weight and its standard error, if they are known [kg/m²]
+/// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
+pub(crate) fn headline(
+    weight: Option<(f64, Option<f64>)>,
+    patch: Option<&Unevenness>,
+    is_bound: bool,
+) -> String {
+    let web =
+        weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams_with_error(weight)));
+    match patch {
+        Some(unevenness) => format!(
+            "{web} that varies by {}{} over patches of {}{}.",
+            if is_bound { "at least " } else { "" },
+            per_cent(unevenness.cv, unevenness.standard_error),
+            millimetres(unevenness.patch),
+            if is_bound { ": its filaments are independent of each other" } else { "" }
+        ),
+        None => format!("{web}."),
+    }
+}
+
+pub(crate) fn per_cent(cv: f64, error: Option<f64>) -> String {
+    format!("{}{THIN}%", plus_minus(cv * PER_CENT, error.map(|error| error * PER_CENT)))
+}
+
+/// Longest wave of variance that is the grain of single fibres, and no clouds [m].
+const FINEST_CLOUDS: f64 = 2e-3;
+
+/// Which octave of wavelength holds most of the variance, in a sentence.
+pub(crate) fn largest_clouds(clouds: &Clouds) -> Option<String> {
+    let octaves = clouds.octaves();
+    let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
+    let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
+    Some(format!(
+        "Of all octaves of wavelength, that of {} to {} holds most of the variance: {} % of what lies between {} and \
+         {}{}.",
+        millimetres(waves[0]),
+        millimetres(waves[1]),
+        significant(PER_CENT * variance.mean / whole, 2),
+        millimetres(clouds.shortest()),
+        millimetres(clouds.longest()),
+        if waves[1] > FINEST_CLOUDS { "" } else { ", which single fibres make more than clouds do" }
+    ))
+}
+
+/// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
+pub(super) fn patch_table(findings: &Findings) -> Table {
+    // That of a web of few filaments holds what these do too.
+    let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
+        true => ["Patch", "CV of this web", "by chance", "95 % interval"],
+        false => ["Patch", "CV of this map", "by chance", "95 % by chance"],
+    };
+    let declared = columns(findings);
+    let row = |patch: &PatchFindings| {
+        let cells = declared.iter().map(|measure| cell(text(&measure.of(patch)), measure.unit));
+        Row::from(cells_of_map(patch).into_iter().chain(cells).collect::<Vec<_>>())
+    };
+    let heads = of_map.into_iter().chain(declared.iter().map(|measure| measure.terse()));
+    Table::of_numbers(heads).rows(findings.patches.iter().map(row))
+}
+
+/// The declared columns that a web has, in their order: after that of the CV its further errors,
+/// then the other measures. The standard error of a measure stands with it.
+fn columns(findings: &Findings) -> Vec<&'static Measure<PatchFindings>> {
+    let of_measure = |measure: &'static Measure<PatchFindings>| {
+        let further = measure.errors.iter().filter(|error| error.role == ErrorRole::Further);
+        std::iter::once(measure).chain(further)
+    };
+    let is_shown = |measure: &&Measure<PatchFindings>| {
+        !measure.terse().is_empty() && findings.patches.iter().any(measure.is_shown)
+    };
+    OF_PATCHES.iter().flat_map(of_measure).skip(1).filter(is_shown).collect()
+}
+
+/// A number with its unit, or a dash.
+fn cell(number: Option<String>, unit: Unit) -> String {
+    match (number, unit.shown) {
+        (None, _) => "–".to_owned(),
+        (Some(number), "") => number,
+        (Some(number), unit) => format!("{number}{THIN}{unit}"),
+    }
+}
+
+/// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
+/// error by chance, and interval.
+fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
+    let (told, error) = (patch.told(), patch.whole_error());
+    let whole = error.whole().or(error.chance);
+    let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
+    [
+        format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),
+        cell(told.map(|told| plus_minus(100.0 * told.cv, whole.map(|error| 100.0 * error))), PERCENT),
+        cell(error.chance.map(|error| significant(100.0 * error, 2)), PERCENT),
+        cell(patch.interval().map(ends), PERCENT),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PERCENT, cell};
+    use spunlaid::ground::RATIO;
+
+    #[test]
+    fn a_cell_has_the_unit_of_its_measure() {
+        let number = |text: &str| Some(text.to_owned());
+        assert_eq!(cell(number("5.3"), PERCENT), "5.3\u{202f}%");
+        assert_eq!([cell(number("1.4"), RATIO), cell(None, RATIO)], ["1.4", "–"]);
+    }
+}
