@@ -26,11 +26,11 @@ impl<'a, T> Document<'a, T> {
                     let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
                     if is_known && text.trim().trim_matches('"') == AUTO {
                         self.key_values.remove(&full);
+                        self.key_values.taken_out.push(full);
                     } else {
                         self.take(&before, table, name, entry);
-                        set.extend(is_known.then(|| full.clone()));
+                        set.extend(is_known.then_some(full));
                     }
-                    self.key_values.set.push(full);
                 }
                 Err(what) => self.key_values.problems.push(entry.problem(key, what)),
             }

@@ -38,13 +38,19 @@ pub(super) struct WrittenValues {
     pub(super) problems: Vec<Problem>,
     /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
-    /// What is set beside the file, or taken out by that.
-    pub(super) set: Vec<String>,
+    /// What is taken out beside the file.
+    pub(super) taken_out: Vec<String>,
 }
 
 impl WrittenValues {
     pub(super) const fn new(file: Place) -> Self {
-        Self { file, values: BTreeMap::new(), problems: Vec::new(), excused: Vec::new(), set: Vec::new() }
+        Self {
+            file,
+            values: BTreeMap::new(),
+            problems: Vec::new(),
+            excused: Vec::new(),
+            taken_out: Vec::new(),
+        }
     }
 
     /// The file as a place.

@@ -39,15 +39,16 @@ struct Replaced {
 impl Filament {
     /// Puts values in the place of those that there are, also of those that they give in other words.
     fn put(&mut self, upper: &WrittenValues, prefix: &str) {
-        let names: Vec<&str> = upper.all().map(|(name, _)| name).collect();
-        for other in OF_CASE.replaced_by(&names) {
-            let by = names.iter().find(|name| OF_CASE.are_alternatives(name, other));
-            self.take_out(other, &format!("{prefix}{}", by.unwrap_or(&other)));
+        let merged = self.values.with(upper.all().map(|(name, value)| (name.to_owned(), value.clone())));
+        let is_kept = |name: &str| upper.get(name).is_none() && merged.get(name).is_some();
+        for (name, lower) in self.values.all().filter(|(name, _)| !is_kept(name)) {
+            let gives = |by: &&str| *by == name || OF_CASE.are_alternatives(by, name);
+            let by = upper.all().map(|(by, _)| by).find(gives).unwrap_or(name);
+            if let Some(number) = lower.value.as_ref().and_then(Value::number) {
+                self.replaced.push(Replaced { by: format!("{prefix}{by}"), name: name.to_owned(), number });
+            }
         }
-        for (name, written_value) in upper.all() {
-            self.take_out(name, &format!("{prefix}{name}"));
-            self.values.set(name.to_owned(), written_value.clone());
-        }
+        self.values = merged;
         self.values.excuse_as(upper);
     }
 
@@ -106,22 +107,25 @@ impl Filament {
 impl Reading<'_> {
     /// The filament of a layer; none if the file that it names cannot be read, which is noted.
     pub(super) fn filament(&mut self, prefix: &str) -> Option<Filament> {
+        // What all layers have in common stands above them.
+        let levels = if prefix.is_empty() { vec![""] } else { vec!["", prefix] };
+        let part = |level| (level, self.key_values.part(level, |name| keys::find(name).is_some()));
+        let parts: Vec<(&str, WrittenValues)> = levels.into_iter().map(part).collect();
         let (values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
             let (path, named) = self.named.remove(prefix)?;
             let mut values = named.map_err(|problems| self.key_values.problems.extend(problems)).ok()?;
             self.key_values.problems.append(&mut values.problems);
-            (values, path)
+            for full in &self.key_values.taken_out {
+                values.remove(full.strip_prefix(prefix).unwrap_or(full));
+            }
+            // Whoever sets a number knows that the case has another one.
+            let set = parts.iter().flat_map(|(_, part)| part.all()).filter(|(_, value)| value.is_set());
+            (values.with(set.map(|(name, value)| (name.to_owned(), value.clone()))), path)
         } else {
             (WrittenValues::new(self.key_values.whole()), self.path.clone())
         };
         let mut filament = Filament { values, path, replaced: Vec::new() };
-        let is_of_case = |name: &str| keys::find(name).is_some();
-        // What all layers have in common stands above them.
-        let levels = if prefix.is_empty() { vec![""] } else { vec!["", prefix] };
-        for level in levels {
-            let part = self.key_values.part(level, is_of_case);
-            filament.put(&part, level);
-        }
+        parts.iter().for_each(|(level, part)| filament.put(part, level));
         for key in WEB.rows.iter().filter(|key| !key.relations.gives_case.is_empty()) {
             self.give(&mut filament, prefix, key);
         }

@@ -84,13 +84,20 @@ impl WrittenWeb {
     /// # Errors
     /// If the text is no such file, or if a case cannot be read for another reason than what is in it.
     pub(super) fn open(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<Self, Error> {
-        let values = values(text, name, set)?;
-        let mut web = Self { values, path: PathBuf::from(name), named: BTreeMap::new() };
+        let mut web =
+            Self { values: values(text, name, set)?, path: PathBuf::from(name), named: BTreeMap::new() };
         for prefix in open::prefixes(&web.values) {
-            if let Some(path) = web.path_of_case(&prefix) {
-                let named = web.named_case(&prefix, &path)?;
-                web.named.insert(prefix, (path, named));
-            }
+            let Some(path) = web.path_of_case(&prefix) else { continue };
+            let read = |text: String| document::read(&OF_CASE, &text, &path.display().to_string(), &[]);
+            let case = match file::read(&path, FileKind::Case).and_then(read) {
+                Ok(case) => Ok(case),
+                Err(Error::Rejected(problems)) => Err(problems),
+                Err(Error::File(error)) => {
+                    Err(vec![web.values.problem(&format!("{prefix}{CASE}"), error.into())])
+                }
+                Err(other) => return Err(other),
+            };
+            web.named.insert(prefix, (path, case));
         }
         Ok(web)
     }
@@ -103,37 +110,9 @@ impl WrittenWeb {
         Some(folder.map_or_else(|| PathBuf::from(named), |folder| folder.join(named)))
     }
 
-    fn named_case(&self, prefix: &str, path: &Path) -> Result<Result<WrittenValues, Vec<Problem>>, Error> {
-        let read = |text: String| document::read(&OF_CASE, &text, &path.display().to_string(), &[]);
-        let mut case = match file::read(path, FileKind::Case).and_then(read) {
-            Ok(case) => case,
-            Err(Error::Rejected(problems)) => return Ok(Err(problems)),
-            Err(Error::File(error)) => {
-                return Ok(Err(vec![self.values.problem(&format!("{prefix}{CASE}"), error.into())]));
-            }
-            Err(other) => return Err(other),
-        };
-        let set = || self.values.set.iter().filter_map(|full| Some((full, name_in_case(prefix, full)?)));
-        case = case
-            .with(set().filter_map(|(full, name)| Some((name.to_owned(), self.values.get(full)?.clone()))));
-        set()
-            .filter(|(full, _)| self.values.get(full).is_none())
-            .for_each(|(_, name)| drop(case.remove(name)));
-        Ok(Ok(case))
-    }
-
     /// The same web with other values of keys.
     pub(super) fn with(&self, changes: &[(String, WrittenValue)]) -> Self {
-        let mut web = Self { values: self.values.with(changes.iter().cloned()), ..self.clone() };
-        for (prefix, (_, named)) in &mut web.named {
-            let of_case = |(full, value): &(String, WrittenValue)| {
-                Some((name_in_case(prefix, full)?.to_owned(), value.clone()))
-            };
-            if let Ok(case) = named {
-                *case = case.with(changes.iter().filter_map(of_case));
-            }
-        }
-        web
+        Self { values: self.values.with(changes.iter().cloned()), ..self.clone() }
     }
 
     /// Whether its file has a list of layers, whose numbers stand in the names of their keys.
@@ -160,11 +139,6 @@ impl WrittenWeb {
         let text = write_web(&spec);
         Ok((WebFile { spec, notes, text }, filaments))
     }
-}
-
-/// The name of a key of the case of a layer, by its full name in the file of the web.
-fn name_in_case<'n>(prefix: &str, full: &'n str) -> Option<&'n str> {
-    keys::find(full.strip_prefix(prefix).unwrap_or(full)).map(|key| key.name)
 }
 
 /// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
