@@ -2,7 +2,7 @@
 
 use spunlaid::air::record::parse_record;
 use spunlaid::air::{Field, Hint, Layout, record};
-use spunlaid::input::{parse_case, parse_spinline, parse_web, starter_case, write_case, write_spinline};
+use spunlaid::input::{read_case, read_spinline, read_web, starter_case, write_case, write_spinline};
 use spunlaid::web::{Light, scan};
 use std::fmt::Display;
 
@@ -28,14 +28,14 @@ pub fn case(data: &[u8]) -> bool {
     let set: Vec<_> = (set.lines().filter_map(|line| line.split_once('=')))
         .map(|(key, value)| (key.to_owned(), value.to_owned()))
         .collect();
-    match parse_case(text, "fuzz.toml", &set) {
+    match read_case((text, "fuzz.toml"), &set) {
         Ok((case, notes)) => {
             notes.iter().for_each(|note| assert_sayable(note, 1));
             if let Err(problems) = case.check() {
                 panic!("{problems:?}");
             }
             let written = write_case(&case);
-            match parse_case(&written, "written.toml", &[]) {
+            match read_case((&written, "written.toml"), &[]) {
                 Ok((again, _)) => {
                     assert_eq!(format!("{again:?}"), format!("{case:?}"), "{written}");
                     assert_eq!(write_case(&again), written);
@@ -141,10 +141,10 @@ pub fn scan(data: &[u8]) -> bool {
 /// The file of a web is read or refused; what is read writes and reads back to the same bits. Gives whether
 /// it was read.
 pub fn web(data: &[u8]) -> bool {
-    match parse_web(&String::from_utf8_lossy(data), "fuzz.toml", &[]) {
+    match read_web((&String::from_utf8_lossy(data), "fuzz.toml"), &[]) {
         Ok(web) => {
             web.notes.iter().for_each(|note| assert_sayable(note, 1));
-            match parse_web(&web.text, "written.toml", &[]) {
+            match read_web((&web.text, "written.toml"), &[]) {
                 Ok(again) => {
                     assert_eq!(format!("{:?}", again.spec), format!("{:?}", web.spec), "{}", web.text);
                     assert_eq!(again.text, web.text);
@@ -176,11 +176,11 @@ pub fn spinline(data: &[u8]) -> bool {
         std::fs::write(&path, air).expect("a folder for temporary files");
         set.push(("spinline.profile".to_owned(), path.display().to_string()));
     }
-    match parse_spinline(text, "fuzz.toml", &set) {
+    match read_spinline((text, "fuzz.toml"), &set) {
         Ok(file) => {
             file.notes.iter().for_each(|note| assert_sayable(note, 1));
             let written = write_spinline(&file.spec);
-            match parse_spinline(&written, "written.toml", &[]) {
+            match read_spinline((&written, "written.toml"), &[]) {
                 Ok(again) => {
                     assert_eq!(format!("{:?}", again.spec), format!("{:?}", file.spec), "{written}");
                     assert_eq!(write_spinline(&again.spec), written);

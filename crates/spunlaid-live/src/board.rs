@@ -170,10 +170,10 @@ mod tests {
     use super::super::fibres::Fibres;
     use super::super::frame::RecentMotion;
     use super::*;
-    use spunlaid::input::{parse_case, starter_case};
+    use spunlaid::input::{read_case, starter_case};
 
     fn board() -> Board {
-        let fibres = Fibres::new(parse_case(starter_case(), "a.toml", &[]).unwrap().0).unwrap();
+        let fibres = Fibres::new(read_case((starter_case(), "a.toml"), &[]).unwrap().0).unwrap();
         Board::new(Frame::new(fibres.snapshot(), &RecentMotion::new()))
     }
 

@@ -5,7 +5,7 @@ use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::error::Place;
 use spunlaid::ground::{Dimension, Error};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case};
 use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -86,7 +86,7 @@ impl Document {
 
     /// The case, and what is said of it.
     pub(super) fn case(&self, resources: &Resources) -> Result<CaseWithNotes, Error> {
-        parse_case(&self.text, &self.name.to_string_lossy(), Overrides::from(&[]).with(resources))
+        read_case((&self.text, &self.name.to_string_lossy()), Overrides::from(&[]).with(resources))
     }
 
     /// Whether the text gives a value for a key of a table.

@@ -153,7 +153,7 @@ fn transferred_state(old: &Case, snapshot: &Snapshot, new: &Case) -> Option<[Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
+    use spunlaid::input::{read_case, starter_case, starter_case_of_fed};
 
     fn case(changes: &[(&str, &str)]) -> Case {
         let usual = [
@@ -164,7 +164,7 @@ mod tests {
         ];
         let values: Vec<_> =
             usual.iter().chain(changes).map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect();
-        parse_case(starter_case(), "starter.toml", &values).unwrap().0
+        read_case((starter_case(), "starter.toml"), &values).unwrap().0
     }
 
     fn end(fibres: &Fibres) -> Vec3<Lanes> {
@@ -244,7 +244,7 @@ mod tests {
 
     #[test]
     fn a_fed_fibre_lays_points_and_starts_at_its_inlet() {
-        let (case, _) = parse_case(starter_case_of_fed(), "fed.toml", &[]).unwrap();
+        let (case, _) = read_case((starter_case_of_fed(), "fed.toml"), &[]).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let steps = (0.06 / case.run.time_step) as u64;
         let mut laid = [0; WIDTH];

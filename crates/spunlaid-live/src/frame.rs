@@ -190,7 +190,7 @@ fn thinned(nodes: usize, most: usize) -> Vec<usize> {
 mod tests {
     use super::super::fibres::Fibres;
     use super::*;
-    use spunlaid::input::{parse_case, starter_case};
+    use spunlaid::input::{read_case, starter_case};
 
     fn number(bytes: &[u8], at: usize) -> f32 {
         f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
@@ -204,7 +204,7 @@ mod tests {
     fn a_frame_is_laid_out_as_described_and_tells_each_page_what_is_new() {
         let set = [("fibre.element_length", "50 mm"), ("run.scheme", "leapfrog"), ("run.time_step", "1 µs")];
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
-        let (case, _) = parse_case(starter_case(), "a.toml", &set).unwrap();
+        let (case, _) = read_case((starter_case(), "a.toml"), &set).unwrap();
         let mut fibres = Fibres::new(case).unwrap();
         let mut recent_motion = RecentMotion::new();
         let see = |fibres: &mut Fibres, recent_motion: &mut RecentMotion, steps| {

@@ -155,12 +155,12 @@ mod tests {
     use super::super::fibres::Fibres;
     use super::super::measured::Statistics;
     use super::*;
-    use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
+    use spunlaid::input::{read_case, starter_case, starter_case_of_fed};
 
     #[test]
     fn the_map_holds_every_point_and_the_spread_is_that_of_the_points() {
         let (case, _) =
-            parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
+            read_case((starter_case_of_fed(), "fed.toml"), &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
         let mut statistics = LaidStatistics::new(&case).unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn spreads_are_told_with_errors_after_the_fibres_have_come_down() {
         let (case, _) =
-            parse_case(starter_case_of_fed(), "fed.toml", &[("fibre.element_length".into(), "4 mm".into())])
+            read_case((starter_case_of_fed(), "fed.toml"), &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();
         let mut fibres = Fibres::new(case.clone()).unwrap();
         let mut measured = Statistics::new(&case, fibres.flight());
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn fibres_of_fixed_length_lay_nothing() {
-        let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
+        let (case, _) = read_case((starter_case(), "a.toml"), &[]).unwrap();
         assert!(LaidStatistics::new(&case).is_none());
     }
 }

@@ -205,7 +205,7 @@ mod tests {
     use super::super::fibres::Fibres;
     use super::super::laid::measure;
     use super::*;
-    use spunlaid::input::{parse_case, starter_case};
+    use spunlaid::input::{read_case, starter_case};
 
     #[test]
     fn stat_amplitude_and_curves_agree_with_those_of_a_run() {
@@ -222,7 +222,7 @@ mod tests {
             ("run.replicates", "8"),
         ];
         let values = values.map(|(k, v)| (k.to_owned(), v.to_owned()));
-        let (case, _) = parse_case(starter_case(), "starter.toml", &values).unwrap();
+        let (case, _) = read_case((starter_case(), "starter.toml"), &values).unwrap();
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
         let computing =
             RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
@@ -257,7 +257,7 @@ mod tests {
 
     #[test]
     fn nothing_is_told_before_the_fibres_have_settled() {
-        let (case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+        let (case, _) = read_case((starter_case(), "starter.toml"), &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
         let message = Statistics::new(&case, fibres.flight()).message(1, fibres.flight());
         assert!(message.settling > 0.4 && message.curves.is_none() && message.numbers[0].value.is_none());

@@ -113,11 +113,11 @@ fn setting(case: &Case, key: &'static Key, value: &Value) -> Option<Setting> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::input::{parse_case, starter_case, starter_case_of_fed};
+    use spunlaid::input::{read_case, starter_case, starter_case_of_fed};
 
     #[test]
     fn sliders_and_choices_come_from_the_table_of_keys() {
-        let (case, _) = parse_case(starter_case(), "a.toml", &[]).unwrap();
+        let (case, _) = read_case((starter_case(), "a.toml"), &[]).unwrap();
         let all = settings(&case);
         assert_eq!(
             all.iter().map(|s| s.key).collect::<Vec<_>>(),
@@ -161,7 +161,7 @@ mod tests {
         };
         let kept: Vec<&str> = fed.lines().filter(|line| !given(line)).collect();
         let text = kept.join("\n").replace("[feed]", SPINLINE);
-        let (case, _) = parse_case(&text, "a.toml", &[]).unwrap();
+        let (case, _) = read_case((&text, "a.toml"), &[]).unwrap();
         let all = settings(&case);
         let first: Vec<&str> =
             all.iter().filter(|s| s.first && s.table == "spinline").map(|s| s.key).collect();
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_fed_fibre_has_feed_and_belt_and_no_length() {
-        let (case, _) = parse_case(starter_case_of_fed(), "a.toml", &[]).unwrap();
+        let (case, _) = read_case((starter_case_of_fed(), "a.toml"), &[]).unwrap();
         let all = settings(&case);
         for (key, is_setting) in [("feed.speed", true), ("belt.speed", true), ("fibre.length", false)] {
             assert_eq!(all.iter().any(|s| s.key == key && s.first), is_setting, "{key}");

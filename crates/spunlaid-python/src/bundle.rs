@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use spunlaid::experiment::study::fly_bundle as fly;
 use spunlaid::experiment::{Batch, Experiment, Point, Record, ReplicateOutcome};
 use spunlaid::ground::Error;
-use spunlaid::input::{parse_case, parse_spinline, parse_web, write_experiment};
+use spunlaid::input::{read_case, read_spinline, read_web, write_experiment};
 use spunlaid::simulation::LaydownSource;
 use spunlaid_results::Failure;
 use std::collections::BTreeMap;
@@ -79,12 +79,12 @@ const WEB: &str = "web.toml";
 /// What was sent, read again. Tensions of flights were found before it was sent, and are numbers.
 fn read(noun: &str, text: &str) -> Result<Experiment, Error> {
     Ok(match noun {
-        "web" => Experiment::Web(parse_web(text, WEB, &[])?.spec),
+        "web" => Experiment::Web(read_web((text, WEB), &[])?.spec),
         "spinline" => {
-            let read = parse_spinline(text, "spinline.toml", &[])?;
+            let read = read_spinline((text, "spinline.toml"), &[])?;
             Experiment::Spinline(Box::new(read.spec))
         }
-        _ => Experiment::Case(parse_case(text, "case.toml", &[])?.0),
+        _ => Experiment::Case(read_case((text, "case.toml"), &[])?.0),
     })
 }
 

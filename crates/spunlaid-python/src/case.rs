@@ -12,7 +12,7 @@ use spunlaid::fibre::case::keys::{self, Key, Value};
 use spunlaid::fibre::{Note, case};
 use spunlaid::ground::{FileKind, Vec3};
 use spunlaid::input::{
-    Overrides, Resources, parse_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
+    Overrides, Resources, read_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
 use spunlaid_results::products::air::{POINT_COLUMNS, point_row};
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ impl Case {
         file: String,
         changes: Vec<(String, String)>,
     ) -> PyResult<Self> {
-        let (case, notes) = guarded(py, || parse_case(&text, &file, Overrides::new(&changes, WORD)))?;
+        let (case, notes) = guarded(py, || read_case((&text, &file), Overrides::new(&changes, WORD)))?;
         Ok(Self { case: Arc::new(case), notes, text, file, changes })
     }
 
@@ -70,7 +70,7 @@ impl Case {
             return Ok((Arc::clone(&self.case), self.notes.clone()));
         }
         let set = Overrides::new(&self.changes, WORD);
-        let read = |resources: &Resources| parse_case(&self.text, &self.file, set.with(resources));
+        let read = |resources: &Resources| read_case((&self.text, &self.file), set.with(resources));
         let (case, notes) = settled(py, threads, read)?;
         Ok((Arc::new(case), notes))
     }

@@ -12,7 +12,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use spunlaid::ground::FileKind;
-use spunlaid::input::{Overrides, parse_spinline, write_spinline};
+use spunlaid::input::{Overrides, read_spinline, write_spinline};
 use spunlaid::simulation::{CurveValue, Trajectory};
 use spunlaid_results::Failure;
 use spunlaid_results::files::folder::Staging;
@@ -202,7 +202,7 @@ pub(crate) fn solve_spinline(
     let changes = overrides(changes)?;
     let set = Overrides::new(&changes, "spin:");
     let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
-    let file = settled(py, None, |resources| parse_spinline(&text, &file, set.with(resources)))?;
+    let file = settled(py, None, |resources| read_spinline((&text, &file), set.with(resources)))?;
     let spinline = guarded(py, || SpinFolder::solve(name.clone(), file))?;
     Ok(Computed { name, of: Of::Spinline(Box::new(spinline)) })
 }

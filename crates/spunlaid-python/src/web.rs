@@ -9,7 +9,7 @@ use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{advise, are_tried, steps};
 use spunlaid::ground::threads::look_while;
 use spunlaid::ground::{FileKind, Measure, measure};
-use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
+use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::{OF_PATCHES, OF_SCANNED_PATCHES};
 use spunlaid_results::products::web::WebFolder;
@@ -32,11 +32,10 @@ pub(crate) fn lay_web(
     let changes = overrides(changes)?;
     let set = Overrides::new(&changes, "web:");
     let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
-    let read =
-        |of| settled(py, threads, |resources| parse_changes(text.clone(), &file, set.with(resources), of));
+    let read = |of| settled(py, threads, |resources| read_changes((&text, &file), set.with(resources), of));
     let advice = advice.then(|| read(Changes::OfLine)).transpose()?;
     let guesses = guesses.then(|| read(Changes::OfGuesses)).transpose()?;
-    let file = settled(py, threads, |resources| parse_web(&text, &file, set.with(resources)))?;
+    let file = settled(py, threads, |resources| read_web((&text, &file), set.with(resources)))?;
     let watch = Watch::default();
     // The flights have a counter of their own; it is looked at while they fly.
     let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {

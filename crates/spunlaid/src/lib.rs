@@ -18,7 +18,7 @@
 //! ```
 //! use spunlaid::simulation::ensemble::{RunControl, Keep, Results, fly};
 //! use spunlaid::ground::error::Error;
-//! use spunlaid::input::{parse_case, starter_case};
+//! use spunlaid::input::{read_case, starter_case};
 //! use spunlaid::ground::lanes::Isa;
 //! use std::sync::atomic::{AtomicBool, AtomicU64};
 //!
@@ -28,7 +28,7 @@
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
 //! let computing = RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
 //! // No reader flies fibres. `Resources::settle` flies for a spinline that ends at the tension of its fibre.
-//! let (case, _notes) = parse_case(starter_case(), "starter.toml", &changes)?;
+//! let (case, _notes) = read_case((starter_case(), "starter.toml"), &changes)?;
 //!
 //! let mut results = Results::collector(0);
 //! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {

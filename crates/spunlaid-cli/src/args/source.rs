@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueHint};
 use spunlaid::ground::{Error, Fault, Problem};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, parse_case, read_case, text_of};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case, text_of};
 use spunlaid_results::command::{beside_of, quoted};
 use std::cell::OnceCell;
 use std::io::Read;
@@ -41,7 +41,7 @@ impl CaseSource {
             return read_case(&self.case, overrides);
         }
         let text = self.read.get().map_or_else(standard_input, |text| Ok(text.clone()))?;
-        parse_case(self.read.get_or_init(|| text), STANDARD_INPUT, overrides)
+        read_case((self.read.get_or_init(|| text), STANDARD_INPUT), overrides)
     }
 
     /// The same as arguments of a command line; what is set has a folder of its own.

@@ -16,7 +16,7 @@ use serde_json::Value as Json;
 use spunlaid::air::{OF_COMPONENTS, OF_RECORDS};
 use spunlaid::fibre::OF_SPINLINES;
 use spunlaid::ground::{Isa, Measure, Value, measure};
-use spunlaid::input::{parse_spinline, parse_web};
+use spunlaid::input::{read_spinline, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
 use spunlaid::web::map::{Findings, PatchFindings};
@@ -91,7 +91,7 @@ fn kinds(found: &Findings) -> [Findings; 5] {
 
 #[test]
 fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
-    let file = parse_web(WEB, "web.toml", &[]).unwrap();
+    let file = read_web((WEB, "web.toml"), &[]).unwrap();
     let mut flown = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
     let laid = AtomicU64::new(0);
     let laying = LayControl { threads: 2, isa: Isa::detect(), stop: &STOP, laid: &laid };
@@ -196,7 +196,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
 fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/melt_spinning.toml");
     let source = std::fs::read_to_string(&path).unwrap();
-    let file = parse_spinline(&source, &path.display().to_string(), &[]).unwrap();
+    let file = read_spinline((&source, &path.display().to_string()), &[]).unwrap();
     let folder = SpinFolder::solve("line".to_owned(), file).unwrap();
     let results = &folder.results;
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();

@@ -8,7 +8,7 @@ use spunlaid::experiment::advice::advise;
 use spunlaid::experiment::{Change, Tried};
 use spunlaid::ground::threads::each;
 use spunlaid::ground::{Difference, Isa};
-use spunlaid::input::{Changes, Overrides, WebSpec, parse_changes, parse_web};
+use spunlaid::input::{Changes, Overrides, WebSpec, read_changes, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::map::{Findings, nearest_to_seen};
 use spunlaid::web::{LayControl, Web};
@@ -120,7 +120,7 @@ fn set(changed: &[(&str, &str)]) -> Vec<(String, String)> {
 }
 
 fn read(text: &str, changed: &[(&str, &str)]) -> WebSpec {
-    parse_web(text, CASES, &set(changed)[..]).unwrap_or_else(|why| panic!("a web: {why}")).spec
+    read_web((text, CASES), &set(changed)[..]).unwrap_or_else(|why| panic!("a web: {why}")).spec
 }
 
 fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
@@ -146,8 +146,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
     let mut told = Vec::new();
     for (which, name) in [(Changes::OfGuesses, "guesses"), (Changes::OfLine, "changes")] {
         let word = Overrides::new(&[], "--set");
-        let changes =
-            parse_changes(text.to_owned(), CASES, word, which).unwrap_or_else(|why| panic!("{why}"));
+        let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();
         let advice = advise(&spec, (&web, &findings), changes, None, (None, by)).expect("advice");
         let seconds = begun.elapsed().as_secs_f64();

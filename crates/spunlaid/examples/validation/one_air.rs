@@ -3,7 +3,7 @@
 use crate::title;
 use spunlaid::ground::threads::each;
 use spunlaid::ground::{Isa, Measure, measure};
-use spunlaid::input::parse_web;
+use spunlaid::input::read_web;
 use spunlaid::simulation::Flyer;
 use spunlaid::web::map::{Findings, PatchFindings};
 use spunlaid::web::{Fabric, LayControl, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
@@ -91,7 +91,7 @@ fn numbers(file: &str, set: &[(&str, &str)]) -> Vec<Told> {
 
 fn web(file: &str, set: &[(&str, &str)]) -> (Findings, Fabric) {
     let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    let spec = parse_web(file, "web.toml", &set).unwrap_or_else(|_| panic!("a web")).spec;
+    let spec = read_web((file, "web.toml"), &set).unwrap_or_else(|_| panic!("a web")).spec;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut flown = Flyer::new(1, &stop, &|_, work| work()).web(&spec).expect("a flight");

@@ -6,7 +6,7 @@
 
 use super::Overrides;
 use super::entry::{Entry, VERSION, check_version, in_order, kind, read as read_value, root};
-use super::source::Source;
+use super::text_with_lines::TextWithLines;
 use super::written_values::{WrittenValue, WrittenValues};
 use crate::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
 use crate::ground::error::Place;
@@ -23,7 +23,7 @@ use toml::de::{DeTable, DeValue};
 pub(super) struct Document<'a, T: 'static> {
     pub(super) keys: &'static KeyTable<T>,
     name: String,
-    source: Source<'a>,
+    source: TextWithLines<'a>,
     version: Option<Entry<'a>>,
     pub(super) key_values: WrittenValues,
     /// What is wrong with values that cannot be read.
@@ -64,7 +64,7 @@ pub(super) fn open<'a, T>(
     name: &str,
     overrides: &[Overrides<'a>],
 ) -> Result<Document<'a, T>, Error> {
-    let source = Source::new(text, name);
+    let source = TextWithLines::new(text, name);
     let key_values = WrittenValues::new(source.whole());
     let root = root(&source, text)?;
     check_kind(keys, &root, &source)?;
@@ -80,7 +80,11 @@ pub(super) fn open<'a, T>(
 }
 
 /// Rejects a file of another kind, by a key or table at its top.
-fn check_kind<T>(keys: &KeyTable<T>, root: &DeTable<'_>, source: &Source<'_>) -> Result<(), Vec<Problem>> {
+fn check_kind<T>(
+    keys: &KeyTable<T>,
+    root: &DeTable<'_>,
+    source: &TextWithLines<'_>,
+) -> Result<(), Vec<Problem>> {
     type IsOf = fn(&str) -> bool;
     const KINDS: [(IsOf, &str, &str, &str, &str); 3] = [
         (|name| ["vary", "design"].contains(&name), "a study", "the file as a study", "`spunlaid sweep`", ""),

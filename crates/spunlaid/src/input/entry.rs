@@ -1,7 +1,7 @@
 //! A value of a TOML file or of an override, before its key says how it is read.
 
 use super::FORMAT_VERSION;
-use super::source::{Source, fit};
+use super::text_with_lines::{TextWithLines, fit};
 use crate::fibre::case::keys::{DataFile, Kind, Value};
 use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
@@ -27,7 +27,7 @@ pub(super) struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     /// The value of a key that stands at byte `at` of a file.
-    pub(super) fn from_file(source: &Source<'a>, at: usize, value: Spanned<DeValue<'a>>) -> Self {
+    pub(super) fn from_file(source: &TextWithLines<'a>, at: usize, value: Spanned<DeValue<'a>>) -> Self {
         let shown = source.shown(value.span());
         let is_headed = value.get_ref().is_table() && !shown.starts_with('{') || shown.starts_with("[[");
         let shown = Some(shown).filter(|_| !is_headed);
@@ -64,7 +64,7 @@ impl<'a> Entry<'a> {
 ///
 /// # Errors
 /// What the parser finds.
-pub(super) fn root<'a>(source: &Source<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Problem>> {
+pub(super) fn root<'a>(source: &TextWithLines<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Problem>> {
     let (root, faults) = DeTable::parse_recoverable(text);
     if faults.is_empty() { Ok(root.into_inner()) } else { Err(source.syntax(&faults)) }
 }

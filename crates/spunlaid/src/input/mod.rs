@@ -18,6 +18,7 @@ mod slip;
 mod source;
 mod spinline;
 mod study;
+mod text_with_lines;
 mod unknown;
 mod web;
 mod write;
@@ -28,12 +29,13 @@ pub use data::read_points;
 pub use influence::{Influence, OfFilament};
 pub use kind::kind_of;
 pub use settle::Resources;
-pub use spinline::{SpinFile, parse_spinline, read_spinline, write_spinline};
+pub use source::Source;
+pub use spinline::{SpinFile, read_spinline, write_spinline};
 pub use study::{
-    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_changes, parse_fit, parse_study,
-    read_changes, read_fit, read_study, starter_study,
+    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_study, read_changes, read_fit,
+    read_study, starter_study,
 };
-pub use web::{WebFile, parse_web, read_web, write_web};
+pub use web::{WebFile, read_web, write_web};
 pub use write::write_case;
 
 use crate::experiment::Experiment;
@@ -85,7 +87,7 @@ impl<'a, T: AsRef<[(String, String)]> + ?Sized> From<&'a T> for Overrides<'a> {
     }
 }
 
-/// Reads and checks a case file. Of the file of a web it is the case of its filament.
+/// Reads and checks a case. Of the file of a web it is the case of its filament.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them: `&[]`, `&[(key, value)]` or
 ///   [`Overrides`]
@@ -95,8 +97,15 @@ impl<'a, T: AsRef<[(String, String)]> + ?Sized> From<&'a T> for Overrides<'a> {
 ///
 /// # Errors
 /// If the file cannot be read, or if the case cannot be run; then with every problem found.
-pub fn read_case<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<CaseWithNotes, Error> {
-    parse_case(&file::read(path, FileKind::Case)?, &path.display().to_string(), overrides)
+pub fn read_case<'a>(
+    source: impl Into<Source<'a>>,
+    set: impl Into<Overrides<'a>>,
+) -> Result<CaseWithNotes, Error> {
+    let set = set.into();
+    source.into().open(FileKind::Case, set, |text, name, resources| {
+        let values = values_of_case(resources, text, name, &[set])?;
+        resources.resolve(open_values(values, &resources.files)?)
+    })
 }
 
 /// Reads the text of a file of this library, which is no larger than [`LARGEST_FILE`].
@@ -113,20 +122,6 @@ pub fn read_text(path: &Path, kind: FileKind) -> Result<String, Error> {
 /// If it is no UTF-8 text; the message says what it may be, and in which line.
 pub fn text_of(bytes: Vec<u8>, name: &str) -> Result<String, FileError> {
     file::text(bytes).map_err(|error| error.path(Path::new(name)))
-}
-
-/// Reads and checks the text of a case file. Messages call the file `name`.
-///
-/// # Errors
-/// As [`read_case`].
-pub fn parse_case<'a>(
-    text: &str,
-    name: &str,
-    overrides: impl Into<Overrides<'a>>,
-) -> Result<CaseWithNotes, Error> {
-    let (overrides, own) = (overrides.into(), Resources::default());
-    let resources = overrides.resources.unwrap_or(&own);
-    resources.resolve(open_values(values_of_case(resources, text, name, &[overrides])?, &resources.files)?)
 }
 
 /// What is written of a case: in a file of its own, or in that of a web as its filament.

@@ -3,7 +3,7 @@
 use super::Overrides;
 use super::document::Document;
 use super::entry::Entry;
-use super::source::fit;
+use super::text_with_lines::fit;
 use crate::fibre::case::keys::TableList;
 use crate::ground::Fault;
 

@@ -283,7 +283,7 @@ mod tests {
 
 #[cfg(test)]
 mod tests_of_unclosed {
-    use crate::input::parse_case;
+    use crate::input::read_case;
 
     /// Right lines around a broken one: the head of a case, and what follows.
     fn told(broken: &str) -> String {
@@ -291,7 +291,7 @@ mod tests_of_unclosed {
             "version = 1 # a [bracket and a \" in a comment\n[fibre]\n{broken}\n\n[air]\n\
             velocity = \"10 m/s\"\n[run]\nseed = 1\n"
         );
-        parse_case(&text, "a.toml", &[]).unwrap_err().to_string()
+        read_case((&text, "a.toml"), &[]).unwrap_err().to_string()
     }
 
     /// Every line and column was counted by hand: the place where a reader has to look.

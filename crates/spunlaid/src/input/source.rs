@@ -1,95 +1,45 @@
-//! The text of a TOML file, with line and column of each position.
+//! Where a text comes from that is read: a file, or a text in memory.
 
-use super::slip::{Unclosed, slip};
-use crate::ground::error::Place;
-use crate::ground::units::excerpt;
-use crate::ground::{Fault, Finding, Position, Problem};
-use std::ops::Range;
+use super::file::read;
+use super::{Overrides, Resources};
+use crate::ground::{Error, FileKind};
+use std::path::Path;
 
-/// The name and text of a file.
-pub(super) struct Source<'a> {
-    name: String,
-    text: &'a str,
-    /// Index of the byte at which each line starts.
-    lines: Vec<usize>,
+/// What is read: a file by its path, or a text and its name, `(text, name)`. Messages call it by that, and files
+/// that it names are looked for beside it.
+#[derive(Clone, Copy, Debug)]
+pub enum Source<'a> {
+    /// The path of a file.
+    File(&'a Path),
+    /// A text, and its name.
+    Text(&'a str, &'a str),
 }
 
-impl<'a> Source<'a> {
-    pub(super) fn new(text: &'a str, name: &str) -> Self {
-        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(i, _)| i + 1);
-        Self { name: name.to_owned(), text, lines: std::iter::once(0).chain(starts).collect() }
-    }
-
-    /// The whole file as a place, for values that it does not contain.
-    pub(super) fn whole(&self) -> Place {
-        Place::in_file(&self.name, Position::Whole)
-    }
-
-    /// The line that contains a byte.
-    pub(super) fn place(&self, byte: usize) -> Place {
-        Place::in_file(&self.name, Position::Line(self.position(byte).0))
-    }
-
-    /// The text of a value, as it is.
-    pub(super) fn exact(&self, span: Range<usize>) -> &'a str {
-        self.text.get(span).unwrap_or_default()
-    }
-
-    /// The text of a value, on one line and shortened.
-    pub(super) fn shown(&self, span: Range<usize>) -> String {
-        fit(self.text.get(span).unwrap_or_default())
-    }
-
-    /// What is wrong with the text, by the faults that the parser found: one problem for a line, and none
-    /// behind a list or a text that has no end.
-    pub(super) fn syntax(&self, faults: &[toml::de::Error]) -> Vec<Problem> {
-        let alone = self.text.contains('\r') && !self.text.contains('\n');
-        if alone {
-            let fault = Fault::new(
-                "the lines end with a carriage return alone, as old editors of the Macintosh save them",
-                "save the file with the ends of lines of Unix or Windows",
-            );
-            return vec![self.problem(Position::Line(1), fault)];
-        }
-        let unclosed = Unclosed::find(self.text);
-        let mut problems: Vec<(u64, Problem)> = Vec::new();
-        for fault in faults {
-            let at = fault.span().map_or(0, |span| span.start);
-            let (line, column) = self.position(at);
-            let follows = unclosed.is_some_and(|unclosed| line >= self.position(unclosed.at).0);
-            if follows || problems.iter().any(|(told, _)| *told == line) {
-                continue;
-            }
-            let message = fault.message().replace('\n', "; ");
-            let what = match fault.span().and_then(|span| self.text.get(span)) {
-                Some(key) if message == "duplicate key" => Fault::duplicate(&fit(key)),
-                _ => slip(self.text.lines().nth((line as usize).saturating_sub(1)).unwrap_or_default())
-                    .unwrap_or_else(|| Fault::plain(format!("not valid TOML: {message}"))),
-            };
-            problems.push((line, self.problem(Position::Character { line, column }, what)));
-        }
-        if let Some(unclosed) = unclosed {
-            let (line, column) = self.position(unclosed.at);
-            let place = Position::Character { line, column };
-            problems.push((line, self.problem(place, unclosed.fault(self.text))));
-        }
-        problems.into_iter().map(|(_, problem)| problem).collect()
-    }
-
-    fn problem(&self, position: Position, what: Fault) -> Problem {
-        Finding { place: Place::in_file(&self.name, position), key: String::new(), value: None, what }
-    }
-
-    /// Line and column of a byte, both counted from 1; the column counts characters.
-    fn position(&self, byte: usize) -> (u64, u64) {
-        let line = self.lines.partition_point(|start| *start <= byte);
-        let start = line.checked_sub(1).and_then(|i| self.lines.get(i)).copied().unwrap_or(0);
-        let before = self.text.get(start..byte).unwrap_or_default();
-        (line as u64, before.chars().count() as u64 + 1)
+impl<'a, P: AsRef<Path> + ?Sized> From<&'a P> for Source<'a> {
+    fn from(path: &'a P) -> Self {
+        Self::File(path.as_ref())
     }
 }
 
-/// Source text on one line, shortened.
-pub(super) fn fit(text: &str) -> String {
-    excerpt(text, 60)
+impl<'a, T: AsRef<str> + ?Sized, N: AsRef<str> + ?Sized> From<(&'a T, &'a N)> for Source<'a> {
+    fn from((text, name): (&'a T, &'a N)) -> Self {
+        Self::Text(text.as_ref(), name.as_ref())
+    }
+}
+
+impl Source<'_> {
+    /// Does something with the text, its name, and the resources of what is set.
+    pub(super) fn open<T>(
+        self,
+        kind: FileKind,
+        set: Overrides<'_>,
+        read_text: impl FnOnce(&str, &str, &Resources) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let own = Resources::default();
+        let resources = set.resources.unwrap_or(&own);
+        match self {
+            Self::File(path) => read_text(&read(path, kind)?, &path.display().to_string(), resources),
+            Self::Text(text, name) => read_text(text, name, resources),
+        }
+    }
 }

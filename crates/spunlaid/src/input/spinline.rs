@@ -5,7 +5,7 @@ use super::data::DataFiles;
 use super::open::{OpenCase, open_part};
 use super::write::own_value;
 use super::written_values::{WrittenValues, sorted};
-use super::{FORMAT_VERSION, Overrides, Resources, file, open_values, values_of_case, write};
+use super::{FORMAT_VERSION, Overrides, Source, open_values, values_of_case, write};
 use crate::air::{Flow, Hint};
 use crate::fibre::case::keys::{self, Key};
 use crate::fibre::{
@@ -13,7 +13,6 @@ use crate::fibre::{
 };
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Error, Fault, FileKind, Problem, Vec3};
-use std::path::Path;
 
 /// The tables that describe a spinline.
 pub(super) const TABLES: [&str; 3] = ["spinline", "spinline.material", "drag"];
@@ -34,28 +33,20 @@ pub struct SpinFile {
 ///
 /// # Errors
 /// If the file cannot be read, or with every problem found in these tables.
-pub fn read_spinline<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<SpinFile, Error> {
-    parse_spinline(&file::read(path, FileKind::Case)?, &path.display().to_string(), overrides)
-}
-
-/// Reads the text of a spinline. Messages call the file `name`.
-///
-/// # Errors
-/// As [`read_spinline`].
-pub fn parse_spinline<'a>(
-    text: &str,
-    name: &str,
-    overrides: impl Into<Overrides<'a>>,
+pub fn read_spinline<'a>(
+    source: impl Into<Source<'a>>,
+    set: impl Into<Overrides<'a>>,
 ) -> Result<SpinFile, Error> {
-    let (overrides, own) = (overrides.into(), Resources::default());
-    let resources = overrides.resources.unwrap_or(&own);
-    let key_values = values_of_case(resources, text, name, &[overrides])?;
-    let mut open = open_spinline(key_values.clone(), &resources.files)?;
-    // Only a whole case has a fibre that can fly.
-    if open.waits_for_flights() {
-        (open.case, open.notes) = resources.resolve(open_values(key_values, &resources.files)?)?;
-    }
-    Ok(SpinFile::from_open(open))
+    let set = set.into();
+    source.into().open(FileKind::Case, set, |text, name, resources| {
+        let key_values = values_of_case(resources, text, name, &[set])?;
+        let mut open = open_spinline(key_values.clone(), &resources.files)?;
+        // Only a whole case has a fibre that can fly.
+        if open.waits_for_flights() {
+            (open.case, open.notes) = resources.resolve(open_values(key_values, &resources.files)?)?;
+        }
+        Ok(SpinFile::from_open(open))
+    })
 }
 
 /// Sets the values of a spinline alone, which is then complete.

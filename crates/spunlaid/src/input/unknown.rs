@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::entry::{Entry, VERSION};
-use super::source::fit;
+use super::text_with_lines::fit;
 use crate::fibre::case::keys::{Key, Kind, Omission, TableList};
 use crate::ground::error::one_of;
 use crate::ground::{Fault, Finding, Removed};

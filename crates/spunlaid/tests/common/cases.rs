@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
 use spunlaid::fibre::Case;
-use spunlaid::input::{parse_case, starter_case, write_case};
+use spunlaid::input::{read_case, starter_case, write_case};
 use std::sync::LazyLock;
 
 /// Equal texts mean equal bits: numbers are shown by their shortest text that reads back, `-0.0` apart from `0.0`.
@@ -13,14 +13,14 @@ pub fn bits(case: &Case) -> String {
 /// The case that is read from what is written of another one.
 pub fn read_again(case: &Case) -> Case {
     let text = write_case(case);
-    let (again, _) = parse_case(&text, "case.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let (again, _) = read_case((&text, "case.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     assert_eq!(write_case(&again), text);
     again
 }
 
 /// The notes on the text of a case.
 pub fn remarks(text: &str) -> Vec<String> {
-    let (_, notes) = parse_case(text, "case.toml", &[]).unwrap();
+    let (_, notes) = read_case((text, "case.toml"), &[]).unwrap();
     notes.iter().map(ToString::to_string).collect()
 }
 
@@ -41,6 +41,6 @@ pub fn papers_starter() -> &'static str {
 /// The starter of Table 1 with overrides: the case and the texts of its notes.
 pub fn changed(set: &[(&str, &str)]) -> (Case, Vec<String>) {
     let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    let (case, notes) = parse_case(papers_starter(), "starter.toml", &set).unwrap();
+    let (case, notes) = read_case((papers_starter(), "starter.toml"), &set).unwrap();
     (case, notes.iter().map(ToString::to_string).collect())
 }

@@ -4,7 +4,7 @@
 use spunlaid::experiment::fit::{errors_of_model, fit};
 use spunlaid::experiment::{Fit, Journal, MeasuredWeb, Question, Target};
 use spunlaid::ground::{Error, Isa};
-use spunlaid::input::{FitFile, Overrides, Resources, parse_fit};
+use spunlaid::input::{FitFile, Overrides, Resources, read_fit};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::scan::analyse;
 use spunlaid::web::{Format, LayControl, Light, Map, Picture, Settings};
@@ -32,7 +32,7 @@ cell = \"0.5 mm\"
 pub fn read(text: &str, vary: &[&str]) -> FitFile {
     let none = Overrides::new(&[], "--set");
     let vary: Vec<String> = vary.iter().map(|key| (*key).to_owned()).collect();
-    parse_fit(text.to_owned(), "web.toml", none, &vary, "--vary").unwrap()
+    read_fit((text, "web.toml"), none, &vary, "--vary").unwrap()
 }
 
 static STOP: AtomicBool = AtomicBool::new(false);

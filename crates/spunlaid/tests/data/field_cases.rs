@@ -1,7 +1,7 @@
 //! Cases whose air is a field: what may be a slip is told with the key that is to blame, and the way out.
 
 use spunlaid::fibre::Case;
-use spunlaid::input::{parse_case, starter_case, write_case};
+use spunlaid::input::{read_case, starter_case, write_case};
 use std::fs;
 use tempfile::TempDir;
 
@@ -38,7 +38,7 @@ fn read(folder: &TempDir, file: &str, more: &[(&str, &str)]) -> Result<(Case, Ve
     let own = own.map(|key| (format!("air.{key}"), "auto".to_owned()));
     let more = more.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
     let set: Vec<_> = own.into_iter().chain([("air.field".to_owned(), field)]).chain(more).collect();
-    let (case, notes) = parse_case(starter_case(), "a.toml", &set).map_err(|error| error.to_string())?;
+    let (case, notes) = read_case((starter_case(), "a.toml"), &set).map_err(|error| error.to_string())?;
     Ok((case, notes.iter().map(ToString::to_string).collect()))
 }
 

@@ -5,7 +5,7 @@ use crate::meshes::Made;
 use crate::vtk::{ASCII, Data, Legacy, Mesh, legacy, vti, vtu};
 use spunlaid::air::Flow;
 use spunlaid::fibre::Case;
-use spunlaid::input::{parse_case, starter_case, write_case};
+use spunlaid::input::{read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -24,7 +24,7 @@ fn read(path: &Path, keys: &[(&str, &str)]) -> Result<Case, String> {
     let keys = keys.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
     let file = [("air.field".to_owned(), path.display().to_string())];
     let set: Vec<_> = own.into_iter().chain(file).chain(keys).collect();
-    parse_case(starter_case(), "a.toml", &set).map(|(case, _)| case).map_err(|error| {
+    read_case((starter_case(), "a.toml"), &set).map(|(case, _)| case).map_err(|error| {
         let folder = format!("{}/", path.parent().unwrap().display());
         error.to_string().replace(&folder, "")
     })
@@ -113,7 +113,7 @@ fn identical_with_german_names_in_every_format() {
         // The written case has the keys and reads back.
         let written = write_case(&case);
         assert!(written.contains("field_velocity = \"Geschwindigkeit\""), "{written}");
-        let again = parse_case(&written, "again.toml", &[]).unwrap().0;
+        let again = read_case((&written, "again.toml"), &[]).unwrap().0;
         assert_eq!(air(&again), air(&usual), "{name}");
     }
 }

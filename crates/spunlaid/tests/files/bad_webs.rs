@@ -3,7 +3,7 @@
 
 use crate::messages;
 use spunlaid::ground::Error;
-use spunlaid::input::{parse_case, parse_web, read_web};
+use spunlaid::input::{read_case, read_web};
 use std::fs;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ fn rejects_every_bad_web_with_its_message() {
 #[test]
 fn rejects_a_web_without_a_filament_that_is_read_as_a_case() {
     let text = fs::read_to_string("../../cases/web_known.toml").unwrap();
-    let said = parse_case(&text, "web_known.toml", &[]).unwrap_err().to_string();
+    let said = read_case((&text, "web_known.toml"), &[]).unwrap_err().to_string();
     assert!(
         said.contains("[laydown] flies no filament: how its fibres lie is known; to lay the web"),
         "{said}"
@@ -34,7 +34,7 @@ fn rejects_what_is_no_readable_file() {
 
 /// What is said of the known web with one override.
 fn refusal(text: &str, key: &str, value: &str) -> String {
-    parse_web(text, "web.toml", &[(key.to_owned(), value.to_owned())]).unwrap_err().to_string()
+    read_web((text, "web.toml"), &[(key.to_owned(), value.to_owned())]).unwrap_err().to_string()
 }
 
 #[test]

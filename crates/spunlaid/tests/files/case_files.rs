@@ -6,7 +6,7 @@ use spunlaid::air::record::{analyse, read_record};
 use spunlaid::air::{Air, Flow, Layout, Settings};
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
-use spunlaid::input::{parse_case, read_case, starter_case, write_case};
+use spunlaid::input::{read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
 
@@ -33,14 +33,14 @@ fn identical_every_case_of_the_repository() {
 
 #[test]
 fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
-    let (starter, notes) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+    let (starter, notes) = read_case((starter_case(), "starter.toml"), &[]).unwrap();
     assert!(notes.iter().all(|note| note.what.is_choice()), "{notes:?}");
     let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
     // The starter has the law across that measurements support, and elements and a scheme that resolve the
     // motion; Table 1 those of the paper.
     assert_eq!(starter.drag.across, NormalLaw::MarheinekeWegener);
     let set = [("drag.across".to_owned(), "ju-shambaugh".to_owned())];
-    let (papers, _) = parse_case(cases::papers_starter(), "starter.toml", &set).unwrap();
+    let (papers, _) = read_case((cases::papers_starter(), "starter.toml"), &set).unwrap();
     assert_eq!(bits(&papers), bits(&table1));
 
     let spelt_out: String = (starter_case().lines())
@@ -51,7 +51,7 @@ fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
             _ => format!("{line}\n"),
         })
         .collect();
-    let (case, _) = parse_case(&spelt_out, "starter.toml", &[]).unwrap();
+    let (case, _) = read_case((&spelt_out, "starter.toml"), &[]).unwrap();
     assert_eq!(bits(&case), bits(&starter));
     // Every key there is, is in the starter; the tolerance besides, which a time step leaves without effect.
     let keys = |text: &str| {
@@ -111,7 +111,7 @@ fn overrides_replace_and_add() {
         ("run.seed", "7"),
     ]
     .map(|(key, value)| (key.to_owned(), value.to_owned()));
-    let (case, _) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    let (case, _) = read_case((starter_case(), "starter.toml"), &set).unwrap();
     assert_eq!((case.air.velocity, case.fibre.diameter), (20.0, 18e-6));
     assert_eq!((case.run.scheme, case.run.seed), (Scheme::Leapfrog, 7));
 }
@@ -137,7 +137,7 @@ fn what_is_set_replaces_what_a_case_says_in_other_words() {
     let table1 = fs::read_to_string("../../cases/table1.toml").unwrap();
     let read = |lines: &str, set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        parse_case(&table1.replace("[air]\n", &format!("[air]\n{lines}\n")), "a.toml", &set)
+        read_case((&table1.replace("[air]\n", &format!("[air]\n{lines}\n")), "a.toml"), &set)
     };
     let air = |lines: &str, set: &[(&str, &str)]| {
         let air = read(lines, set).unwrap().0.air;
@@ -153,7 +153,7 @@ fn what_is_set_replaces_what_a_case_says_in_other_words() {
         density and viscosity";
     assert!(said.contains(refused), "{said}");
     let field = [("air.field".to_owned(), "../../cases/fields/diffuser_core.csv".to_owned())];
-    let (case, _) = read_case("../../cases/profile.toml".as_ref(), &field).unwrap();
+    let (case, _) = read_case("../../cases/profile.toml", &field).unwrap();
     assert!(matches!(case.air.flow, Flow::Field(_)), "{:?}", case.air.flow);
 }
 
@@ -204,7 +204,7 @@ fn identical_records_however_a_case_says_how_to_read_them() {
         ]
         .map(|(key, value)| (format!("air.{key}"), value.to_owned())),
     );
-    let (case, _) = parse_case(starter_case(), "starter.toml", &set).unwrap();
+    let (case, _) = read_case((starter_case(), "starter.toml"), &set).unwrap();
     assert_eq!(case.air.velocity, analysis.mean_velocity.value);
     assert_eq!(case.air.length_scale, analysis.length_scale.value);
     assert_eq!(case.air.records[0].components.len(), 2);
@@ -230,7 +230,7 @@ fn a_case_says_how_long_a_gap_of_its_record_may_be() {
             .collect()
     };
     for gap in [None, Some("11")] {
-        let refused = parse_case(starter_case(), "starter.toml", &set(gap)).unwrap_err().to_string();
+        let refused = read_case((starter_case(), "starter.toml"), &set(gap)).unwrap_err().to_string();
         let most = gap.unwrap_or("10");
         let wanted = format!(
             "gap.csv:501: column time_s: 12 samples in a row are missing up to here, more than the {most} \
@@ -238,9 +238,9 @@ fn a_case_says_how_long_a_gap_of_its_record_may_be() {
         );
         assert!(refused.contains(&wanted) && refused.contains("air.record_max_gap"), "{refused}");
     }
-    let (case, _) = parse_case(starter_case(), "starter.toml", &set(Some("12"))).unwrap();
+    let (case, _) = read_case((starter_case(), "starter.toml"), &set(Some("12"))).unwrap();
     assert_eq!(bits(&read_again(&case)), bits(&case));
     let refused =
-        parse_case(starter_case(), "starter.toml", &set(Some("12"))[1..].to_vec()).unwrap_err().to_string();
+        read_case((starter_case(), "starter.toml"), &set(Some("12"))[1..].to_vec()).unwrap_err().to_string();
     assert!(refused.contains("air.record_max_gap = 12 has no effect without air.record"), "{refused}");
 }

@@ -8,7 +8,7 @@ use spunlaid::fibre::{
     Case, Checks, Contact, Drag, FLIGHT_MEMORY_LIMIT, Fibre, FrictionLaw, Line, NormalLaw, Root, Run,
 };
 use spunlaid::ground::Vec3;
-use spunlaid::input::{parse_case, starter_case, write_case};
+use spunlaid::input::{read_case, starter_case, write_case};
 
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {
@@ -163,7 +163,7 @@ proptest! {
             ("run.time_step", format!("{step} s")), ("run.duration", format!("{duration} s")),
             ("run.output_interval", format!("{output} s")),
         ].map(|(key, value)| (key.to_owned(), value));
-        let read = parse_case(starter_case(), "starter.toml", &set);
+        let read = read_case((starter_case(), "starter.toml"), &set);
         prop_assume!(read.is_ok());
         let (case, _) = read.unwrap();
         prop_assert!((case.run.duration() / duration - 1.0).abs() < 1e-14);

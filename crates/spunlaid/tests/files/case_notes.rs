@@ -1,7 +1,7 @@
 //! What a reader of a case remarks: values that were rounded or chosen, laws beyond their range, likely slips.
 
 use crate::cases::{bits, changed, papers_starter, read_again, remarks};
-use spunlaid::input::{parse_case, read_case};
+use spunlaid::input::read_case;
 use std::path::Path;
 
 #[test]
@@ -128,14 +128,14 @@ fn a_time_step_left_open_is_chosen_and_told() {
     ] {
         let mut overrides = vec![("run.scheme".to_owned(), scheme.to_owned())];
         overrides.extend(tolerance.map(|t| ("run.error_tolerance".to_owned(), t.to_owned())));
-        let (case, notes) = parse_case(&open, "open.toml", &overrides).unwrap();
+        let (case, notes) = read_case((&open, "open.toml"), &overrides).unwrap();
         assert_eq!(case.run.time_step, expected, "{scheme}, {tolerance:?}");
         assert!(notes[0].to_string().contains("run.time_step = "), "{:?}", notes[0].to_string());
         // The resolved case says which step, and means the same.
         assert_eq!(bits(&read_again(&case)), bits(&case));
     }
     let both = [("run.error_tolerance".to_owned(), "0.01".to_owned())];
-    let (_, notes) = parse_case(papers_starter(), "both.toml", &both).unwrap();
+    let (_, notes) = read_case((papers_starter(), "both.toml"), &both).unwrap();
     assert!(notes[0].to_string().contains("has no effect"), "{}", notes[0]);
 }
 

@@ -2,11 +2,11 @@
 
 use spunlaid::fibre::case::keys::{self, Kind, Omission, Value};
 use spunlaid::fibre::{Case, ERROR_TOLERANCE, Melt, Polymer};
-use spunlaid::input::{parse_case, read_case, starter_case};
+use spunlaid::input::{read_case, starter_case};
 use std::fs;
 
 fn starter() -> Case {
-    parse_case(starter_case(), "starter.toml", &[]).unwrap().0
+    read_case((starter_case(), "starter.toml"), &[]).unwrap().0
 }
 
 fn refusal(case: &Case, key: &str, value: impl Into<Value>) -> String {
@@ -29,7 +29,7 @@ fn every_row_is_whole() {
         if let (Some((least, greatest)), Kind::Quantity(..)) = (key.slider, key.kind) {
             assert!(least < greatest, "{}", key.name);
             // Both ends are allowed.
-            let mut case = read_case("../../cases/profile.toml".as_ref(), &[]).unwrap().0;
+            let mut case = read_case("../../cases/profile.toml", &[]).unwrap().0;
             let set = [least, greatest].map(|end| key.set(&mut case, end));
             let told = |problem: &spunlaid::ground::Problem| {
                 let text = problem.to_string();
@@ -191,7 +191,7 @@ fn identical_constants_of_polymers_on_their_page() {
     let heads = rows.next().unwrap();
     let polymers = Polymer::ALL.map(Polymer::name);
     assert_eq!(heads, [&["key"][..], &polymers, &["source"]].concat());
-    let (case, _) = read_case("../../cases/whole_line_fibre.toml".as_ref(), &[]).unwrap();
+    let (case, _) = read_case("../../cases/whole_line_fibre.toml", &[]).unwrap();
     let (mut seen, mut compared) = (Vec::new(), 0);
     for row in rows {
         assert_eq!(row.len(), heads.len(), "{row:?}");

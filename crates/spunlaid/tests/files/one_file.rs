@@ -3,7 +3,7 @@
 use crate::web_files::bits;
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Case;
-use spunlaid::input::{WebFile, parse_case, parse_spinline, parse_web, read_case, read_web};
+use spunlaid::input::{WebFile, read_case, read_spinline, read_web};
 
 const WHOLE: &str = "../../cases/whole_line.toml";
 const FIBRE: &str = "../../cases/whole_line_fibre.toml";
@@ -66,7 +66,7 @@ fn set(values: &[(&str, &str)]) -> Vec<(String, String)> {
 }
 
 fn read(text: &str, values: &[(&str, &str)]) -> WebFile {
-    parse_web(text, PLACE, &set(values)).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    read_web((text, PLACE), &set(values)).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 fn case(file: &WebFile, layer: usize) -> &Case {
@@ -74,7 +74,7 @@ fn case(file: &WebFile, layer: usize) -> &Case {
 }
 
 fn refusal(text: &str, values: &[(&str, &str)]) -> String {
-    parse_web(text, PLACE, &set(values)).unwrap_err().to_string()
+    read_web((text, PLACE), &set(values)).unwrap_err().to_string()
 }
 
 #[test]
@@ -87,7 +87,7 @@ fn identical_in_one_file_and_in_two() {
         &[("spinline.die_temperature", "240 °C"), ("belt.speed", "2 m/s"), ("web.width", "1 m")],
         &[("air.length_factor", "2"), ("run.replicates", "3"), ("web.guessed", "air.length_factor")],
     ] {
-        let one = read_web(WHOLE.as_ref(), &set(values)).unwrap_or_else(|error| panic!("{error}"));
+        let one = read_web(WHOLE, &set(values)).unwrap_or_else(|error| panic!("{error}"));
         let two = read(two, values);
         assert_eq!(bits(&one.spec), bits(&two.spec), "{values:?}");
         assert_eq!(one.text, two.text);
@@ -105,17 +105,17 @@ fn in_one_air(mut case: Case) -> Case {
 
 #[test]
 fn identical_filament_of_a_web_and_of_a_case() {
-    let alone = read_case(FIBRE.as_ref(), &[]).unwrap().0;
-    assert_eq!(read_case(WHOLE.as_ref(), &[]).unwrap().0, alone);
-    assert_eq!(case(&read_web(WHOLE.as_ref(), &[]).unwrap(), 0), &in_one_air(alone));
+    let alone = read_case(FIBRE, &[]).unwrap().0;
+    assert_eq!(read_case(WHOLE, &[]).unwrap().0, alone);
+    assert_eq!(case(&read_web(WHOLE, &[]).unwrap(), 0), &in_one_air(alone));
     // In the words of a line too, and with what is set.
     for values in [&[][..], &[("air.speed_factor", "1.2"), ("line.basis_weight", "15 g/m²")]] {
-        let (flown, _) = parse_case(LINE, PLACE, &set(values)).unwrap();
+        let (flown, _) = read_case((LINE, PLACE), &set(values)).unwrap();
         assert_eq!(case(&read(LINE, values), 0), &in_one_air(flown.clone()));
         assert!((flown.throughput().unwrap() / (0.5e-3 / 60.0) - 1.0).abs() < 1e-12);
     }
     let whole = std::fs::read_to_string(WHOLE).unwrap();
-    let solved = parse_spinline(&whole, WHOLE, &set(&[("line.throughput", "0.4 g/min")])).unwrap();
+    let solved = read_spinline((&whole, WHOLE), &set(&[("line.throughput", "0.4 g/min")])).unwrap();
     assert_eq!(solved.spec.spinline.throughput, 0.4e-3 / 60.0);
 }
 
@@ -161,9 +161,9 @@ fn layers_have_in_common_what_stands_above_them() {
     assert_eq!(case(&read(&own, &[]), 1).fibre.youngs_modulus, 1e9);
     assert_eq!(case(&read(&own, &[("fibre.youngs_modulus", "3 GPa")]), 1).fibre.youngs_modulus, 3e9);
     // One filament is flown alone, so that it must be known which.
-    let said = parse_case(BEAMS, PLACE, &[]).unwrap_err().to_string();
+    let said = read_case((BEAMS, PLACE), &[]).unwrap_err().to_string();
     assert!(said.contains("have different filaments, and one is flown"), "{said}");
-    assert!(parse_case(BEAMS, PLACE, &set(&[("layer.2.line.throughput", "0.5 g/min")])).is_ok());
+    assert!(read_case((BEAMS, PLACE), &set(&[("layer.2.line.throughput", "0.5 g/min")])).is_ok());
 }
 
 #[test]
@@ -172,7 +172,7 @@ fn what_a_web_says_takes_the_place_of_what_its_case_says() {
         linear_density = \"1 dtex\"\n[air]\nlength_factor = 2\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
     let file = read(text, &[]);
     let values = [("fibre.linear_density", "1 dtex"), ("air.length_factor", "2")];
-    let alone = read_case("../../cases/spunbond.toml".as_ref(), &set(&values)).unwrap().0;
+    let alone = read_case("../../cases/spunbond.toml", &set(&values)).unwrap().0;
     assert_eq!(case(&file, 0), &in_one_air(alone));
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     let note = "line.toml:6: fibre.linear_density = \"1 dtex\" is laid with fibre.diameter = 11.83 µm in \

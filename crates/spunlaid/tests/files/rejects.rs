@@ -3,7 +3,7 @@
 
 use crate::messages;
 use spunlaid::ground::Error;
-use spunlaid::input::{LARGEST_FILE, parse_case, read_case, starter_case};
+use spunlaid::input::{LARGEST_FILE, read_case, starter_case};
 use std::fs;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ fn no_control_character_of_a_name_reaches_the_terminal() {
     let case = starter_case();
     for (name, shown) in [("t\\bles/x.csv", "t\\u{8}les/x.csv"), ("\\u001b[2J.csv", "\\u{1b}[2J.csv")] {
         let text = case.replace("[air]", &format!("[air]\nprofile = \"{name}\""));
-        let said = parse_case(&text, "\u{7}.toml", &[]).unwrap_err().to_string();
+        let said = read_case((&text, "\u{7}.toml"), &[]).unwrap_err().to_string();
         assert!(said.contains(shown) && said.contains("\\u{7}.toml:"), "{said}");
         assert!(said.chars().all(|c| c == '\n' || !c.is_control()), "{said:?}");
     }
@@ -133,7 +133,7 @@ fn rejects_overrides_by_their_name() {
 #[test]
 fn rejects_no_more_than_people_read() {
     let text: String = (0..1000).map(|i| format!("strange_key_{i} = 1\n")).collect();
-    let error = parse_case(&text, "many.toml", &[]).unwrap_err();
+    let error = read_case((&text, "many.toml"), &[]).unwrap_err();
     assert_eq!(error.to_string().lines().count(), 21);
     assert!(error.to_string().ends_with("\nand 989 more like these"), "{error}");
 }
@@ -153,7 +153,7 @@ fn rejects_far_too_many_eddies_of_a_record() {
 
 #[test]
 fn rejects_a_case_that_code_built() {
-    let (mut case, _) = parse_case(starter_case(), "starter.toml", &[]).unwrap();
+    let (mut case, _) = read_case((starter_case(), "starter.toml"), &[]).unwrap();
     case.check().unwrap();
     case.fibre.length = -1.0;
     case.fibre.elements = 0;

@@ -2,7 +2,7 @@
 
 use spunlaid::fibre::case::keys;
 use spunlaid::ground::{REMOVED, Removed};
-use spunlaid::input::{Overrides, parse_case, parse_study, parse_web, starter_case};
+use spunlaid::input::{Overrides, parse_study, read_case, read_web, starter_case};
 
 const WEB: &str = "
 [fibre]
@@ -30,8 +30,8 @@ fn rejects_removed_keys_with_the_way_out() {
         let set = [(key.clone(), "1".to_owned())];
         let set = Overrides::new(&set, "--set");
         let wanted = format!("--set {key} = 1 is gone since {since}; {way_out}");
-        let case = parse_case(starter_case(), "starter.toml", set).unwrap_err().to_string();
-        let web = parse_web(WEB, "web.toml", set).unwrap_err().to_string();
+        let case = read_case((starter_case(), "starter.toml"), set).unwrap_err().to_string();
+        let web = read_web((WEB, "web.toml"), set).unwrap_err().to_string();
         assert!(case.contains(&wanted) && web.contains(&wanted), "{case}\n{web}\n{wanted}");
         assert!(keys::named(&key).unwrap_err().to_string().contains(way_out));
         let study = format!(

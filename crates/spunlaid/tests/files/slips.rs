@@ -3,7 +3,7 @@
 use spunlaid::air::Field;
 use spunlaid::fibre::case::keys::{self, Kind};
 use spunlaid::ground::Error;
-use spunlaid::input::{WEB_KEYS, parse_case, parse_web, read_case, starter_case, starter_case_of_fed};
+use spunlaid::input::{WEB_KEYS, read_case, read_web, starter_case, starter_case_of_fed};
 use std::fmt::Display;
 use std::fs;
 use std::path::Path;
@@ -17,8 +17,8 @@ fn owned(set: Set<'_>) -> Vec<(String, String)> {
 /// The warnings about a case, or why it is refused.
 fn said(path: &str, set: Set<'_>) -> Result<Vec<String>, Error> {
     let (_, notes) = match path {
-        "starter" => parse_case(starter_case(), "starter.toml", &owned(set)),
-        "fed" => parse_case(starter_case_of_fed(), "fed.toml", &owned(set)),
+        "starter" => read_case((starter_case(), "starter.toml"), &owned(set)),
+        "fed" => read_case((starter_case_of_fed(), "fed.toml"), &owned(set)),
         path => read_case(Path::new(&format!("../../cases/{path}.toml")), &owned(set)),
     }?;
     Ok(notes.iter().filter(|note| note.what.is_warning()).map(ToString::to_string).collect())
@@ -118,7 +118,7 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
             let value = dimension.exact(far);
             let text = if key.name.starts_with("line.rows.") { &rows } else { &known };
             let name = key.name.replace("rows.", "rows.1.");
-            let said = parse_web(text, "../../cases/web_known.toml", &owned(&[(&name, &value)]));
+            let said = read_web((text, "../../cases/web_known.toml"), &owned(&[(&name, &value)]));
             let short = key.name.rsplit('.').next().unwrap();
             let text = match said {
                 Ok(file) => file.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),

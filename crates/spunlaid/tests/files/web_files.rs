@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use spunlaid::fibre::case::keys::Value;
-use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, parse_web, read_web};
+use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, read_web};
 use spunlaid::simulation::Flown;
 use spunlaid::web::map::Filaments;
 use spunlaid::web::{Defect, Edges, Fibres, Row, Surrogate};
@@ -65,7 +65,7 @@ pub(super) fn bits(spec: &WebSpec) -> String {
 
 pub(super) fn assert_reads_back(file: &WebFile) {
     let again =
-        parse_web(&file.text, "web.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{}", file.text));
+        read_web((&file.text, "web.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{}", file.text));
     assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
     assert_eq!(again.text, file.text);
 }
@@ -89,14 +89,14 @@ fn every_row_of_the_table_of_keys_is_whole() {
 
 #[test]
 fn identical_after_writing_and_reading() {
-    assert_reads_back(&read_web(KNOWN.as_ref(), &[]).unwrap());
-    assert_reads_back(&read_web(FLOWN.as_ref(), &[]).unwrap());
-    assert_reads_back(&parse_web(LAYERS, "layers.toml", &[]).unwrap());
+    assert_reads_back(&read_web(KNOWN, &[]).unwrap());
+    assert_reads_back(&read_web(FLOWN, &[]).unwrap());
+    assert_reads_back(&read_web((LAYERS, "layers.toml"), &[]).unwrap());
 }
 
 #[test]
 fn the_known_web_is_what_its_file_says() {
-    let WebFile { spec, notes, text } = read_web(KNOWN.as_ref(), &[]).unwrap();
+    let WebFile { spec, notes, text } = read_web(KNOWN, &[]).unwrap();
     assert!(notes.is_empty());
     let [layer] = &spec.layers[..] else { panic!("{text}") };
     let LaydownSource::Surrogate(surrogate) = layer.source else { panic!("{text}") };
@@ -116,7 +116,7 @@ fn the_known_web_is_what_its_file_says() {
 
 #[test]
 fn a_case_gives_the_fibre_and_the_speeds() {
-    let spec = read_web(FLOWN.as_ref(), &[]).unwrap().spec;
+    let spec = read_web(FLOWN, &[]).unwrap().spec;
     let [layer] = &spec.layers[..] else { panic!("one layer") };
     assert_eq!((layer.diameter, layer.density), (18e-6, 910.0));
     assert_eq!((layer.feed_speed, layer.belt_speed), (50.0, 3.0));
@@ -125,13 +125,13 @@ fn a_case_gives_the_fibre_and_the_speeds() {
     );
     // The same numbers may be written again, also in other units.
     let text = fs::read_to_string(FLOWN).unwrap().replace("[line]", "[line]\nbelt_speed = \"180 m/min\"");
-    let again = parse_web(&text, FLOWN, &[]).unwrap().spec;
+    let again = read_web((&text, FLOWN), &[]).unwrap().spec;
     assert_eq!(bits(&again), bits(&spec));
 }
 
 #[test]
 fn rows_and_layers_are_read_in_their_order() {
-    let spec = parse_web(LAYERS, "layers.toml", &[]).unwrap().spec;
+    let spec = read_web((LAYERS, "layers.toml"), &[]).unwrap().spec;
     let [first, second] = &spec.layers[..] else { panic!("two layers") };
     assert_eq!(first.name.as_deref(), Some("first \"beam\""));
     let row = |offset: f64| Row::new(offset, 0.5e-3, 2100);
@@ -148,7 +148,7 @@ fn rows_and_layers_are_read_in_their_order() {
 fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across() {
     let read = |values: &[(&str, &str)]| {
         let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        read_web(FLOWN.as_ref(), &values)
+        read_web(FLOWN, &values)
     };
     let (cutoff, lateral) = (("air.lateral_cutoff", "12"), ("air.lateral", "von-karman"));
     let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
@@ -169,7 +169,7 @@ fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across(
 fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     let read = |values: &[(&str, &str)]| {
         let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        read_web(FLOWN.as_ref(), &values).unwrap()
+        read_web(FLOWN, &values).unwrap()
     };
     let in_slot = [
         ("line.rows", "auto"),
@@ -208,7 +208,7 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
 /// Filaments of cases hang in one air, and those of known numbers are independent: the source decides.
 #[test]
 fn a_web_hangs_in_one_air_where_its_filaments_fly() {
-    let read = |text: &str| parse_web(text, "web.toml", &[]).unwrap();
+    let read = |text: &str| read_web((text, "web.toml"), &[]).unwrap();
     let flown = "[laydown]\ncase = \"tests/bad_webs/short.case\"\n[line]\nfilaments_per_metre = 5000\n[web]\n\
         width = \"0.5 m\"\nlength = \"0.5 m\"\n";
     let known = fs::read_to_string(KNOWN).unwrap();
@@ -223,7 +223,7 @@ fn a_web_hangs_in_one_air_where_its_filaments_fly() {
 
 #[test]
 fn few_filaments_are_flown_as_a_web_says() {
-    let read = |value: &str| read_web(FLOWN.as_ref(), &set("web.flown", value)).unwrap();
+    let read = |value: &str| read_web(FLOWN, &set("web.flown", value)).unwrap();
     for (value, flown, written) in [
         ("auto", Flown::Auto, None),
         ("all", Flown::All, Some("flown = \"all\"")),
@@ -250,7 +250,7 @@ fn few_filaments_are_flown_as_a_web_says() {
 
 #[test]
 fn overrides_reach_every_layer_and_row() {
-    let read = |key: &str, value: &str| parse_web(LAYERS, "layers.toml", &set(key, value)).unwrap().spec;
+    let read = |key: &str, value: &str| read_web((LAYERS, "layers.toml"), &set(key, value)).unwrap().spec;
     assert_eq!(
         read("layer.2.line.filaments_per_metre", "7").layers[1].filaments,
         Filaments::AtRandom { per_metre: 7.0 }
@@ -268,7 +268,7 @@ fn overrides_reach_every_layer_and_row() {
     // A list of rows can be undone to lay filaments at random.
     let mut undone = set("layer.1.line.rows", "auto");
     undone.extend(set("layer.1.line.filaments_per_metre", "5000"));
-    let spec = parse_web(LAYERS, "layers.toml", &undone).unwrap().spec;
+    let spec = read_web((LAYERS, "layers.toml"), &undone).unwrap().spec;
     assert_eq!(spec.layers[0].filaments, Filaments::AtRandom { per_metre: 5000.0 });
 }
 
@@ -277,7 +277,7 @@ fn cells_grow_with_the_web_and_divide_it() {
     let cell = |width: &str, length: &str| {
         let mut sizes = set("web.width", width);
         sizes.extend(set("web.length", length));
-        read_web(KNOWN.as_ref(), &sizes).unwrap().spec.sheet.cell
+        read_web(KNOWN, &sizes).unwrap().spec.sheet.cell
     };
     assert_eq!(cell("2 m", "1 m"), 0.5e-3);
     assert_eq!(cell("3 m", "2 m"), 1e-3);
@@ -292,7 +292,7 @@ fn spreads_that_are_known_only_after_the_flight_are_checked_too() {
     // A row as wide as the narrow web.
     let narrow = [("web.width", "140 mm"), ("line.rows.1.filaments", "700")];
     let narrow = narrow.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    let spec = read_web(FLOWN.as_ref(), &narrow).unwrap().spec;
+    let spec = read_web(FLOWN, &narrow).unwrap().spec;
     spec.check_spreads([18e-3, 17e-3]).unwrap();
     let said = spec.check_spreads([18e-3, 18e-3]).unwrap_err().to_string();
     assert!(
@@ -359,7 +359,7 @@ proptest! {
     #[test]
     fn a_mutated_file_is_read_or_refused_in_words(text in mutated(), value in "[ -~]{0,12}", key in 0..WEB_KEYS.len()) {
         for overrides in [vec![], set(WEB_KEYS[key].name, &value)] {
-            match parse_web(&text, "../../cases/web.toml", &overrides) {
+            match read_web((&text, "../../cases/web.toml"), &overrides) {
                 Ok(file) => assert_reads_back(&file),
                 Err(error) => {
                     let said = error.to_string();
@@ -390,18 +390,18 @@ fn rejects_guesses_that_have_no_half() {
         ),
         (FLOWN, "fibre.diameter, air.spectrum", "names air.spectrum, of which"),
     ] {
-        let refused = read_web(text.as_ref(), &set("web.guessed", guessed)[..]).unwrap_err().to_string();
+        let refused = read_web(text, &set("web.guessed", guessed)[..]).unwrap_err().to_string();
         assert!(refused.contains("web.guessed") && refused.contains(message), "{guessed}: {refused}");
     }
-    let refused = parse_web(&two, "layers.toml", &[]).unwrap_err().to_string();
+    let refused = read_web((&two, "layers.toml"), &[]).unwrap_err().to_string();
     assert!(
         refused.contains("layers.toml:4: web.guessed") && refused.contains("line.throughput"),
         "{refused}"
     );
     // What can be halved is read, and written as it was.
-    let file = read_web(FLOWN.as_ref(), &set("web.guessed", "belt.distance,line.rows.1.pitch")[..]).unwrap();
+    let file = read_web(FLOWN, &set("web.guessed", "belt.distance,line.rows.1.pitch")[..]).unwrap();
     assert_eq!(file.spec.guessed, ["belt.distance", "line.rows.1.pitch"]);
     assert!(file.text.contains("guessed = \"belt.distance, line.rows.1.pitch\""), "{}", file.text);
     assert_reads_back(&file);
-    assert!(read_web(FLOWN.as_ref(), &set("web.guessed", "none")[..]).unwrap().spec.guessed.is_empty());
+    assert!(read_web(FLOWN, &set("web.guessed", "none")[..]).unwrap().spec.guessed.is_empty());
 }

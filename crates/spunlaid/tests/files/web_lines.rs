@@ -2,7 +2,7 @@
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
 use spunlaid::air::Lateral;
-use spunlaid::input::{LaydownSource, WebFile, parse_web, read_case, read_web};
+use spunlaid::input::{LaydownSource, WebFile, read_case, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
 use std::path::Path;
@@ -27,7 +27,7 @@ length = "1 m"
 
 fn read_line(values: &[(&str, &str)]) -> WebFile {
     let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-    parse_web(LINE, "../../cases/line.toml", &values).unwrap_or_else(|error| panic!("{error}"))
+    read_web((LINE, "../../cases/line.toml"), &values).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn analytic_speeds_follow_from_throughput_and_basis_weight() {
 fn any_complete_set_of_numbers_is_read() {
     let [feed, belt] = [0.5e-3 / 60.0 / 2e-7, 5000.0 * 0.5e-3 / 60.0 / 20e-3];
     let speeds = |file: &WebFile| [file.spec.layers[0].feed_speed, file.spec.layers[0].belt_speed];
-    let of_text = |text: &str| parse_web(text, "line.toml", &[]).unwrap_or_else(|error| panic!("{error}"));
+    let of_text = |text: &str| read_web((text, "line.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     for (line, wanted) in [
         ("throughput = \"0.5 g/min\"\nbasis_weight = \"20 gsm\"", [feed, belt]),
         ("feed_speed = \"2500 m/min\"\nbasis_weight = \"20 g/m²\"", [feed, belt]),
@@ -89,8 +89,7 @@ fn an_override_replaces_the_other_key() {
     assert_eq!(layer("line.feed_speed", "50 m/s").feed_speed, 50.0);
     assert_eq!(layer("line.belt_speed", "3 m/s").belt_speed, 3.0);
     assert_eq!(layer("fibre.diameter", "18 µm").diameter, 18e-6);
-    let known =
-        |key: &str, value: &str| read_web(KNOWN.as_ref(), &set(key, value)).unwrap().spec.layers[0].clone();
+    let known = |key: &str, value: &str| read_web(KNOWN, &set(key, value)).unwrap().spec.layers[0].clone();
     assert!((known("line.throughput", "0.5 g/min").feed_speed - 35.99).abs() < 0.01);
     assert!((known("line.basis_weight", "30 g/m²").belt_speed - 0.5 * 3.8594).abs() < 1e-4);
     assert!((known("fibre.linear_density", "2 dtex").diameter - 16.73e-6).abs() < 1e-8);
@@ -103,7 +102,7 @@ fn an_override_replaces_the_other_key() {
     // Nothing is said twice.
     let both = [("line.feed_speed", "50 m/s"), ("line.throughput", "0.5 g/min")];
     let both = both.map(|(key, value)| (key.to_owned(), value.to_owned()));
-    let said = parse_web(LINE, "line.toml", &both).unwrap_err().to_string();
+    let said = read_web((LINE, "line.toml"), &both).unwrap_err().to_string();
     assert!(
         said.contains("line.throughput = \"0.5 g/min\" cannot be combined with line.feed_speed"),
         "{said}"
@@ -131,14 +130,14 @@ fn analytic_several_layers_make_up_the_basis_weight() {
         format!("{first}{}", second(weight)),
         format!("{}{}", first.replace("rows = ", &format!("{weight}rows = ")), second(weight)),
     ] {
-        let file = parse_web(&text, "layers.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+        let file = read_web((&text, "layers.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_reads_back(&file);
         let belt = (5000.0 * 0.5e-3 / 60.0 + 3000.0 * 1e-7 * 40.0) / 20e-3;
         for layer in &file.spec.layers {
             assert!((layer.belt_speed / belt - 1.0).abs() < 1e-12, "{}", layer.belt_speed);
         }
         // Whichever layer is named, the belt is that of both.
-        let faster = parse_web(&text, "layers.toml", &set("layer.2.line.belt_speed", "5 m/s")).unwrap().spec;
+        let faster = read_web((&text, "layers.toml"), &set("layer.2.line.belt_speed", "5 m/s")).unwrap().spec;
         assert!(faster.layers.iter().all(|layer| layer.belt_speed == 5.0), "{faster:?}");
     }
 }
@@ -152,7 +151,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
             length = \"1 m\"\n"
         );
         let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        parse_web(&text, "../../cases/line.toml", &values).unwrap_or_else(|error| panic!("{error}"))
+        read_web((&text, "../../cases/line.toml"), &values).unwrap_or_else(|error| panic!("{error}"))
     };
     let case = |file: &WebFile| file.spec.layers[0].source.case().unwrap().clone();
     let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-9, "{found} {wanted}");
@@ -175,7 +174,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let alone =
         [("feed.speed", format!("{:e} m/s", speeds[0])), ("belt.speed", format!("{:e} m/s", speeds[1]))];
     let alone = alone.map(|(key, value)| (key.to_owned(), value));
-    let mut alone = read_case("../../cases/spunbond.toml".as_ref(), &alone).unwrap().0;
+    let mut alone = read_case("../../cases/spunbond.toml", &alone).unwrap().0;
     alone.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
     assert_eq!(alone, flown);
     // A spinline is solved with the throughput.
@@ -191,7 +190,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
 }
 
 fn assert_reads_back_beside_cases(file: &WebFile) {
-    let again = parse_web(&file.text, "web.toml", &[]).unwrap();
+    let again = read_web((&file.text, "web.toml"), &[]).unwrap();
     assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
 }
 

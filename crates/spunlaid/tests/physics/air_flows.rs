@@ -8,7 +8,7 @@ use spunlaid::air::{
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Flight};
 use spunlaid::ground::{Error, Isa, Vec3};
-use spunlaid::input::parse_case;
+use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{Keep, KeepShapes, RunControl, Trajectory};
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn table1(changes: &[(&str, &str)]) -> Case {
     let changes: Vec<_> =
         changes.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    parse_case(cases::papers_starter(), "Table 1", &changes).unwrap().0
+    read_case((cases::papers_starter(), "Table 1"), &changes).unwrap().0
 }
 
 fn flights(case: &Case) -> Vec<Trajectory> {
@@ -294,7 +294,7 @@ fn analytic_longer_eddies_of_a_profile_pass_more_slowly() {
     }
     // Without a flow that gives them there is nothing to multiply.
     let uniform = [("air.length_factor".to_owned(), "2".to_owned())];
-    let refused = parse_case(cases::papers_starter(), "Table 1", &uniform).unwrap_err().to_string();
+    let refused = read_case((cases::papers_starter(), "Table 1"), &uniform).unwrap_err().to_string();
     assert!(
         refused.contains("a profile or a field that gives length_scale; change air.length_scale"),
         "{refused}"

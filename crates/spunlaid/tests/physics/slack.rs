@@ -4,7 +4,7 @@
 use crate::common::laying::{flight, spunbond};
 use spunlaid::fibre::{Case, Contact};
 use spunlaid::ground::{Error, Lanes, Vec3};
-use spunlaid::input::{parse_case, read_case};
+use spunlaid::input::read_case;
 
 /// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-]
 /// and other values.
@@ -89,7 +89,7 @@ fn on_a_fast_belt(kept_length: &str) -> Case {
          turbulence_intensity = 0\nlength_scale = \"16 mm\"\ncutoff_frequency = \"800 Hz\"\n[drag]\n\
          across = \"marheineke-wegener\"\n[run]\nduration = \"0.8 s\"\nreplicates = 1\n"
     );
-    parse_case(&text, "fast.toml", &[]).unwrap().0
+    read_case((&text, "fast.toml"), &[]).unwrap().0
 }
 
 /// What slides pulls with `μ(pd + w)` a length at most, so with 48 mN from all of 0.8 m. It once came out as 90 N.

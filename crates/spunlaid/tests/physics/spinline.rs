@@ -2,7 +2,7 @@
 
 use spunlaid::fibre::spinline::HoleRows;
 use spunlaid::fibre::{AirChange, Solution, Station, Surroundings};
-use spunlaid::input::{SpinFile, parse_spinline, read_spinline, write_spinline};
+use spunlaid::input::{SpinFile, read_spinline, write_spinline};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -153,7 +153,7 @@ fn identical_after_writing_and_reading() {
         let file = read(&name);
         let text = write_spinline(&file.spec);
         let again =
-            parse_spinline(&text, "spinline.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+            read_spinline((&text, "spinline.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(write_spinline(&again.spec), text);
         assert_eq!(format!("{:?}", again.spec), format!("{:?}", file.spec), "{name}");
         assert_eq!(again.solve().unwrap(), file.solve().unwrap(), "{name}");
@@ -205,7 +205,7 @@ field_root = ["0.3 m", "0 m", "0 m"]
 fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
     let read = |set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-        parse_spinline(IN_A_FIELD, "field.toml", &set).unwrap_or_else(|error| panic!("{error}"))
+        read_spinline((IN_A_FIELD, "field.toml"), &set).unwrap_or_else(|error| panic!("{error}"))
     };
     let file = read(&[]);
     assert_eq!(
@@ -223,7 +223,7 @@ fn consistent_air_of_a_field_and_of_a_table_with_its_numbers() {
     assert_eq!(by_table.solve().unwrap(), file.solve().unwrap());
     // What is written gives the same again, with the field.
     let text = write_spinline(&file.spec);
-    let again = parse_spinline(&text, "again.toml", &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let again = read_spinline((&text, "again.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
     assert_eq!(again.solve().unwrap(), file.solve().unwrap());
     assert_eq!(write_spinline(&again.spec), text);
     // The factor of the air counts here as in flight.

@@ -6,7 +6,7 @@ use spunlaid::air::{
 use spunlaid::fibre::{Case, Flight, Job, Snapshot};
 use spunlaid::ground::place::Inlet;
 use spunlaid::ground::{Isa, Vec3};
-use spunlaid::input::parse_case;
+use spunlaid::input::read_case;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ gravity = '0 m/s²'
 ";
 
 fn case(widening: Widening) -> Case {
-    let (mut case, _) = parse_case(HANGING, "case.toml", &[]).unwrap();
+    let (mut case, _) = read_case((HANGING, "case.toml"), &[]).unwrap();
     case.air.flow = profile(&[0.0, LENGTH], &SPEEDS);
     case.air.widening = Some(widening);
     case

@@ -9,7 +9,7 @@ use spunlaid::experiment::{Batch, Bundles, Point};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
 use spunlaid::ground::{Error, Isa, Value as Measured};
-use spunlaid::input::{parse_case, parse_study, write_case};
+use spunlaid::input::{parse_study, read_case, write_case};
 use spunlaid::simulation::ensemble::{fly, fly_together};
 use spunlaid::simulation::{Job, Keep, RunControl, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,7 +20,7 @@ const REPLICATES: u64 = 2;
 
 fn read(text: &str) -> Case {
     let replicates = [("run.replicates".to_owned(), REPLICATES.to_string())];
-    parse_case(text, "case.toml", &replicates).unwrap_or_else(|error| panic!("{error}")).0
+    read_case((text, "case.toml"), &replicates).unwrap_or_else(|error| panic!("{error}")).0
 }
 
 /// The points of a study that varies a key, or why there are none.

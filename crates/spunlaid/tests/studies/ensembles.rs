@@ -5,7 +5,7 @@ use crate::common::*;
 use spunlaid::fibre::chain::schemes::Scheme;
 use spunlaid::fibre::{Case, Job, LaidPoint};
 use spunlaid::ground::{Error, Estimate, Isa};
-use spunlaid::input::parse_case;
+use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
 use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, RunControl, Trajectory, Unchecked};
 use std::collections::BTreeMap;
@@ -234,7 +234,7 @@ replicates = 12
 ",
         record.display()
     );
-    let (case, _) = parse_case(&text, "case.toml", &[]).unwrap();
+    let (case, _) = read_case((&text, "case.toml"), &[]).unwrap();
     for threads in [1, 2] {
         let (stop, fibre_steps, told) =
             (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());

@@ -6,7 +6,7 @@ use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{Case, Note};
 use spunlaid::ground::{Dimension, Error, Isa};
 use spunlaid::input::{
-    CaseWithNotes, Overrides, Resources, StudyFile, parse_case, parse_spinline, parse_study, parse_web,
+    CaseWithNotes, Overrides, Resources, StudyFile, parse_study, read_case, read_spinline, read_web,
 };
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{Keep, RunControl};
@@ -32,7 +32,7 @@ fn case() -> String {
 const NAME: &str = "../../cases/case.toml";
 
 fn read(set: &[(&str, &str)]) -> Result<CaseWithNotes, Error> {
-    parse_case(&case(), NAME, &owned(set))
+    read_case((&case(), NAME), &owned(set))
 }
 
 fn owned(set: &[(&str, &str)]) -> Vec<(String, String)> {
@@ -59,7 +59,7 @@ fn settled<T>(threads: usize, read: impl Fn(Overrides<'_>) -> Result<T, Error>) 
 /// The case with such a value when everything has been flown.
 fn settled_case(threads: usize, set: &[(&str, &str)]) -> CaseWithNotes {
     let set = owned(set);
-    settled(threads, |known| parse_case(&case(), NAME, Overrides { values: &set, ..known })).0
+    settled(threads, |known| read_case((&case(), NAME), Overrides { values: &set, ..known })).0
 }
 
 fn number(case: &Case, key: &str) -> f64 {
@@ -84,7 +84,7 @@ fn identical_tension_when_the_rounds_are_flown_by_hand_and_for_any_number_of_thr
     let tension = number(&case, "spinline.end_tension");
     assert!(tension > 1e-6, "{tension}");
     assert_eq!(settled_case(3, &[]), (case.clone(), notes.clone()));
-    let (file, _) = settled(2, |known| parse_spinline(&self::case(), NAME, known));
+    let (file, _) = settled(2, |known| read_spinline((&self::case(), NAME), known));
     assert_eq!(Some(&file.spec.spinline), case.spinline.as_deref());
     let said = notes.iter().map(Note::to_string).find(|note| note.contains("was found by flights")).unwrap();
     assert!(said.starts_with("../../cases/case.toml:8: spinline.end_tension was found by flights"), "{said}");
@@ -108,7 +108,7 @@ fn identical_tension_when_the_rounds_are_flown_by_hand_and_for_any_number_of_thr
 #[test]
 fn a_reader_flies_nothing_and_tells_what_has_to_be_flown() {
     let mut resources = Resources::default();
-    let (case, notes) = parse_case(&case(), NAME, Overrides::from(&[][..]).with(&resources)).unwrap();
+    let (case, notes) = read_case((&case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
     assert!(case.waits_for_flights() && resources.wanted() == 1);
     let (zero, _) = read(&[("spinline.end_tension", "0 N")]).unwrap();
     assert_eq!(number(&case, "feed.speed"), number(&zero, "feed.speed"));
@@ -118,14 +118,14 @@ fn a_reader_flies_nothing_and_tells_what_has_to_be_flown() {
     resources.fly(by(1, &stop, &steps)).unwrap();
     let done = steps.into_inner() as f64 / most as f64;
     assert!((done - 1.0).abs() < 0.05, "{done}");
-    let (flown, _) = parse_case(&self::case(), NAME, Overrides::from(&[][..]).with(&resources)).unwrap();
+    let (flown, _) = read_case((&self::case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
     assert!(number(&flown, "feed.speed") > number(&zero, "feed.speed") && !flown.waits_for_flights());
 }
 
 #[test]
 fn a_stop_ends_the_flights() {
     let (stop, steps, mut resources) = (AtomicBool::new(true), AtomicU64::new(0), Resources::default());
-    parse_case(&case(), NAME, Overrides::from(&[][..]).with(&resources)).unwrap();
+    read_case((&case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
     let stopped = resources.fly(by(2, &stop, &steps));
     assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");
 }
@@ -181,7 +181,7 @@ length = '0.4 m'
 fn identical_cases_of_layers_of_which_one_has_another_throughput() {
     // The filament stands above the layers, which have it in common.
     let text = format!("{}{WEB}", case());
-    let (web, wanted) = settled(2, |known| parse_web(&text, "../../cases/line.toml", known));
+    let (web, wanted) = settled(2, |known| read_web((&text, "../../cases/line.toml"), known));
     assert_eq!(wanted, 2);
     for (layer, throughput) in web.spec.layers.iter().zip(["0.5 g/min", "0.45 g/min"]) {
         let (mut alone, _) = settled_case(1, &[("spinline.throughput", throughput)]);

@@ -9,7 +9,7 @@ use spunlaid::experiment::{
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Value};
 use spunlaid::ground::{Error, Estimate, Isa};
-use spunlaid::input::{StudyFile, parse_case, parse_study, starter_case, write_case};
+use spunlaid::input::{StudyFile, parse_study, read_case, starter_case, write_case};
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{Keep, Results, RunControl, Trajectory};
 use std::sync::Mutex;
@@ -68,7 +68,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
         let mut journal = flown(&study, 2);
         for (index, point) in study.points.iter().enumerate() {
             // `--print-point` prints exactly the point.
-            let (case, _) = parse_case(&write_case(case_of(point)), "point.toml", &[]).unwrap();
+            let (case, _) = read_case((&write_case(case_of(point)), "point.toml"), &[]).unwrap();
             assert_eq!(&case, case_of(point));
             assert_eq!(case.run.seed == 7, common);
             let flights = single(&case);
@@ -199,7 +199,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
 #[test]
 fn a_lost_fibre_costs_its_neighbours_nothing() {
     // The drag changes the velocity by more than its value in one step, which no check foresees.
-    let (mut good, _) = parse_case(SHORT, "case.toml", &[]).unwrap();
+    let (mut good, _) = read_case((SHORT, "case.toml"), &[]).unwrap();
     good.run.steps = 5000;
     let mut bad = good.clone();
     (bad.fibre.diameter, bad.air.velocity) = (2e-6, 3000.0);
@@ -316,7 +316,7 @@ fn defaults_follow_what_varies() {
     // Without an element length in the case, every point takes the length of its eddies.
     let lines = starter_case().lines().filter(|line| !line.starts_with("element_length"));
     let without = lines.collect::<Vec<_>>().join("\n");
-    let (case, _) = parse_case(&without, "starter.toml", &[]).unwrap();
+    let (case, _) = read_case((&without, "starter.toml"), &[]).unwrap();
     let text = "case = 'c'\ndesign = 'grid'\n[vary]\nair.length_scale = ['50 mm', '25 mm']\n";
     let starter = |_: &str, _| Ok((without.clone(), "starter.toml".to_owned()));
     let study = parse_study(text, "study.toml", None, starter).unwrap().study;
@@ -377,7 +377,7 @@ fn identical_to_single_runs_where_words_vary() {
     let mut journal = flown(&study, 2);
     let mut different = std::collections::BTreeSet::new();
     for (index, point) in study.points.iter().enumerate() {
-        let (case, _) = parse_case(&write_case(case_of(point)), "point.toml", &[]).unwrap();
+        let (case, _) = read_case((&write_case(case_of(point)), "point.toml"), &[]).unwrap();
         assert_eq!(&case, case_of(point));
         let records = journal.records(index, 99).unwrap();
         assert_eq!(records.len(), 3);

@@ -3,7 +3,7 @@
 use spunlaid::experiment::Point;
 use spunlaid::ground::Error;
 use spunlaid::input::{
-    LaydownSource, Overrides, StudyFile, WebFile, parse_study, parse_web, write_experiment,
+    LaydownSource, Overrides, StudyFile, WebFile, parse_study, read_web, write_experiment,
 };
 use spunlaid::web::map::Filaments;
 use std::path::Path;
@@ -42,7 +42,7 @@ pub fn study_beside_cases(web: &str, study: &str, set: &[(String, String)]) -> R
 
 /// A web beside these cases.
 pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, Error> {
-    parse_web(web, BESIDE_CASES, set)
+    read_web((web, BESIDE_CASES), set)
 }
 
 const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");
@@ -82,7 +82,7 @@ fn points_are_webs_with_these_values() {
             ("web.cell", "5 mm".to_owned()),
         ];
         let set = set.map(|(key, value)| (key.to_owned(), value));
-        let alone = parse_web(WEB, "web.toml", &set).unwrap();
+        let alone = read_web((WEB, "web.toml"), &set).unwrap();
         assert_eq!(write_experiment(&point.experiment), alone.text);
     }
     // The study as it was run gives the same points.

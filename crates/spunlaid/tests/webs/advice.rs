@@ -3,7 +3,7 @@
 use spunlaid::experiment::advice::{advise, judged_by};
 use spunlaid::experiment::{Advice, Change, Tried, setting};
 use spunlaid::ground::{Error, Isa, Setting};
-use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, parse_changes, parse_web};
+use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::LayControl;
 use std::path::Path;
@@ -57,10 +57,7 @@ fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let set = Overrides::new(&set, "--set");
-    (
-        parse_web(text, &cases(), set).unwrap(),
-        parse_changes(text.to_owned(), &cases(), set, Changes::OfLine).unwrap(),
-    )
+    (read_web((text, &cases()), set).unwrap(), read_changes((text, &cases()), set, Changes::OfLine).unwrap())
 }
 
 fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
@@ -225,7 +222,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
             let set = Overrides::new(&change.experiment.set, "--set");
             let name = format!("{:?}: {:?}", change.setting, change.experiment.set);
             let pasted =
-                parse_web(text, &cases(), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
+                read_web((text, &cases()), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
             for (found, wanted) in pasted.layers.iter().zip(&change.experiment.spec.layers) {
                 let numbers = |of: &spunlaid::input::LayerSpec| {
                     let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
@@ -361,7 +358,7 @@ fn a_charge_is_changed_where_it_is_given() {
 
 #[test]
 fn a_web_is_judged_by_the_patches_of_what_is_asked_for() {
-    let mut spec = parse_web(STRAIGHT, "web.toml", &[]).unwrap().spec;
+    let mut spec = read_web((STRAIGHT, "web.toml"), &[]).unwrap().spec;
     spec.sheet.patches = vec![1e-3, 2e-3, 5e-3, 10e-3, 20e-3, 50e-3];
     // A section of a strip is 50 × 5 mm, as large as a patch of 15.8 mm.
     for (text, side) in [("thin-places", 10e-3), ("strips", 20e-3), ("5mm", 5e-3)] {

@@ -2,7 +2,7 @@
 
 use super::same_air::{read, unwatched};
 use spunlaid::ground::Isa;
-use spunlaid::input::parse_web;
+use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::map::{lay, strands};
 use spunlaid::web::{Defect, LaidWeb, LayControl, Map};
@@ -50,7 +50,7 @@ fn missing(whole: &Map, other: &Map) -> (f64, f64) {
 /// What is laid with defects is what is laid without them, less the filaments that are missing.
 #[test]
 fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() {
-    let spec = parse_web(KNOWN, "known.toml", &[]).unwrap().spec;
+    let spec = read_web((KNOWN, "known.toml"), &[]).unwrap().spec;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
     let lay_with = |defects: &[Defect], threads: usize| {
@@ -127,7 +127,7 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
 fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
     let refused = |defects: &str| {
         let text = KNOWN.replace("[web]", &format!("defects = [{defects}]\n[web]"));
-        parse_web(&text, "known.toml", &[]).unwrap_err().to_string()
+        read_web((&text, "known.toml"), &[]).unwrap_err().to_string()
     };
     for (defects, message) in [
         ("{ titre = 3 }", "line.defects.1.titre = 3 is more than 2 times the mass of the other filaments"),

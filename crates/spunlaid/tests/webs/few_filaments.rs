@@ -1,7 +1,7 @@
 //! How many filaments of a web in one air are flown for all of them.
 
 use spunlaid::ground::Isa;
-use spunlaid::input::parse_web;
+use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::{FewDoubt, LayControl, LayerFew};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -41,7 +41,7 @@ cell = \"1 mm\"
 /// What the filaments say that are flown for all.
 fn told(flown: &str) -> LayerFew {
     let text = format!("{WEB}flown = {flown}\n");
-    let spec: WebSpec = parse_web(&text, "web.toml", &[]).unwrap_or_else(|_| panic!("it is read")).spec;
+    let spec: WebSpec = read_web((&text, "web.toml"), &[]).unwrap_or_else(|_| panic!("it is read")).spec;
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();

@@ -7,7 +7,7 @@ use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, re
 use spunlaid::experiment::study::seed_of_point;
 use spunlaid::experiment::{Journal, KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
 use spunlaid::ground::statistics::student_t_95;
-use spunlaid::input::{Overrides, parse_fit};
+use spunlaid::input::{Overrides, read_fit};
 use spunlaid::web::Map;
 use spunlaid::web::map::uniformity::cv_of_piece;
 
@@ -119,7 +119,7 @@ flown = 1000
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web_shared.toml");
     let read = |set: &[(String, String)]| {
         let set = Overrides::new(set, "--set");
-        parse_fit(LINE.to_owned(), path, set, &["line.depth".to_owned()], "--vary").unwrap()
+        read_fit((LINE, path), set, &["line.depth".to_owned()], "--vary").unwrap()
     };
     let few = read(&[]);
     let all = read(&[("web.flown".to_owned(), "\"all\"".to_owned())]);

@@ -4,7 +4,7 @@ use crate::advice::cases;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{advise, are_tried};
 use spunlaid::ground::Isa;
-use spunlaid::input::{Changes, Overrides, parse_changes, parse_web};
+use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::LayControl;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    parse_changes(text.to_owned(), &cases(), Overrides::new(&set, "--set"), Changes::OfGuesses).unwrap()
+    read_changes((text, &cases()), Overrides::new(&set, "--set"), Changes::OfGuesses).unwrap()
 }
 
 /// What each web changes: the keys, and their factors.
@@ -50,7 +50,7 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
     assert_eq!(factors(&changes), wanted);
     for change in &changes {
         let set = Overrides::new(&change.experiment.set, "--set");
-        let pasted = parse_web(BEAMS, &cases(), set).unwrap().spec;
+        let pasted = read_web((BEAMS, &cases()), set).unwrap().spec;
         assert_eq!(
             format!("{pasted:?}"),
             format!("{:?}", change.experiment.spec),
@@ -89,7 +89,7 @@ fn identical_a_guess_takes_the_place_of_what_was_set_before() {
             .collect();
         assert_eq!(depths, [depth], "{:?}", change.experiment.set);
         let set = Overrides::new(&change.experiment.set, "--set");
-        let pasted = parse_web(&text, &cases(), set).unwrap().spec;
+        let pasted = read_web((&text, &cases()), set).unwrap().spec;
         assert_eq!(format!("{pasted:?}"), format!("{:?}", change.experiment.spec));
     }
 }
@@ -116,7 +116,7 @@ cell = \"1 mm\"
 patches = [\"2 mm\", \"10 mm\"]
 guessed = \"line.filaments_per_metre\"
 ";
-    let (spec, changes) = (parse_web(text, &cases(), &[]).unwrap().spec, read(text, &[]));
+    let (spec, changes) = (read_web((text, &cases()), &[]).unwrap().spec, read(text, &[]));
     assert_eq!(factors(&changes), [("line.filaments_per_metre", 0.5), ("line.filaments_per_metre", 2.0)]);
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };

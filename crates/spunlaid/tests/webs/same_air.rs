@@ -1,6 +1,6 @@
 //! Webs of a few filaments each in the same air.
 
-use spunlaid::input::{Overrides, WebFile, parse_web};
+use spunlaid::input::{Overrides, WebFile, read_web};
 use spunlaid::simulation::{Compared, Flights, Flyer};
 use spunlaid::web::LayerFew;
 use std::path::Path;
@@ -32,7 +32,7 @@ pub(super) fn read(set: &[(&str, &str)]) -> WebFile {
     let set: Vec<(String, String)> =
         SHORT.iter().chain(set).map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/web_shared.toml");
-    parse_web(WEB, &cases.display().to_string(), Overrides::new(&set, "--set")).unwrap()
+    read_web((WEB, &cases.display().to_string()), Overrides::new(&set, "--set")).unwrap()
 }
 
 const ALL: Compared = Compared { area: 0.15, pitches: 1.5 };

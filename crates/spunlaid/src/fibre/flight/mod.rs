@@ -2,11 +2,11 @@
 //!
 //! ```
 //! use spunlaid::fibre::flight::{Flight, Job};
-//! use spunlaid::input::{parse_case, starter_case};
+//! use spunlaid::input::{read_case, starter_case};
 //! use spunlaid::ground::lanes::Isa;
 //!
 //! # fn main() -> Result<(), spunlaid::ground::error::Error> {
-//! let (case, _notes) = parse_case(starter_case(), "starter.toml", &[])?;
+//! let (case, _notes) = read_case((starter_case(), "starter.toml"), &[])?;
 //! let jobs = [0, 1, 2].map(|replicate| Job::new(&case, replicate));
 //! let mut flight = Flight::new(&jobs, Isa::detect())?;
 //! flight.step_to(0.01)?;

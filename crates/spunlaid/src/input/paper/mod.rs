@@ -12,7 +12,7 @@ use crate::experiment::{PointResults, Study};
 use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::{Case, ERROR_TOLERANCE};
 use crate::ground::Error;
-use crate::input::{parse_case, parse_study};
+use crate::input::{parse_study, read_case};
 
 /// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases`
 /// beside this file has a copy of each.
@@ -91,13 +91,13 @@ fn study((name, text): (&str, &str)) -> Result<Study, Error> {
 }
 
 fn case((name, text): (&str, &str)) -> Result<Case, Error> {
-    Ok(parse_case(text, name, &[])?.0)
+    Ok(read_case((text, name), &[])?.0)
 }
 
 /// Table 1 with a scheme. The paper's scheme has the paper's time step of 1 µs; others have a suitable step.
 ///
 /// # Errors
-/// As [`parse_case`]. The built-in file gives no error.
+/// As [`read_case`]. The built-in file gives no error.
 pub fn table1(scheme: Scheme) -> Result<Case, Error> {
     let mut case = case(TABLE_1)?;
     case.run.scheme = scheme;

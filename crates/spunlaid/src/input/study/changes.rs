@@ -1,14 +1,13 @@
 //! The changed webs of a file.
 
 use super::super::web::Guess;
-use super::super::{Overrides, Resources, file};
+use super::super::{Overrides, Source};
 use super::Base;
 use super::line::WebToChange;
 use super::web::WebBase;
 use crate::experiment::{Change, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Error, FileKind};
-use std::path::Path;
 
 /// Which changes of a web are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,27 +22,18 @@ pub enum Changes {
 ///
 /// # Errors
 /// If the web cannot be read.
-pub fn read_changes(path: &Path, set: Overrides<'_>, changes: Changes) -> Result<Vec<Change>, Error> {
-    parse_changes(file::read(path, FileKind::Web)?, &path.display().to_string(), set, changes)
-}
-
-/// [`read_changes`] of a text.
-///
-/// # Errors
-/// As [`read_changes`].
-pub fn parse_changes(
-    text: String,
-    name: &str,
+pub fn read_changes<'a>(
+    source: impl Into<Source<'a>>,
     set: Overrides<'_>,
     changes: Changes,
 ) -> Result<Vec<Change>, Error> {
-    let own = Resources::default();
-    let resources = set.resources.unwrap_or(&own);
-    let base = WebBase::new(&text, name.to_owned(), &[set], resources)?;
-    let web = WebToChange { base: &base, set: set.values, resources };
-    Ok(match changes {
-        Changes::OfLine => web.changes_of_line(),
-        Changes::OfGuesses => changes_of_guesses(&web),
+    source.into().open(FileKind::Web, set, |text, name, resources| {
+        let base = WebBase::new(text, name.to_owned(), &[set], resources)?;
+        let web = WebToChange { base: &base, set: set.values, resources };
+        Ok(match changes {
+            Changes::OfLine => web.changes_of_line(),
+            Changes::OfGuesses => changes_of_guesses(&web),
+        })
     })
 }
 

@@ -1,14 +1,13 @@
 //! The web of a fit: which keys can be sought in it, and the web of some values of theirs.
 
 use super::super::web::WebFile;
-use super::super::{Overrides, Resources, file};
+use super::super::{Overrides, Resources, Source};
 use super::Base;
 use super::web::WebBase;
 use crate::experiment::{Parameter, USUAL_FACTOR};
 use crate::fibre::case::keys::{Kind, Sign, VariedKey};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault, FileKind, Finding, Problem};
-use std::path::Path;
 
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
@@ -32,24 +31,15 @@ impl std::fmt::Debug for FitFile {
 ///
 /// # Errors
 /// If the web cannot be laid, or if a key cannot be sought.
-pub fn read_fit(path: &Path, set: Overrides<'_>, vary: &[String], word: &str) -> Result<FitFile, Error> {
-    parse_fit(file::read(path, FileKind::Web)?, &path.display().to_string(), set, vary, word)
-}
-
-/// [`read_fit`] of a text.
-///
-/// # Errors
-/// As [`read_fit`].
-pub fn parse_fit(
-    text: String,
-    name: &str,
+pub fn read_fit<'a>(
+    source: impl Into<Source<'a>>,
     set: Overrides<'_>,
     vary: &[String],
     word: &str,
 ) -> Result<FitFile, Error> {
-    let own = Resources::default();
-    let resources = set.resources.unwrap_or(&own);
-    let base = WebBase::new(&text, name.to_owned(), &[set], resources)?;
+    let base = source.into().open(FileKind::Web, set, |text, name, resources| {
+        WebBase::new(text, name.to_owned(), &[set], resources)
+    })?;
     let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Problem>::new());
     for item in vary {
         let (key, range) =
@@ -73,8 +63,7 @@ pub fn parse_fit(
     if !problems.is_empty() {
         return Err(problems.into());
     }
-    let start = base.with(&[], None, resources)?;
-    Ok(FitFile { base, start, parameters })
+    Ok(FitFile { start: base.file.clone(), base, parameters })
 }
 
 impl FitFile {

@@ -11,8 +11,8 @@ mod points;
 mod web;
 mod write;
 
-pub use changes::{Changes, parse_changes, read_changes};
-pub use fit::{FitFile, parse_fit, read_fit};
+pub use changes::{Changes, read_changes};
+pub use fit::{FitFile, read_fit};
 pub use points::StudyNote;
 pub use write::{differences, starter_study};
 

@@ -18,9 +18,8 @@ pub(super) struct WebBase {
     path: String,
     /// What is written, with what is the same at all points.
     written: WrittenWeb,
-    /// Whether it flies a case.
-    flies: bool,
-    spec: WebSpec,
+    /// The web before its keys vary.
+    pub(super) file: WebFile,
     /// What is written of the filament of each layer.
     filaments: Vec<Option<WrittenValues>>,
 }
@@ -35,8 +34,8 @@ impl WebBase {
         resources: &Resources,
     ) -> Result<Self, Error> {
         let written = WrittenWeb::open(text, &path, set)?;
-        let (WebFile { spec, .. }, filaments) = written.clone().read(resources)?;
-        Ok(Self { path, written, flies: spec.flies(), spec, filaments })
+        let (file, filaments) = written.clone().read(resources)?;
+        Ok(Self { path, written, file, filaments })
     }
 
     /// The web with these values of keys, and with a seed of its own if there is one.
@@ -63,7 +62,7 @@ impl WebBase {
 
     /// The web before its keys vary.
     pub(super) const fn spec(&self) -> &WebSpec {
-        &self.spec
+        &self.file.spec
     }
 
     /// The path of its file.
@@ -85,7 +84,7 @@ impl WebBase {
     pub(super) fn number_of_cases(&self, name: &str) -> Option<f64> {
         let key = keys::find(name)?;
         let number = |layer: &LayerSpec| Some(key.value_in(layer.source.case()?)?.number());
-        let mut numbers = self.spec.layers.iter().filter_map(number);
+        let mut numbers = self.spec().layers.iter().filter_map(number);
         let first = numbers.next()??;
         let is_same =
             |other: Option<f64>| other.is_some_and(|other| (other - first).abs() <= SAME * first.abs());
@@ -94,7 +93,7 @@ impl WebBase {
 
     /// The case that it flies, the first of several.
     fn case_value(&self, name: &str) -> Option<Value> {
-        let case = self.spec.layers.iter().find_map(|layer| match &layer.source {
+        let case = self.spec().layers.iter().find_map(|layer| match &layer.source {
             LaydownSource::Case { case, .. } => Some(&**case),
             _ => None,
         });
@@ -104,8 +103,8 @@ impl WebBase {
 
 impl Base for WebBase {
     fn varied(&self, name: &str) -> Result<VariedKey, String> {
-        if let Some(key) = keys::find(name).filter(|_| is_of_case(name, self.flies)) {
-            return match (self.flies, key.varies) {
+        if let Some(key) = keys::find(name).filter(|_| is_of_case(name, self.spec().flies())) {
+            return match (self.spec().flies(), key.varies) {
                 (false, _) => Err(format!("it {}", flies_none())),
                 (true, false) => {
                     Err("the flights of all points have the same; write it under [set]".to_owned())
@@ -113,7 +112,7 @@ impl Base for WebBase {
                 (true, true) => Ok(VariedKey::new(name, key.kind)),
             };
         }
-        let full = full_name(&self.spec, name)?;
+        let full = full_name(self.spec(), name)?;
         match web_key(&full) {
             Some(key) if key.varies => Ok(VariedKey::new(full, key.kind)),
             Some(_) => Err(TAKE_A_NUMBER.to_owned()),
@@ -129,20 +128,20 @@ impl Base for WebBase {
     }
 
     fn value(&self, key: &VariedKey) -> f64 {
-        let found = if is_of_case(&key.name, self.flies) {
+        let found = if is_of_case(&key.name, self.spec().flies()) {
             self.case_value(&key.name)
         } else {
-            value(&self.spec, &key.name)
+            value(self.spec(), &key.name)
         };
         found.and_then(|value| key.number(&value)).unwrap_or(f64::NAN)
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {
-        (self.spec.seed, 1)
+        (self.spec().seed, 1)
     }
 
     fn quantities(&self) -> Vec<Quantity> {
-        let experiment = Experiment::Web(self.spec.clone());
+        let experiment = Experiment::Web(self.spec().clone());
         Study::quantities_of(&[Point { values: Vec::new(), experiment }])
     }
 
@@ -160,6 +159,6 @@ impl Base for WebBase {
 
     fn written(&self, _: Vec<(String, String)>) -> (String, Vec<(String, String)>) {
         // What is set is in the web already.
-        (write_web_to_vary(&self.spec, &self.filaments), Vec::new())
+        (write_web_to_vary(self.spec(), &self.filaments), Vec::new())
     }
 }

@@ -1,6 +1,6 @@
 //! Writes a study as a file, with every default.
 
-use super::super::source::fit;
+use super::super::text_with_lines::fit;
 use super::super::write::{in_lines, lines, own_value, quoted};
 use super::super::{FORMAT_VERSION, Resources, file, kind_of, read_case, read_spinline, read_web};
 use super::{Base, open_base, parse_study};

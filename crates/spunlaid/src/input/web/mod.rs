@@ -20,7 +20,7 @@ pub(super) use write::write_web_to_vary;
 
 use super::overrides::no_entry;
 use super::written_values::{WrittenValue, WrittenValues};
-use super::{Overrides, Resources, document, file};
+use super::{Overrides, Resources, Source, document, file};
 use crate::fibre::Note;
 use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
 use crate::ground::{Error, Fault, FileKind, Problem};
@@ -29,7 +29,7 @@ use crate::simulation::layers::keys::{WEB, WEB_FILE};
 use crate::simulation::layers::web_key;
 use read::CASE;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The file of a web, read.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ pub struct WebFile {
     pub text: String,
 }
 
-/// Reads and checks the file of a web, and the cases that it names.
+/// Reads and checks a web, and the cases that it names.
 ///
 /// * `overrides` – keys and values that replace values of the file or add to them, `("line.belt_speed", "6 m/s")`; of a
 ///   file with `[[layer]]`, `layer.2.line.belt_speed` or the layer's name in place of its number. Keys of a
@@ -50,19 +50,11 @@ pub struct WebFile {
 ///
 /// # Errors
 /// If the file cannot be read, or if the web cannot be laid; then with every problem found.
-pub fn read_web<'a>(path: &Path, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    parse_web(&file::read(path, FileKind::Web)?, &path.display().to_string(), overrides)
-}
-
-/// Reads and checks the text of the file of a web. Messages call the file `name`; files that it names are
-/// looked for in its folder.
-///
-/// # Errors
-/// As [`read_web`].
-pub fn parse_web<'a>(text: &str, name: &str, overrides: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
-    let (overrides, own) = (overrides.into(), Resources::default());
-    let resources = overrides.resources.unwrap_or(&own);
-    WrittenWeb::open(text, name, &[overrides])?.read(resources).map(|(file, _)| file)
+pub fn read_web<'a>(source: impl Into<Source<'a>>, set: impl Into<Overrides<'a>>) -> Result<WebFile, Error> {
+    let set = set.into();
+    source.into().open(FileKind::Web, set, |text, name, resources| {
+        WrittenWeb::open(text, name, &[set])?.read(resources).map(|(file, _)| file)
+    })
 }
 
 /// What is written of a web: in its file, and in the cases that its layers name.

@@ -89,7 +89,7 @@ fn one_line(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::products::record::sample as record_sample;
-    use spunlaid::input::parse_case;
+    use spunlaid::input::read_case;
 
     #[test]
     fn the_block_is_the_air_of_a_case() {
@@ -99,7 +99,7 @@ mod tests {
             "version = 1\n[fibre]\nlength = \"1 m\"\ndiameter = \"50 um\"\ndensity = \"950 kg/m3\"\n\
              youngs_modulus = \"2 GPa\"\n{block}[run]\nduration = \"1 s\"\ntime_step = \"1 us\"\n"
         );
-        let (case, _) = parse_case(&case, "made.toml", &[]).unwrap_or_else(|e| panic!("{e}\n{block}"));
+        let (case, _) = read_case((&case, "made.toml"), &[]).unwrap_or_else(|e| panic!("{e}\n{block}"));
         for (written, interval) in [
             (case.air.velocity, analysis.mean_velocity),
             (case.air.turbulence_intensity, analysis.turbulence_intensity),
@@ -118,7 +118,7 @@ mod tests {
         for pair in sets.split(" --set ").skip(1) {
             let (key, value) = pair.split_once('=').expect("a key and a value");
             let set = [(key.to_owned(), value.trim_matches('"').to_owned())];
-            parse_case(spunlaid::input::starter_case(), "starter.toml", &set)
+            read_case((spunlaid::input::starter_case(), "starter.toml"), &set)
                 .unwrap_or_else(|e| panic!("{pair}: {e}"));
         }
     }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::files::folder::ENTRIES;
 use spunlaid::ground::{Isa, WIDTH};
-use spunlaid::input::parse_case;
+use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{KeepShapes, RunControl};
 use std::path::Path;
@@ -120,7 +120,7 @@ fn text(process: &Process) -> String {
 }
 
 fn case(text: &str) -> Case {
-    parse_case(text, "case.toml", &[]).unwrap().0
+    read_case((text, "case.toml"), &[]).unwrap().0
 }
 
 #[test]

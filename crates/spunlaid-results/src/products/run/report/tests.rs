@@ -10,7 +10,7 @@ use crate::products::spinline::report::spinline_report;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use spunlaid::fibre::{Case, FrictionLaw};
-use spunlaid::input::parse_spinline;
+use spunlaid::input::read_spinline;
 use spunlaid::simulation::{FinerChecks, Results, Unchecked};
 
 /// What a run cost.
@@ -244,7 +244,7 @@ fn spin_page(lines: &str, name: &str) -> String {
         "[spinline]\npolymer = \"pp\"\nmelt_flow_rate = 35\ndie_temperature = \"230 °C\"\nhole_diameter = \"0.6 mm\"\n\
          throughput = \"0.5 g/min\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\ncross_velocity = \"0.5 m/s\"\n{lines}"
     );
-    let file = parse_spinline(&text, "line.toml", &[]).unwrap();
+    let file = read_spinline((&text, "line.toml"), &[]).unwrap();
     let results = SpinResults::new(&file).unwrap();
     let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
     let report = spinline_report(&file.spec, &results, &figures, name);
@@ -282,11 +282,13 @@ fn the_page_of_any_spinline_is_well_formed_and_says_what_is_not_known() {
 
 #[test]
 fn the_report_of_a_run_shows_its_spinline() {
-    let file = parse_spinline(
-        "[spinline]\npolymer = \"pet\"\ndie_temperature = \"290 °C\"\nhole_diameter = \"0.3 mm\"\n\
+    let file = read_spinline(
+        (
+            "[spinline]\npolymer = \"pet\"\ndie_temperature = \"290 °C\"\nhole_diameter = \"0.3 mm\"\n\
         throughput = \"1.5 g/min\"\nlength = \"2 m\"\ncross_velocity = \"0.3 m/s\"\nend = \"take-up\"\n\
         take_up_speed = \"50 m/s\"\n",
-        "line.toml",
+            "line.toml",
+        ),
         &[],
     )
     .unwrap();
