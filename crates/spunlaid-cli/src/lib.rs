@@ -3,9 +3,12 @@
 
 mod args;
 mod commands;
+mod control;
+mod delivery;
 mod failure;
 mod progress;
 mod say;
+mod settled;
 
 use args::{Arguments, Command, Invocation};
 use clap::{CommandFactory, FromArgMatches};

@@ -15,7 +15,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the program from left to right; those of one group may not import one another.
-const PROGRAM: &[&[&str]] = &[&["args", "failure", "say"], &["progress"], &["commands"]];
+const PROGRAM: &[&[&str]] =
+    &[&["args", "failure", "say"], &["control", "progress"], &["delivery", "settled"], &["commands"]];
 
 const RESULTS: &[&[&str]] = &[
     &["command", "failure", "numbers"],
@@ -34,7 +35,8 @@ const PRODUCTS: &[&[&str]] = &[
     &["air", "record", "sources"],
     &["web"],
     &["finished", "scan"],
-    &["fit", "paper", "study"],
+    &["fit", "study"],
+    &["paper"],
     &["comparison", "declared"],
 ];
 

@@ -3,9 +3,9 @@
 use super::output::Output;
 use super::{Figures, one_of, quantity};
 use clap::{ArgAction, Args, ValueHint};
-use spunlaid::air::IntegralRule;
+use spunlaid::air::{IntegralRule, Layout, Settings, SpectrumSettings};
 use spunlaid::ground::{Dimension, Window};
-use spunlaid::web::LightKind;
+use spunlaid::web::{LightKind, ScanRequest};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -67,6 +67,31 @@ pub(crate) struct RecordOptions {
     pub(crate) flat_until: Option<f64>,
 }
 
+impl RecordOptions {
+    /// How its file is read.
+    pub(crate) fn layout(&self) -> Layout {
+        Layout {
+            rate: self.rate,
+            time_unit: self.time_unit.clone(),
+            velocity_unit: self.velocity_unit.clone(),
+            columns: self.columns.clone(),
+            time_column: self.time_column.clone(),
+            skip_lines: self.skip,
+            longest_gap: self.max_gap,
+        }
+    }
+
+    /// How it is analysed.
+    pub(crate) fn settings(&self) -> Settings {
+        Settings {
+            integral: self.integral,
+            spectrum: SpectrumSettings { window: self.window, overlap: self.overlap, segment: self.segment },
+            flat_until: self.flat_until,
+            mean_velocity: self.mean_velocity,
+        }
+    }
+}
+
 /// How a scan of a web is read.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Scan or map of a web")]
@@ -107,6 +132,25 @@ pub(crate) struct Scan {
     #[arg(long, value_name = "LENGTHS", value_delimiter = ',',
           value_parser = quantity(Dimension::Length))]
     pub(crate) patches: Vec<f64>,
+}
+
+impl Scan {
+    /// How it is read and analysed.
+    pub(crate) fn request(&self) -> ScanRequest {
+        ScanRequest {
+            pixel: self.pixel,
+            light: self.light,
+            weight: self.weight,
+            white: self.white,
+            lamp: self.lamp.clone(),
+            md_along_rows: self.md,
+            keep_shading: self.keep_shading,
+            keep_spots: self.keep_spots,
+            noise: self.noise,
+            titre: self.titre,
+            patches: self.patches.clone(),
+        }
+    }
 }
 
 const LIGHTS: &[(LightKind, &str)] = &[

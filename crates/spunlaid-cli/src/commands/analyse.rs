@@ -1,14 +1,12 @@
 //! `spunlaid analyse` makes the air of a case from a velocity record; a scan of a web goes to `scan`.
 
-use super::delivery::{Asides, Delivery};
 use super::stem;
 use crate::args::{Analyse, Invocation, RecordOptions, Scan, Threads};
+use crate::delivery::{Asides, Delivery};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::record::read_record;
-use spunlaid::air::{Layout, Settings, SpectrumSettings};
 use spunlaid::ground::{Fault, FileError, Problem};
-use spunlaid::web::ScanRequest;
 use spunlaid::web::scan::{columns_of_map, is_picture_file};
 use spunlaid_results::products::record::RecordFolder;
 use spunlaid_results::products::scan::ScanFolder;
@@ -55,38 +53,13 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let air = format!("\nthe [air] of a case is in {}", folder.join("air.toml").display());
     let figures = analyse.figures.files();
     let delivery = Delivery::open::<RecordFolder<'_>>(Some(folder), origin, output, &figures)?;
-    let record = read_record(&analyse.record, &layout(&analyse.reading))?;
-    let analysis = spunlaid::air::record::analyse(&record, &settings(&analyse.reading))?;
+    let record = read_record(&analyse.record, &analyse.reading.layout())?;
+    let analysis = spunlaid::air::record::analyse(&record, &analyse.reading.settings())?;
     let remarks: Vec<String> = record.repairs().iter().map(ToString::to_string).collect();
     remarks.iter().for_each(|remark| say::remark(false, remark));
     analysis.warnings.iter().for_each(|warning| say::warning(&warning.to_string()));
     let contents = RecordFolder { name: &name, record: &record, analysis: &analysis, remarks: &remarks };
     delivery.deliver(&contents, Threads::default(), Asides { lines: &[air], ..Asides::default() })
-}
-
-fn layout(options: &RecordOptions) -> Layout {
-    Layout {
-        rate: options.rate,
-        time_unit: options.time_unit.clone(),
-        velocity_unit: options.velocity_unit.clone(),
-        columns: options.columns.clone(),
-        time_column: options.time_column.clone(),
-        skip_lines: options.skip,
-        longest_gap: options.max_gap,
-    }
-}
-
-fn settings(options: &RecordOptions) -> Settings {
-    Settings {
-        integral: options.integral,
-        spectrum: SpectrumSettings {
-            window: options.window,
-            overlap: options.overlap,
-            segment: options.segment,
-        },
-        flat_until: options.flat_until,
-        mean_velocity: options.mean_velocity,
-    }
 }
 
 pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
@@ -95,24 +68,7 @@ pub(super) fn scan(arguments: &Analyse, invocation: &Invocation) -> Result<(), F
     let (output, figures) = (&arguments.output, arguments.figures.files());
     let delivery = Delivery::open::<ScanFolder>(folder, origin, output, &figures)?;
     let started = Instant::now();
-    let (picture, findings) = request(arguments).analyse_file(&arguments.record)?;
+    let (picture, findings) = arguments.scan.request().analyse_file(&arguments.record)?;
     let contents = ScanFolder::new(name, picture.file, findings, started);
     delivery.deliver(&contents, Threads::default(), Asides { found: &contents.notes, ..Asides::default() })
-}
-
-fn request(arguments: &Analyse) -> ScanRequest {
-    let options = &arguments.scan;
-    ScanRequest {
-        pixel: options.pixel,
-        light: options.light,
-        weight: options.weight,
-        white: options.white,
-        lamp: options.lamp.clone(),
-        md_along_rows: options.md,
-        keep_shading: options.keep_shading,
-        keep_spots: options.keep_spots,
-        noise: options.noise,
-        titre: options.titre,
-        patches: options.patches.clone(),
-    }
 }

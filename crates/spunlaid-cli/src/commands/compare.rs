@@ -1,8 +1,8 @@
 //! `spunlaid compare`: the results of several runs, or of several webs, side by side.
 
-use super::delivery::{Asides, Delivery};
 use super::stem;
 use crate::args::{Compare, Invocation, Threads};
+use crate::delivery::{Asides, Delivery};
 use crate::failure::Failure;
 use crate::perform_words;
 use spunlaid::ground::FileKind;

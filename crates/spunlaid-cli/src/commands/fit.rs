@@ -1,10 +1,11 @@
 //! `spunlaid fit`: which values of some keys make a web like a scan?
 
-use super::delivery::{Asides, making, say_continued, say_replaced, tell};
-use super::flown::settled;
-use super::{lay_control, plural, stem, stop_on_ctrl_c};
+use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
+use crate::control::{lay_control, stop_on_ctrl_c};
+use crate::delivery::{Asides, making, say_continued, say_replaced, tell};
 use crate::failure::Failure;
+use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::experiment::fit::fit as find;
 use spunlaid::experiment::{Fit, Journal, Question, Target, WebInProgress};
@@ -45,7 +46,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
         say_replaced(&path, &arguments.output);
     }
     if let Some(state) = state {
-        let done = format!("{} already laid", plural(state.fibres, "web"));
+        let done = format!("{} already laid", counted(state.fibres, "web"));
         say_continued(&state, &done, "web", &arguments.output);
     }
     let found = search(arguments, &file, &target, &mut journal).map_err(|error| match error {
@@ -55,8 +56,8 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     folder.figures = arguments.figures.files();
     let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
     let web = settled(threads, quiet, |resources| file.web(&values, resources))?;
-    let trials = plural(found.trials.len() as u64, "trial");
-    let lines = &[format!("{trials} of {} each", plural(found.webs, "web"))];
+    let trials = counted(found.trials.len() as u64, "trial");
+    let lines = &[format!("{trials} of {} each", counted(found.webs, "web"))];
     let contents = FoundFit { input, fit: &found, spec: &web.spec };
     let text = folder.write(&contents, making(arguments.threads))?;
     let asides = Asides { lines, ..Asides::default() };

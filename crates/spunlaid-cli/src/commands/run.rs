@@ -1,10 +1,11 @@
 //! `spunlaid run`: flies a case and writes the results.
 
-use super::delivery::{Asides, Delivery};
-use super::flown::settled;
-use super::{name_of, plural, run_control};
+use super::{counted, name_of};
 use crate::args::{Invocation, Run};
+use crate::control::run_control;
+use crate::delivery::{Asides, Delivery};
 use crate::failure::Failure;
+use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::fibre::{Case, Remark};
 use spunlaid::ground::FileKind;
@@ -87,12 +88,12 @@ fn fly(
 ) -> Result<files::Flown, Failure> {
     let told = |left| {
         if !quiet {
-            let all = plural(case.run.replicates, "fibre");
+            let all = counted(case.run.replicates, "fibre");
             say::aside(&format!("going on: {left} of {all} were flown before"));
         }
     };
     let (steps, label) =
-        (case.run.steps * case.run.replicates, format!("flying {}", plural(case.run.replicates, "fibre")));
+        (case.run.steps * case.run.replicates, format!("flying {}", counted(case.run.replicates, "fibre")));
     let work = || files::fly(case, plans, computing, delivery.staging(), delivery.folder().is_some(), told);
     Ok(progress::follow(computing.fibre_steps, steps, &label, quiet, work)?)
 }

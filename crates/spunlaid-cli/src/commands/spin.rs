@@ -1,11 +1,11 @@
 //! `spunlaid spin`: solves a spinline, from the hole of the spinneret to the solid filament.
 
-use super::delivery::{Asides, Delivery};
-use super::flown::settled;
 use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
+use crate::delivery::{Asides, Delivery};
 use crate::failure::Failure;
 use crate::say;
+use crate::settled::settled;
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Resources, read_spinline};
 use spunlaid_results::products::spinline::SpinFolder;

@@ -1,27 +1,23 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
-use super::delivery::{Asides, making, say_continued, say_replaced, tell};
-use super::flown::settled;
-use super::{plural, run_control, stem, stop_on_ctrl_c};
+use super::{counted, stem};
 use crate::args::{Invocation, Sweep, overrides};
+use crate::control::{run_control, stop_on_ctrl_c};
+use crate::delivery::{Asides, making, say_continued, say_replaced, tell};
 use crate::failure::Failure;
+use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::experiment::study::run;
-use spunlaid::experiment::{Journal, JournalState, Progress, ReplicateOutcome, Study};
-use spunlaid::fibre::case::keys;
-use spunlaid::fibre::{SpinSpec, spinline};
+use spunlaid::experiment::{Journal, JournalState, Progress, Study};
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::ground::{Error, Fault};
 use spunlaid::input::{Resources, StudyChanges, StudyFile, read_study, write_experiment};
 use spunlaid_results::folders::JournalFolder;
-use spunlaid_results::numbers::lost_fibres_text;
 use spunlaid_results::products::study;
+use spunlaid_results::products::study::lost;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
-
-/// Largest number of lost fibres that are listed.
-const LOST_LISTED: u64 = 10;
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (points, replicates) = (sweep.points, sweep.replicates);
@@ -84,13 +80,13 @@ fn report_found(sweep: &Sweep, study: &Study, found: Option<JournalState>) {
             (_, false) => ", independent phases",
         };
         if !sweep.output.quiet {
-            let points = plural(study.points.len() as u64, "point");
+            let points = counted(study.points.len() as u64, "point");
             say::aside(&format!("{points}, each with {}{phases}", times(study)));
         }
         return;
     };
     let noun = study.noun();
-    let done = format!("{} of {} already done", plural(found.fibres, noun), study.most_fibres());
+    let done = format!("{} of {} already done", counted(found.fibres, noun), study.most_fibres());
     say_continued(&found, &done, noun, &sweep.output);
     if found.torn {
         say::aside(&format!("the last record of the journal was incomplete; its {noun} is made again"));
@@ -101,7 +97,7 @@ fn report_found(sweep: &Sweep, study: &Study, found: Option<JournalState>) {
 fn times(study: &Study) -> String {
     let replicates = &study.replicates;
     if replicates.until.is_empty() {
-        plural(replicates.at_most, if study.noun() == "fibre" { "replicate" } else { study.noun() })
+        counted(replicates.at_most, if study.noun() == "fibre" { "replicate" } else { study.noun() })
     } else {
         format!("{} to {} replicates", replicates.at_least, replicates.at_most)
     }
@@ -143,48 +139,5 @@ fn write(
         format!("the study was already complete: no {noun} was {done}, and the files were written again");
     let lines = &Vec::from_iter((before == fibres).then_some(complete));
     tell(&found, (Some(folder.path()), &text), &sweep.output, Asides { lines, ..Asides::default() });
-    lost(&file.study, journal, fibres)
-}
-
-/// The error that lists the lost fibres, if any.
-fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<(), Failure> {
-    let (mut lost, mut first) = (0, String::new());
-    for (index, point) in study.points.iter().enumerate() {
-        for record in journal.records(index, u64::MAX)? {
-            if let ReplicateOutcome::Lost { node, time } = record.outcome {
-                lost += 1;
-                if lost <= LOST_LISTED {
-                    let number = index + 1;
-                    if let Some(Err(failure)) = point.experiment.spinline().map(SpinSpec::solve) {
-                        first.push_str(&format!("\npoint {number}: {}", no_steady_state(&failure)));
-                        continue;
-                    }
-                    let cause = point.experiment.case().map(|case| case.likely_cause_of_divergence());
-                    let cause = cause.unwrap_or_default();
-                    let replicate = record.replicate + 1;
-                    first.push_str(&format!(
-                        "\npoint {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"
-                    ));
-                }
-            }
-        }
-    }
-    if lost == 0 {
-        return Ok(());
-    }
-    let what = match study.noun() {
-        "spinline" if lost == 1 => format!("1 of {fibres} spinlines has no steady state"),
-        "spinline" => format!("{lost} of {fibres} spinlines have no steady state"),
-        _ => lost_fibres_text(lost, fibres),
-    };
-    let what = format!("{what}; all others are in the results{first}");
-    Err(Failure::Incomplete { what })
-}
-
-/// Why a spinline has no steady state: `spinline.length = 20 mm is too short…`.
-fn no_steady_state(failure: &spinline::Failure) -> String {
-    let dimension = keys::find(failure.key).and_then(|key| key.dimension());
-    let value =
-        failure.value.zip(dimension).map(|(value, dimension)| format!(" = {}", dimension.pretty(value)));
-    format!("{}{} {}", failure.key, value.unwrap_or_default(), failure.fault)
+    lost(&file.study, journal, fibres)?.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }

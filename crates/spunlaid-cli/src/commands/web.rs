@@ -1,10 +1,11 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
-use super::delivery::{Asides, Delivery, check_file};
-use super::flown::{settled, settled_with};
-use super::{lay_control, plural, stem};
+use super::{counted, stem};
 use crate::args::{self, Invocation, Output, overrides};
+use crate::control::lay_control;
+use crate::delivery::{Asides, Delivery, check_file};
 use crate::failure::Failure;
+use crate::settled::{settled, settled_with};
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, are_tried, judged_by, steps};
 use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES, MOST_STEPS};
@@ -114,7 +115,7 @@ impl Trials {
         {
             let torn =
                 if kept.torn || kept.damaged > 0 { "; a torn or damaged record is flown again" } else { "" };
-            let flights = plural(kept.keys().len() as u64, "flight");
+            let flights = counted(kept.keys().len() as u64, "flight");
             delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
         }
         let (judged_by, quiet) = (self.judged_by, output.quiet);
@@ -151,7 +152,7 @@ fn try_changes(
     (kept, by): (Option<&Log>, LayControl<'_>),
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
-    let label = format!("trying {} of {of}", plural(changes.len() as u64, noun));
+    let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
     let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (kept, by));
@@ -180,7 +181,7 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
         let Flights { path, fibres, done, steps, time_step } = flights;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let seconds = significant(steps as f64 * time_step, 3);
-        let label = format!("flying {} of {name}, {seconds} fibre-seconds", plural(fibres, "fibre"));
+        let label = format!("flying {} of {name}, {seconds} fibre-seconds", counted(fibres, "fibre"));
         progress::follow(done, steps, &label, quiet, work);
     }
 }

@@ -10,6 +10,7 @@
 
 pub(crate) mod claims;
 pub(crate) mod document;
+pub mod keys;
 pub(crate) mod methods;
 pub(crate) mod table;
 mod text;

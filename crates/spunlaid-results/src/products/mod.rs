@@ -26,8 +26,10 @@ pub mod finished;
 pub mod scan;
 
 pub mod fit;
-pub mod paper;
+
 pub mod study;
+
+pub mod paper;
 
 pub mod comparison;
 

@@ -6,10 +6,10 @@ mod study;
 mod web;
 
 use crate::args::{CaseSource, Check, Threads};
-use crate::commands::flown::settled_with;
 use crate::commands::stem;
 use crate::failure::Failure;
 use crate::say;
+use crate::settled::settled_with;
 use spunlaid::fibre::Note;
 use spunlaid::ground::{Error, FileKind};
 use spunlaid::input::{Resources, kind_of};

@@ -1,13 +1,13 @@
 //! A study with all defaults, and its points.
 
-use super::web::numbers;
 use super::{looked_at, show};
 use crate::args::{Check, overrides};
-use crate::commands::{LISTED, aligned, plural};
+use crate::commands::{LISTED, aligned, counted};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::{Point, Study};
 use spunlaid::input::read_study;
+use spunlaid_results::products::web::numbers_of_line;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {
@@ -17,10 +17,10 @@ pub(super) fn study(check: &Check) -> Result<(), Failure> {
     let study = &file.study;
     let replicates = &study.replicates;
     let each = match (replicates.at_least, replicates.at_most) {
-        (least, most) if least == most => plural(most, study.noun()),
-        (least, most) => format!("{least} to {}", plural(most, study.noun())),
+        (least, most) if least == most => counted(most, study.noun()),
+        (least, most) => format!("{least} to {}", counted(most, study.noun())),
     };
-    let count = plural(study.points.len() as u64, "point");
+    let count = counted(study.points.len() as u64, "point");
     let mut comments = vec![format!("{count} of {}, each with {each}", file.base_path.display())];
     comments.extend(points(study).lines().map(str::to_owned));
     show("study", (&file.text, &[]), &comments, "sweep", &check.source);
@@ -36,7 +36,7 @@ fn points(study: &Study) -> String {
     }
     let row = |(number, point): (usize, &Point)| {
         let values = point.values.iter().zip(study.inputs()).map(|(value, input)| input.pretty(*value));
-        let of_web = point.experiment.web().map(numbers).into_iter().flatten();
+        let of_web = point.experiment.web().map(numbers_of_line).into_iter().flatten();
         std::iter::once((number + 1).to_string()).chain(values).chain(of_web).collect()
     };
     let rows = study.points.iter().enumerate().take(LISTED).map(row);

@@ -4,7 +4,7 @@ mod figures;
 mod files;
 mod report;
 
-pub use files::{AirViews, POINT_COLUMNS, Slices, point_row, points_csv};
+pub use files::{AirViews, POINT_COLUMNS, Slices, outside, point_row, points_csv};
 
 use crate::Failure;
 use crate::files::folder::{CASE_FILES, Staging};

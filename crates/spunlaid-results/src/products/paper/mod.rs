@@ -1,7 +1,10 @@
 //! The claims and the figures of the paper.
 
-pub mod figures;
+mod figures;
+mod flights;
 mod report;
+
+pub use flights::{FIGURES, PaperFlights, PaperResults};
 
 use crate::Failure;
 use crate::files::folder::ENTRIES;

@@ -1,6 +1,7 @@
 //! A case that was flown.
 
-pub(crate) mod doubt;
+mod checked;
+mod doubt;
 pub(crate) mod figures;
 mod finer;
 mod flown;
@@ -10,6 +11,7 @@ pub(crate) mod sample;
 pub(crate) mod summary;
 mod tables;
 
+pub use checked::about_case;
 pub use flown::Flights;
 pub use report::frames::{CAMERA, SCENE};
 pub use tables::unit_of_column;

@@ -3,7 +3,7 @@
 mod files;
 mod report;
 
-pub use files::unsteady;
+pub use files::{outside_of_cells, unsteady};
 
 use crate::Failure;
 use crate::files::folder::{CASE_FILES, Staging};

@@ -2,10 +2,12 @@
 
 pub(crate) mod figures;
 mod files;
+mod lost;
 mod report;
 
 pub use figures::quantity::Scale;
 pub use files::shown;
+pub use lost::lost;
 
 use crate::Failure;
 use crate::failure::other_study;

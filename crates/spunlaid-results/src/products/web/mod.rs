@@ -1,8 +1,11 @@
 //! A laid web.
 
+mod checked;
 pub(crate) mod figures;
 pub(crate) mod files;
 pub(crate) mod report;
+
+pub use checked::{about_web, numbers_of_line};
 
 use crate::Failure;
 use crate::files::folder::{CASE_FILES, Staging};

@@ -12,7 +12,7 @@ use openfoam::has_order_of_openfoam;
 
 use crate::files::measured::{known, mean};
 use crate::files::versioned_json;
-use crate::numbers::plus_minus;
+use crate::numbers::{plus_minus, significant};
 use crate::products::run::summary::{lost_fibres, resolved};
 
 use serde_json::json;
@@ -43,6 +43,25 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
 
 /// Spin-up that is proposed, in ways down or in spin-ups that were too short.
 const WAYS: f64 = 3.0;
+
+/// Share of the force outside of the cells from which on it is told.
+const MUCH_OUTSIDE: f64 = 0.01;
+
+/// What is said if much of the force is outside of the cells.
+pub fn outside_of_cells(sources: &Sources) -> Option<String> {
+    let (outside, inside) = (sources.outside.mean, sources.along.mean);
+    let share = outside.abs() / (outside.abs() + inside.abs());
+    (share > MUCH_OUTSIDE).then(|| {
+        format!(
+            "{} % of the force of the filaments on the air is outside of the cells of air.field and is in no source: \
+             {} N/m beside {} N/m. Does the field reach from the inlet to the belt, and as far to both sides as the \
+             filaments swing?",
+            significant(share * 100.0, 2),
+            significant(outside, 3),
+            significant(inside, 3)
+        )
+    })
+}
 
 /// The text of the file.
 pub fn summary(case: &Case, sources: &Sources, notes: &[String]) -> String {

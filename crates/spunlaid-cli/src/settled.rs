@@ -1,14 +1,14 @@
 //! Tensions at the ends of spinlines, which flights find before a file is settled.
 
-use super::run_control;
 use crate::args::Threads;
+use crate::control::run_control;
 use crate::progress;
 use spunlaid::ground::Error;
 use spunlaid::input::Resources;
 use std::sync::atomic::AtomicU64;
 
 /// What is read of a file. Tensions that it wants are flown for, with a bar; Ctrl-C ends it.
-pub(super) fn settled<T>(
+pub(crate) fn settled<T>(
     threads: Threads,
     quiet: bool,
     read: impl Fn(&Resources) -> Result<T, Error>,
@@ -17,7 +17,7 @@ pub(super) fn settled<T>(
 }
 
 /// [`settled`] with what is known from readings before.
-pub(super) fn settled_with<T>(
+pub(crate) fn settled_with<T>(
     resources: &mut Resources,
     threads: Threads,
     quiet: bool,

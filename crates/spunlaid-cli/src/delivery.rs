@@ -1,10 +1,11 @@
 //! How a command delivers what it has found: into its folder, then as JSON or as lines of the terminal.
 
-use super::{plural, stop_on_ctrl_c};
 use crate::args::{Output, Threads};
+use crate::control::stop_on_ctrl_c;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::JournalState;
+use spunlaid::ground::error::counted;
 use spunlaid::ground::{Error, Fault};
 use spunlaid_results::files::folder::Staging;
 use spunlaid_results::files::origin::Origin;
@@ -14,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// The folder of a command, if it writes one, and what is said.
 #[derive(Debug)]
-pub(super) struct Delivery<'a> {
+pub(crate) struct Delivery<'a> {
     folder: Option<PathBuf>,
     staging: Option<Staging<'static>>,
     making: Making<'static>,
@@ -26,18 +27,18 @@ pub(super) struct Delivery<'a> {
 
 /// What is said besides the results.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Asides<'a> {
+pub(crate) struct Asides<'a> {
     /// Lines below the results.
-    pub(super) lines: &'a [String],
+    pub(crate) lines: &'a [String],
     /// Remarks about what was found.
-    pub(super) found: &'a [String],
+    pub(crate) found: &'a [String],
 }
 
 /// Whether a single file can be written there, before anything is computed for it. One that is there already is
 /// replaced with `--force` only.
 ///
 /// * `option` – that names the file
-pub(super) fn check_file(file: &Path, option: &str, force: bool) -> Result<(), Error> {
+pub(crate) fn check_file(file: &Path, option: &str, force: bool) -> Result<(), Error> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let fault = if folder.is_some_and(|folder| !folder.is_dir()) {
         Fault::new("lies in a folder that is not there", "name another file, or make the folder")
@@ -58,7 +59,7 @@ impl<'a> Delivery<'a> {
     /// replaced, and a note says so.
     ///
     /// * `origin` – of results in a folder
-    pub(super) fn open<C: Contents>(
+    pub(crate) fn open<C: Contents>(
         folder: Option<PathBuf>,
         origin: impl FnOnce(&Path) -> Option<Origin>,
         output: &'a Output,
@@ -79,17 +80,17 @@ impl<'a> Delivery<'a> {
     }
 
     /// The folder that collects the files.
-    pub(super) const fn staging(&self) -> Option<&Staging<'static>> {
+    pub(crate) const fn staging(&self) -> Option<&Staging<'static>> {
         self.staging.as_ref()
     }
 
     /// Whether results go into files.
-    pub(super) fn folder(&self) -> Option<&Path> {
+    pub(crate) fn folder(&self) -> Option<&Path> {
         self.folder.as_deref()
     }
 
     /// Writes results, and says what was found.
-    pub(super) fn deliver(
+    pub(crate) fn deliver(
         mut self,
         contents: &impl Contents,
         threads: Threads,
@@ -102,7 +103,7 @@ impl<'a> Delivery<'a> {
     }
 
     /// Writes results into the folder, where files can be replaced later.
-    pub(super) fn publish<C: Contents>(&mut self, contents: &C, threads: Threads) -> Result<(), Failure> {
+    pub(crate) fn publish<C: Contents>(&mut self, contents: &C, threads: Threads) -> Result<(), Failure> {
         self.making = making(threads);
         let Some(staging) = &mut self.staging else { return Ok(()) };
         self.text = contents.write(staging, self.making)?;
@@ -112,7 +113,7 @@ impl<'a> Delivery<'a> {
     }
 
     /// Writes report, summary and new figures again, when more is known.
-    pub(super) fn rewrite(&mut self, contents: &impl Contents) -> Result<(), Failure> {
+    pub(crate) fn rewrite(&mut self, contents: &impl Contents) -> Result<(), Failure> {
         if let Some(staging) = &self.staging {
             self.text = contents.write(staging, self.making)?;
         }
@@ -120,12 +121,12 @@ impl<'a> Delivery<'a> {
     }
 
     /// Says only the result, because the rest is told again when more is known.
-    pub(super) fn say_headline(&self) {
+    pub(crate) fn say_headline(&self) {
         self.text.lines().take(1).for_each(|headline| self.line(headline));
     }
 
     /// Says as lines what was found and has not been said; the first time also which page to open.
-    pub(super) fn say(&mut self, asides: Asides<'_>) {
+    pub(crate) fn say(&mut self, asides: Asides<'_>) {
         if self.output.json || self.output.quiet {
             return;
         }
@@ -135,14 +136,14 @@ impl<'a> Delivery<'a> {
     }
 
     /// Says a line beside the results.
-    pub(super) fn line(&self, line: &str) {
+    pub(crate) fn line(&self, line: &str) {
         if !self.output.json && !self.output.quiet {
             say::line(line);
         }
     }
 
     /// Says what was found as JSON, if that is asked for.
-    pub(super) fn finish(&self, contents: &impl Contents) {
+    pub(crate) fn finish(&self, contents: &impl Contents) {
         if self.output.json {
             say::text(&contents.summary());
         }
@@ -168,12 +169,12 @@ fn new_text(before: &str, now: &str) -> String {
 }
 
 /// How files are made; Ctrl-C ends it.
-pub(super) fn making(threads: Threads) -> Making<'static> {
+pub(crate) fn making(threads: Threads) -> Making<'static> {
     Making { threads: threads.number(), stop: stop_on_ctrl_c(), room: say::room() }
 }
 
 /// Says what was found: as JSON, or as lines with the report to open.
-pub(super) fn tell(
+pub(crate) fn tell(
     contents: &impl Contents,
     (folder, text): (Option<&Path>, &str),
     output: &Output,
@@ -194,7 +195,7 @@ fn say_lines(text: &str, folder: Option<&Path>, asides: Asides<'_>) {
 }
 
 /// Says that the earlier results of the same command are replaced.
-pub(super) fn say_replaced(folder: &Path, output: &Output) {
+pub(crate) fn say_replaced(folder: &Path, output: &Output) {
     if !output.quiet {
         let replaced =
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
@@ -206,12 +207,12 @@ pub(super) fn say_replaced(folder: &Path, output: &Output) {
 ///
 /// * `done` – how much of it
 /// * `noun` – of which a record of the journal is
-pub(super) fn say_continued(found: &JournalState, done: &str, noun: &str, output: &Output) {
+pub(crate) fn say_continued(found: &JournalState, done: &str, noun: &str, output: &Output) {
     if !output.quiet {
         say::aside(&format!("continuing: {done}"));
     }
     if found.damaged > 0 {
-        let records = plural(found.damaged, "record");
+        let records = counted(found.damaged, "record");
         say::warning(&format!(
             "the journal has damaged records ({records}); these {noun}s are made again, all others are kept"
         ));

@@ -1,0 +1,53 @@
+//! `spunlaid air`: the turbulent air of a case, looked at while it passes.
+
+mod points;
+mod sources;
+
+use super::stem;
+use crate::args::{Air, Invocation};
+use crate::control::stop_on_ctrl_c;
+use crate::delivery::{Asides, Delivery};
+use crate::failure::Failure;
+use crate::settled::settled_with;
+use crate::{progress, say};
+use spunlaid::air::Lateral;
+use spunlaid::fibre::Remark;
+use spunlaid::input::Resources;
+use spunlaid_results::products::air::{AirFolder, AirViews, Slices};
+use std::sync::atomic::AtomicU64;
+
+/// What a reader is told of a case whose fibres have turbulence of their own.
+const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its \
+    own, which is the same across. What is shown is its air with air.lateral = \"von-karman\", as neighbours \
+    share it";
+
+pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
+    if air.sources {
+        return sources::sources(air, invocation);
+    }
+    if let Some(file) = &air.at {
+        return points::points(air, file);
+    }
+    let mut resources = Resources::default();
+    let is_uniform = air.source.read(&[], &resources)?.0.air.lateral == Lateral::Uniform;
+    let more = is_uniform.then(|| ("air.lateral", "von-karman".to_owned()));
+    let read = |resources: &Resources| air.source.read(more.as_slice(), resources);
+    let (case, notes) = settled_with(&mut resources, air.threads, air.output.quiet, read)?;
+    notes.iter().for_each(say::note);
+    let mut remarks = Remark::notes_of_results(&notes);
+    if is_uniform {
+        say::remark(false, &UNIFORM);
+        remarks.push(UNIFORM.to_owned());
+    }
+    let (name, origin) = (stem(&air.source.case, "case"), invocation.origin_of([&air.source.case]));
+    let folder = air.output.optional_folder(format!("{name}_air"));
+    let delivery = Delivery::open::<AirFolder<'_>>(folder, origin, &air.output, &air.figures.files())?;
+    let (replicate, threads) = (air.replicate - 1, air.threads.number());
+    let looks = AirViews { replicate, frames: air.frames, duration: air.duration, threads };
+    let done = AtomicU64::new(0);
+    let slices = progress::follow(&done, air.frames, "the air passes", air.output.quiet, || {
+        Slices::new(&case, &looks, &done, stop_on_ctrl_c())
+    })?;
+    let contents = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &remarks };
+    delivery.deliver(&contents, air.threads, Asides::default())
+}

@@ -1,0 +1,207 @@
+//! What a web means: the numbers of its line, its air, and its load on it.
+
+use crate::numbers::{THIN, significant};
+use crate::products::load::{load_of, load_words};
+use spunlaid::air::{Axis, PlacedField};
+use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
+use spunlaid::ground::Dimension;
+use spunlaid::ground::error::counted;
+use spunlaid::input::{LaydownSource, LayerSpec, WebSpec};
+use spunlaid::simulation::PlannedFlight;
+use spunlaid::web::map::Filaments;
+
+/// What a web means, in lines.
+pub fn about_web(spec: &WebSpec) -> Vec<String> {
+    [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat()
+}
+
+/// The speed of the belt, on which all layers lie [m/s].
+fn belt(spec: &WebSpec) -> Option<f64> {
+    spec.layers.first().map(|layer| layer.belt_speed)
+}
+
+/// Mass of the web per area [kg/m²].
+fn weight(spec: &WebSpec) -> f64 {
+    belt(spec).map_or(f64::NAN, |belt| spec.mass_flow() / belt)
+}
+
+/// The numbers by which a line is known: `20 g/m² on a belt of 2.083 m/s`, `150 kg/h`.
+pub fn numbers_of_line(spec: &WebSpec) -> [String; 3] {
+    [
+        format!("{} g/m²", significant(weight(spec) * 1e3, 4)),
+        Dimension::Velocity.pretty(belt(spec).unwrap_or(f64::NAN)),
+        format!("{} kg/h", significant(spec.mass_flow() * 3600.0, 4)),
+    ]
+}
+
+/// The numbers of the line, and those of each layer.
+fn line(spec: &WebSpec) -> Vec<String> {
+    let [weight, belt, flow] = numbers_of_line(spec);
+    let whole = format!("  {weight} on a belt of {belt}: {flow} from each metre of width");
+    let several = spec.layers.len() > 1;
+    let layer = |(number, layer): (usize, &LayerSpec)| {
+        let name = layer.name.as_ref().map_or_else(|| (number + 1).to_string(), |name| format!("\"{name}\""));
+        let filaments = layer.filaments.count(&spec.sheet);
+        let alone = spec.alone(number).mass_flow() / layer.belt_speed;
+        format!(
+            "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of \
+            filament on each metre of belt{}",
+            if several { format!("layer {name}: ") } else { String::new() },
+            significant(filaments as f64 / spec.sheet.width, 4),
+            significant(layer.linear_density() * layer.feed_speed * 6e4, 4),
+            significant(layer.linear_density() * 1e7, 4),
+            Dimension::Length.pretty(layer.diameter),
+            Dimension::Velocity.pretty(layer.feed_speed),
+            Dimension::Length.pretty_to(layer.feed_speed / layer.belt_speed, 3),
+            if several { format!("; {} g/m²", significant(alone * 1e3, 4)) } else { String::new() },
+        )
+    };
+    let layers = spec.layers.iter().enumerate();
+    let layers = layers.flat_map(|(number, of)| [layer((number, of))].into_iter().chain(charge(spec, of)));
+    ["line".to_owned(), whole].into_iter().chain(layers).collect()
+}
+
+/// What the charge of a layer does; None of filaments without charge.
+fn charge(spec: &WebSpec, layer: &LayerSpec) -> Option<String> {
+    let ChargeEstimate { edge_field, over_weight } = layer.charge_estimate(&spec.sheet)?;
+    Some(format!(
+        "  charged with {}: about {} at the edge of the curtain, which pulls at a filament with {} times its \
+        weight; air breaks down at {}",
+        Dimension::SpecificCharge.pretty(layer.charge?),
+        Dimension::ElectricField.pretty_to(edge_field, 2),
+        significant(over_weight, 2),
+        Dimension::ElectricField.pretty(BREAKDOWN),
+    ))
+}
+
+fn sheet(spec: &WebSpec) -> [String; 2] {
+    let size = |size: f64| Dimension::Length.pretty(size);
+    let [columns, rows] = spec.sheet.cells();
+    let filaments: u64 = spec.layers.iter().map(|layer| layer.filaments.count(&spec.sheet)).sum();
+    let whole = format!(
+        "  {} wide and {} long, {columns} × {rows} cells of {}; {} cross it",
+        size(spec.sheet.width),
+        size(spec.sheet.length),
+        size(spec.sheet.cell),
+        counted(filaments, "filament"),
+    );
+    ["sheet".to_owned(), whole]
+}
+
+/// In which air the filaments hang, and what that means for the CV.
+fn air(spec: &WebSpec) -> Vec<String> {
+    let flown = |layer: &LayerSpec| {
+        let path = layer.source.path().display();
+        match &layer.source {
+            LaydownSource::Surrogate(_) => {
+                vec!["  nothing is flown: the spread and the noise are given".to_owned()]
+            }
+            LaydownSource::Case { case, .. } => {
+                let eddies = format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")");
+                let field = case.air.flow.field().map(|placed| place_in_field(placed, &layer.filaments));
+                [Some(eddies), field].into_iter().flatten().collect()
+            }
+        }
+    };
+    let mut lines = vec!["air".to_owned()];
+    for line in spec.layers.iter().flat_map(flown) {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines.extend(if spec.flies() { in_one_air(spec) } else { independent() });
+    lines
+}
+
+/// Where the filaments are fed in a field.
+fn place_in_field(placed: &PlacedField, filaments: &Filaments) -> String {
+    let [from, to] = filaments.depths().map(|y| Dimension::Length.pretty_to(y + 0.0, 3));
+    let fed = if from == to { format!("at {from}") } else { format!("from {from} to {to}") };
+    let [_, machine, cross] = placed.axes().map(Axis::name);
+    format!(
+        "  the middle of the slot is at {} of the field (air.field_root); filaments are fed {fed} from there along the \
+        machine direction, {machine}, and side by side along the cross direction, {cross}, where all meet the same \
+        mean flow",
+        PlacedField::in_words(placed.root)
+    )
+}
+
+/// Whether the filaments come down at random places of one row.
+fn is_at_random(spec: &WebSpec) -> bool {
+    spec.layers.iter().any(|layer| matches!(layer.filaments, Filaments::AtRandom { .. }))
+}
+
+/// How many filaments of each layer are flown on which sheet, and what memory their air takes.
+fn in_one_air(spec: &WebSpec) -> Vec<String> {
+    let flights = spec.planned_flights();
+    let size = |size: f64| Dimension::Length.pretty(size);
+    let flight = |(number, (flight, layer)): (usize, (&PlannedFlight, &LayerSpec))| {
+        let (all, [width, length]) = (layer.filaments.count(&spec.sheet), flight.sheet.map(size));
+        let of = if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() };
+        match flight.is_few {
+            true => format!(
+                "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} \
+                follows from them (web.flown)",
+                counted(flight.filaments, "filament")
+            ),
+            false => format!(
+                "  all {}{of} fly in one field of eddies, so that neighbours come down together",
+                counted(flight.filaments, "filament")
+            ),
+        }
+    };
+    let mut lines: Vec<String> = flights.iter().zip(&spec.layers).enumerate().map(flight).collect();
+    // The layers are flown one after the other.
+    let memory = flights.iter().map(|flight| flight.memory).fold(0.0, f64::max);
+    lines.push(format!("  the field takes {} of memory", Dimension::Memory.pretty_to(memory, 2)));
+    if is_at_random(spec) {
+        lines.push(
+            "  they come in one row, at random places of it; the slot of a line has a depth: --set \
+            line.depth=\"20 mm\""
+                .to_owned(),
+        );
+    }
+    lines
+}
+
+/// What is known of the load of the filaments of a layer on their air before a flight.
+fn curtain(spec: &WebSpec, layer: &LayerSpec) -> Option<Load> {
+    let filaments_per_metre = layer.filaments.count(&spec.sheet) as f64 / spec.sheet.width;
+    load_of(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), &[])
+}
+
+/// The load of the filaments on their air, as far as no flight is needed.
+fn load(spec: &WebSpec) -> Vec<String> {
+    let words = |layer: &LayerSpec| Some(load_words(&curtain(spec, layer)?).replace(THIN, " "));
+    let mut lines = vec!["load on the air".to_owned()];
+    for (number, words) in
+        spec.layers.iter().enumerate().filter_map(|(i, layer)| Some((i + 1, words(layer)?)))
+    {
+        lines.push(match spec.layers.len() {
+            1 => format!("  {words}"),
+            _ => format!("  layer {number}: {words}"),
+        });
+    }
+    if lines.len() > 1 { lines } else { Vec::new() }
+}
+
+/// Which numbers are guesses, and what is done about them.
+fn guesses(spec: &WebSpec) -> Vec<String> {
+    if spec.guessed.is_empty() {
+        return Vec::new();
+    }
+    let each = format!(
+        "  {}: spunlaid web also gives the CV for half and twice of each, from a few filaments",
+        spec.guessed.join(", ")
+    );
+    vec!["guesses (web.guessed)".to_owned(), each]
+}
+
+/// That the web is a lower bound, and the way out of it.
+fn independent() -> Vec<String> {
+    vec![
+        "  the filaments are independent of each other, which gives a lower bound of the unevenness"
+            .to_owned(),
+        "  to fly them in one air, as in a line: name a case in laydown.case".to_owned(),
+    ]
+}
