@@ -129,9 +129,9 @@ impl Task for StateEnergy<'_> {
             let mut stretch = element.length - rest_length;
             if j > 0 && c.may_be_held(j, nodes) {
                 // Nodes that have left the chain have no mass, and their elements do not count.
-                let zero = Wide::zero();
-                let counts = |x| Wide::select_less(zero, Wide::load(&c.node(j, nodes).mass), x, zero);
-                (stretch, stiffness) = (counts(stretch), counts(stiffness));
+                let (zero, mass) = (Wide::zero(), Wide::load(&c.node(j, nodes).mass));
+                stretch = Wide::select_less(zero, mass, stretch, zero);
+                stiffness = Wide::select_less(zero, mass, stiffness, zero);
             }
             axial = (Wide::load(&properties.axial_stiffness) * stretch).mul_add(stretch, axial);
             strain = stretch.over(rest_length).abs().max(strain);

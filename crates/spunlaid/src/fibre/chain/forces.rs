@@ -64,6 +64,6 @@ pub(crate) fn couple<S: Register>(
     lower: &Element<S>,
     moment: Vec3<Wide<S>>,
 ) -> (Vec3<Wide<S>>, Vec3<Wide<S>>) {
-    let force = |element: &Element<S>| moment.cross_wide(element.tangent) * element.inverse_length;
-    (force(upper), force(lower))
+    let above = moment.cross_wide(upper.tangent) * upper.inverse_length;
+    (above, moment.cross_wide(lower.tangent) * lower.inverse_length)
 }

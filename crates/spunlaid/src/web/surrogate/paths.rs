@@ -209,8 +209,9 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
         let mut at: [[Wide<S>; 2]; SETS] = [[Wide::zero(); 2]; SETS];
         let mut along = at;
         for k in 0..SETS {
-            at[k] = sets[k].position.each_ref().map(Wide::load);
-            along[k] = sets[k].direction.each_ref().map(Wide::load);
+            let Paths { position, direction, .. } = &*sets[k];
+            at[k] = [Wide::load(&position[0]), Wide::load(&position[1])];
+            along[k] = [Wide::load(&direction[0]), Wide::load(&direction[1])];
         }
         for pair in 0..BLOCK / 2 {
             for i in [2 * pair, 2 * pair + 1] {
@@ -253,7 +254,7 @@ struct Corner<S: Register> {
 impl<S: Register> Corner<S> {
     #[inline(always)]
     fn new(step: f64, pull: [f64; 2]) -> Self {
-        Self { step: Wide::splat(step), pull: pull.map(Wide::splat) }
+        Self { step: Wide::splat(step), pull: [Wide::splat(pull[0]), Wide::splat(pull[1])] }
     }
 
     /// Turns the direction and goes on to the next corner.
@@ -284,7 +285,7 @@ impl<S: Register> Corner<S> {
         let (factor, under) = (one + dot, more + dot + dot);
         let (a, b) = (two_p.mul_add(factor, a * less), two_q.mul_add(factor, b * less));
 
-        let [cos, sin] = turn.each_ref().map(Wide::load);
+        let (cos, sin) = (Wide::load(&turn[0]), Wide::load(&turn[1]));
         let (a, b) = (sin.neg_mul_add(b, cos * a), sin.mul_add(a, cos * b));
 
         let dot = p.mul_add(a, q * b);

@@ -91,7 +91,8 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
             force = self.drag_velocity(i).neg_mul_add(damping, force);
         }
         if i > 0 && self.c.friction.is_some() && self.c.may_be_held(i, nodes) {
-            force += self.friction(i, node, force.x);
+            self.friction(i, node, &force.x.store());
+            force += Vec3 { x: Wide::zero(), ..Vec3::load(&self.t.belt_force[i]) };
         }
         if i + 1 == nodes {
             self.string.1 = Wide::zero();
@@ -112,15 +113,15 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
 }
 
 impl<S: Register> Predictor<'_, S> {
-    /// The friction on a node that slides on the belt.
+    /// Finds the friction on a node that slides on the belt. Its numbers are in memory: a function of its own is not
+    /// compiled for the instruction set.
     ///
     /// * `pull` – force of the chain and of gravity on to the belt [N]
     #[cold]
     #[inline(never)]
-    fn friction(&mut self, i: usize, node: &Node, pull: Wide<S>) -> Vec3<Wide<S>> {
-        let Some(friction) = &self.c.friction else { return Vec3::zero() };
-        let force = friction.on(node, &self.velocity[i], &self.c.frame, &pull.store(), self.h);
-        self.t.belt_force[i] = force;
-        Vec3 { x: Wide::zero(), ..Vec3::load(&force) }
+    fn friction(&mut self, i: usize, node: &Node, pull: &Lanes) {
+        if let Some(friction) = &self.c.friction {
+            self.t.belt_force[i] = friction.on(node, &self.velocity[i], &self.c.frame, pull, self.h);
+        }
     }
 }

@@ -41,7 +41,7 @@ impl Task for Draw<'_, '_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         let Self { pens, part, points } = self;
-        let [per_cell, advance] = [1.0 / part.canvas.cell, pens.advance].map(Wide::<S>::splat);
+        let (per_cell, advance) = (Wide::<S>::splat(1.0 / part.canvas.cell), Wide::splat(pens.advance));
         let mut ink = Ink::<S>::new(part);
         let pieces = Pieces::new(Wide::load(&pens.quanta), pens.parts);
         let column = Wide::load(&pens.at[0]);
@@ -132,7 +132,8 @@ struct Ink<S: Register> {
 impl<S: Register> Ink<S> {
     #[inline(always)]
     fn new(part: &CanvasPart<'_>) -> Self {
-        let ([column, row], [columns, _]) = (part.first, part.size);
+        let ([column, row], [columns, here]) = (part.first, part.size);
+        let middle = [column as f64 + 0.5 * columns as f64, row as f64 + 0.5 * here as f64];
         let rows = part.canvas.size[1] as f64;
         let is_ring = part.canvas.closed[1];
         // A part on a ring has all rows.
@@ -142,7 +143,7 @@ impl<S: Register> Ink<S> {
             per_row: Wide::splat(if is_ring { 1.0 / rows } else { 0.0 }),
             stride: Wide::splat(columns as f64),
             origin: Wide::splat(TWO_52 - (row * columns + column) as f64),
-            middle: [0, 1].map(|i| Wide::splat(part.first[i] as f64 + 0.5 * part.size[i] as f64)),
+            middle: [Wide::splat(middle[0]), Wide::splat(middle[1])],
             half: [half[0], if is_ring && half[1] > 0.0 { f64::INFINITY } else { half[1] }],
             cell: Wide::splat(TWO_52),
             gathered: Wide::zero(),
@@ -183,7 +184,7 @@ impl<S: Register> Ink<S> {
         of: &Pieces<S>,
         part: &mut CanvasPart<'_>,
     ) {
-        let by = by.map(|by| by * of.share);
+        let by = [by[0] * of.share, by[1] * of.share];
         // Nothing that starts so far inside ends outside.
         let parts = of.parts as f64;
         // Without a closure, which would not be compiled for the instruction set.
@@ -219,8 +220,9 @@ impl<S: Register> Ink<S> {
         let until_first = first.mul_add(all, shift) - shift;
         let until_last = last.mul_add(all, shift) - shift;
         if is_far {
-            let lanes = [cell[0], cell[1], x.to, y.to, x.share, y.share];
-            anywhere(lanes.map(Wide::store), [until_first, until_last, all].map(Wide::store), part);
+            let to = [cell[0].store(), cell[1].store(), x.to.store(), y.to.store()];
+            let shares = [x.share.store(), y.share.store()];
+            anywhere(to, shares, [until_first.store(), until_last.store(), all.store()], part);
             return;
         }
         let down = y.to * self.stride;
@@ -279,7 +281,8 @@ fn entry<S: Register>(index: Wide<S>, quanta: Wide<S>) -> Wide<S> {
 #[cold]
 #[inline(never)]
 fn anywhere(
-    [columns, rows, to_column, to_row, share, share_row]: [Lanes; 6],
+    [columns, rows, to_column, to_row]: [Lanes; 4],
+    [share, share_row]: [Lanes; 2],
     [first, last, all]: [Lanes; 3],
     part: &mut CanvasPart<'_>,
 ) {
