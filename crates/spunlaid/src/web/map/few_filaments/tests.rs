@@ -16,6 +16,9 @@ const SPREAD: f64 = 8e-3;
 const ALONG: f64 = 60e-3;
 const ACROSS: f64 = 12e-3;
 const WAVES: usize = 40;
+/// How far a curve lies before the sheet and behind it, and its points.
+const MARGIN: f64 = 5.0 * SPREAD;
+const POINTS: usize = ((LENGTH + 2.0 * MARGIN) / BELT_RATIO / SPACING) as usize;
 
 /// A place as a sum of waves along the fibre and across the row: a nearly normal field, periodic across.
 struct Field {
@@ -38,25 +41,48 @@ impl Field {
         Self { waves: [0, 1].map(|_| (0..WAVES).map(|_| wave()).collect()) }
     }
 
-    fn at(&self, s: f64, z: f64) -> [f64; 2] {
-        let sum = |waves: &Vec<[f64; 3]>| {
-            let waves = waves.iter().map(|[along, across, phase]| (along * s + across * z + phase).cos());
-            SPREAD * (2.0 / WAVES as f64).sqrt() * waves.sum::<f64>()
-        };
-        self.waves.each_ref().map(sum)
+    /// The places at z of all points of a curve that begins at `s`. A wave turns by the same angle from each point to
+    /// the next: a cosine of each would take most of the time of these tests.
+    fn along(&self, s: f64, z: f64) -> Vec<[f64; 2]> {
+        let mut places = vec![[0.0; 2]; POINTS];
+        for (d, waves) in self.waves.iter().enumerate() {
+            let mut turning: Vec<[f64; 4]> = (waves.iter())
+                .map(|[along, across, phase]| {
+                    let (sin, cos) = (along * s + across * z + phase).sin_cos();
+                    let (turn_sin, turn_cos) = (along * SPACING).sin_cos();
+                    [cos, sin, turn_cos, turn_sin]
+                })
+                .collect();
+            for place in &mut places {
+                for [x, y, cos, sin] in &mut turning {
+                    place[d] += SPREAD * (2.0 / WAVES as f64).sqrt() * *x;
+                    (*x, *y) = (*x * *cos - *y * *sin, *x * *sin + *y * *cos);
+                }
+            }
+        }
+        places
+    }
+
+    /// The curve of a filament at z.
+    fn curve(&self, z: f64) -> Option<Vec<[f64; 2]>> {
+        curve(z, &self.along(0.0, z))
+    }
+
+    /// The curve of a filament that shares a part of its variance with its neighbours and has the rest for itself.
+    fn curve_with_own(&self, z: f64, shared: f64, own: &Self) -> Option<Vec<[f64; 2]>> {
+        let mut places = self.along(0.0, z);
+        for (place, own) in places.iter_mut().zip(own.along(0.0, 0.0)) {
+            *place = [0, 1].map(|d| shared.sqrt() * place[d] + (1.0 - shared).sqrt() * own[d]);
+        }
+        curve(z, &places)
     }
 }
 
 /// The curve of a filament at z, from before the sheet to behind it.
-fn curve(z: f64, place: impl Fn(f64) -> [f64; 2]) -> Option<Vec<[f64; 2]>> {
-    let margin = 5.0 * SPREAD;
-    let points = ((LENGTH + 2.0 * margin) / BELT_RATIO / SPACING) as usize;
-    let point = |i: usize| {
-        let s = i as f64 * SPACING;
-        let [md, cd] = place(s);
-        [z + cd, LENGTH + margin + md - BELT_RATIO * s]
-    };
-    Some((0..points).map(point).collect())
+fn curve(z: f64, places: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
+    let fed = |i: usize| BELT_RATIO * SPACING * i as f64;
+    let point = |(i, [md, cd]): (usize, &[f64; 2])| [z + cd, LENGTH + MARGIN + md - fed(i)];
+    Some(places.iter().enumerate().map(point).collect())
 }
 
 fn sheet(patches: &[f64]) -> Sheet {
@@ -97,7 +123,7 @@ fn on_map(sheet: &Sheet, curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>) ->
 #[test]
 fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
     let (sheet, field) = (sheet(&[8.0, 16.0]), Field::new(1));
-    let curves = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, 0.0)));
+    let curves = |count: usize| even(count).map(|z| curve(z, &field.along(0.0, 0.0)));
     let all = on_map(&sheet, curves(96));
     for (found, all) in
         few(&sheet, Arrangement::Rows, 96, curves(24)).tell(None, 2).unwrap().cvs.iter().zip(all)
@@ -112,7 +138,7 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
 #[test]
 fn limit_all_filaments_are_as_uneven_as_themselves() {
     let (sheet, field) = (sheet(&[2.0, 10.0]), Field::new(2));
-    let curves = || even(24).enumerate().map(|(i, z)| curve(z, |s| field.at(s + 3.0 * i as f64, z)));
+    let curves = || even(24).enumerate().map(|(i, z)| curve(z, &field.along(3.0 * i as f64, z)));
     for found in few(&sheet, Arrangement::Slot, 24, curves()).tell(None, 2).unwrap().cvs {
         assert_eq!(found.cv.to_bits(), (found.few * found.few).sqrt().to_bits());
     }
@@ -123,10 +149,8 @@ fn limit_all_filaments_are_as_uneven_as_themselves() {
 fn limit_independent_filaments_have_an_own_part_only() {
     let sheet = sheet(&[2.0, 5.0]);
     let curves = |count: usize| {
-        even(count).enumerate().map(|(i, z)| {
-            let field = Field::new(100 + i as u64);
-            curve(z, move |s| field.at(s, 0.0))
-        })
+        let place = |i: usize| Field::new(100 + i as u64).along(0.0, 0.0);
+        even(count).enumerate().map(move |(i, z)| curve(z, &place(i)))
     };
     let all = on_map(&sheet, curves(240));
     let found = few(&sheet, Arrangement::Slot, 240, curves(64)).tell(None, 2).unwrap().cvs;
@@ -151,13 +175,8 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
     let mut sums = [[0.0; 4]; 3];
     for seed in 0..FIELDS {
         let field = Field::new(3 + seed);
-        let of = |i: usize, z: f64| {
-            let own = Field::new(1000 * (seed + 1) + i as u64);
-            curve(z, |s| {
-                let (shared, own) = (field.at(s, z), own.at(s, 0.0));
-                [0, 1].map(|d| SHARED.sqrt() * shared[d] + (1.0 - SHARED).sqrt() * own[d])
-            })
-        };
+        let of =
+            |i: usize, z: f64| field.curve_with_own(z, SHARED, &Field::new(1000 * (seed + 1) + i as u64));
         let all = on_map(&sheet, even(480).enumerate().map(|(i, z)| of(i, z)));
         let every_tenth = even(480).enumerate().filter(|(i, _)| i % 10 == 5).map(|(i, z)| of(i, z));
         let found = few(&sheet, Arrangement::Slot, 480, every_tenth).tell(None, 2).unwrap().cvs;
@@ -190,11 +209,7 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
         let field = Field::new(31);
         // Each choice has depths of its own: what a filament does for itself.
         let of = |choice: usize, i: usize, z: f64| {
-            let own = Field::new(10_000 + (choice * 1000 + i) as u64);
-            curve(z, |s| {
-                let (shared, own) = (field.at(s, z), own.at(s, 0.0));
-                [0, 1].map(|d| SHARED.sqrt() * shared[d] + (1.0 - SHARED).sqrt() * own[d])
-            })
+            field.curve_with_own(z, SHARED, &Field::new(10_000 + (choice * 1000 + i) as u64))
         };
         let found: Vec<Vec<FewFilamentsCv>> = (0..CHOICES)
             .map(|choice| {
@@ -228,14 +243,14 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     const WEBS: u64 = 12;
     let sheet = sheet(&[5.0]);
     let field = Field::new(4);
-    let found = few(&sheet, Arrangement::AtRandom, 120, even(48).map(|z| curve(z, |s| field.at(s, z))));
+    let found = few(&sheet, Arrangement::AtRandom, 120, even(48).map(|z| field.curve(z)));
     let found = found.tell(None, 2).unwrap().cvs;
     let squares: Vec<Vec<f64>> = (0..WEBS)
         .map(|seed| {
             let mut random = SplitMix64::seed_from_u64(seed);
             let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
             let places: Vec<f64> = (0..120).map(|_| place()).collect();
-            let cvs = on_map(&sheet, places.into_iter().map(|z| curve(z, |s| field.at(s, z))));
+            let cvs = on_map(&sheet, places.into_iter().map(|z| field.curve(z)));
             cvs.into_iter().map(|cv| cv * cv).collect()
         })
         .collect();
@@ -253,7 +268,7 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
 fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     const WEBS: u64 = 6;
     let (sheet, field) = (sheet(&[2.0]), Field::new(4));
-    let row = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, z)));
+    let row = |count: usize| even(count).map(|z| field.curve(z));
     let flown = few(&sheet, Arrangement::AtRandom, 120, row(24));
     let filled = few(&sheet, Arrangement::AtRandom, 120, row(192)).map(None).unwrap();
     let filled = FilledMaps { of_all: filled.clone(), of_every_second: filled, patches: 0.0..1.0 };
@@ -262,7 +277,7 @@ fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
         let mut random = SplitMix64::seed_from_u64(seed);
         let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
         let places: Vec<f64> = (0..120).map(|_| place()).collect();
-        on_map(&sheet, places.into_iter().map(|z| curve(z, |s| field.at(s, z))))[0].powi(2)
+        on_map(&sheet, places.into_iter().map(|z| field.curve(z)))[0].powi(2)
     });
     let mean = (squares.sum::<f64>() / WEBS as f64).sqrt();
     // Six webs, whose streaks differ.
@@ -275,7 +290,7 @@ fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
 #[test]
 fn identical_for_any_number_of_threads() {
     let (sheet, field) = (sheet(&[5.0]), Field::new(5));
-    let row = || even(24).map(|z| curve(z, |s| field.at(s, z)));
+    let row = || even(24).map(|z| field.curve(z));
     let [one, three] =
         [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).tell(None, threads).unwrap());
     assert_eq!(one, three);
@@ -286,7 +301,7 @@ fn identical_for_any_number_of_threads() {
 fn a_lost_filament_is_left_out() {
     let (sheet, field) = (sheet(&[10.0]), Field::new(6));
     let row = |lost: usize| {
-        let curves = even(48).enumerate().map(|(i, z)| curve(z, |s| field.at(s, z)).filter(|_| i != lost));
+        let curves = even(48).enumerate().map(|(i, z)| field.curve(z).filter(|_| i != lost));
         few(&sheet, Arrangement::Slot, 480, curves).tell(None, 2).unwrap().cvs[0]
     };
     let (whole, without) = (row(48), row(17));
@@ -297,7 +312,7 @@ fn a_lost_filament_is_left_out() {
 #[test]
 fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
     let (sheet, field) = (sheet(&[10.0]), Field::new(7));
-    let row = |count: usize| even(count).map(|z| curve(z, |s| field.at(s, z)));
+    let row = |count: usize| even(count).map(|z| field.curve(z));
     let flown = few(&sheet, Arrangement::Slot, 480, row(48));
     let filled_as = |count: usize| {
         let map = few(&sheet, Arrangement::Slot, 480, row(count)).map(None).unwrap();
