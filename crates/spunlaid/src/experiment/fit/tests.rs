@@ -271,3 +271,34 @@ fn identical_after_trials_that_were_refused() {
     let [_, high] = first.keys[0].interval.clone().unwrap();
     assert!(high <= 380.0 || first.keys[0].ends[1] == IntervalEnd::Straight, "{:?}", first.keys[0]);
 }
+
+/// Beyond so many filaments there is no web.
+struct Bounded(OneKey, f64);
+
+impl Simulator for Bounded {
+    fn set(&mut self, values: &[f64]) -> Result<(), Error> {
+        if values[0] > self.1 {
+            return Err(Error::flight("is no web", "try less"));
+        }
+        self.0.set(values)
+    }
+    fn web(&mut self, replicate: u64) -> Result<Vec<f64>, Error> {
+        self.0.web(replicate)
+    }
+    fn errors_of_model(&mut self) -> Result<Matrix, Error> {
+        self.0.errors_of_model()
+    }
+}
+
+/// The results have the web of the values that were found, so there must be one.
+#[test]
+fn a_web_can_be_made_of_what_is_found() {
+    let parameters = [parameter("filaments", 250.0, [50.0, 1250.0])];
+    let scan = Drawn { values: vec![16.0, 350.0], seed: 77 }.web(0).unwrap();
+    let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
+    let mut simulator = Bounded(OneKey(drawn()), 252.0);
+    let mut journal = Journal::in_memory();
+    let found =
+        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
+    assert!(!found.refused.is_empty() && found.keys[0].value <= 252.0, "{found:?}");
+}

@@ -64,7 +64,12 @@ pub(super) fn values(
     }
     let distance = |(index, key): (usize, &usize)| step[*key].abs() / surface.errors.standard_error(index);
     let far = surface.keys.iter().enumerate().map(distance).fold(0.0, f64::max);
-    let coordinates = start.coordinates.iter().zip(&step).map(|(start, step)| start + step).collect();
+    let mut coordinates =
+        start.coordinates.iter().zip(&step).map(|(start, step)| start + step).collect::<Vec<_>>();
+    // Where all trials beside the place were refused, the polynomials may lead to where no web can be laid.
+    if webs.simulator.set(&webs.values(&coordinates)).is_err() {
+        coordinates = start.coordinates;
+    }
     Ok(Values { coordinates, surface, profiles, far })
 }
 
