@@ -134,7 +134,7 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
         "web.guessed=none",
     ];
     std::fs::write(desk.path("line.toml"), web.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
-    success(&mut desk.with("web line.toml --out w --quiet", &small));
+    success(&mut desk.with("web line.toml --out w --no-advice --quiet", &small));
     let weight = desk.summary("w")["web"]["basis_weight_kg_m2"].as_f64().unwrap();
     assert!((weight / 2e-3 - 1.0).abs() < 0.1, "{weight}");
     // Nothing is overwritten, and nothing is written beside what is there.

@@ -17,7 +17,7 @@ sigma_cd = \"4 mm\"
 noise = \"15 m^-0.5\"
 [line]
 throughput = \"0.6 g/min\"
-basis_weight = \"20 g/m²\"
+basis_weight = \"4 g/m²\"
 filaments_per_metre = 2000
 [web]
 width = \"40 mm\"

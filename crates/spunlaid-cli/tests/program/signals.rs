@@ -71,7 +71,7 @@ fn interrupted_old_results_stay() {
 /// Ends a run of many flights when some are kept, and compares what the same command then makes with a run in one go.
 #[test]
 fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
-    const ALL: u64 = 2400;
+    const ALL: u64 = 1200;
     let desk = Desk::new();
     let run = |folder: &str| {
         let many = ["run.duration=1 s", "run.output_interval=4 ms", "run.scheme=leapfrog", "run.checks=none"];
