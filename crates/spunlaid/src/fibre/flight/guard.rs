@@ -168,7 +168,8 @@ impl Task for Doubts<'_> {
             if let Some(tension) = chain.tensions.tension.get(j) {
                 let off = Wide::load(tension).neg_mul_add(Wide::load(&element.compliance), stretch).abs();
                 // An element that lies on the belt is held at both nodes.
-                let [above, below] = [j, j + 1].map(|i| Wide::load(&c.node(i, nodes).inverse_mass));
+                let above = Wide::load(&c.node(j, nodes).inverse_mass);
+                let below = Wide::load(&c.node(j + 1, nodes).inverse_mass);
                 let moved = Wide::select_less(zero, above.max(below), off, zero);
                 doubts = Wide::select_less(most_off * rest_length, moved, one, doubts);
             }
