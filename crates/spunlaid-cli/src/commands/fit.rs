@@ -14,7 +14,7 @@ use spunlaid::ground::Error;
 use spunlaid::input::{FitFile, Resources, read_fit};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid_results::products::finished::read_measured_web;
-use spunlaid_results::products::fit::{self as fit, FitInput, FoundFit, pretty};
+use spunlaid_results::products::fit::{self, FitInput, FoundFit, pretty};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {

@@ -2,12 +2,12 @@
 //! files and report stand beside it. A product imports only from those above it.
 //!
 //! ```text
-//! spinline, load      what comes from the die, and what filaments do to their air: products, and parts of others
-//! run                 a case that was flown; its checks, tables and moving fibre
+//! spinline, load        what comes from the die, and what filaments do to their air: products, and parts of others
+//! run                   a case that was flown; its checks, tables and moving fibre
 //! air, record, sources  the air of a case, a measured one, the force on the cells of a field
-//! web, scan           a web that was laid, and one that was scanned
-//! fit, paper, study   many webs or runs
-//! comparison          folders of finished runs or webs side by side
+//! web, scan             a web that was laid, and one that was scanned
+//! fit, study, paper     many webs or runs
+//! comparison            folders of finished runs or webs side by side
 //! ```
 
 pub mod spinline;

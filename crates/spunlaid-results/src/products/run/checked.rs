@@ -1,6 +1,7 @@
 //! What a case means: its mesh, its limits, and what a run of it is expected to need.
 
 use super::POSITIONS;
+use super::report::frames::POSITIONS as POSITIONS_OF_PAGE;
 use crate::numbers::significant;
 use crate::products::spinline::files as spinline;
 use spunlaid::air::{Air, Axis, Flow, PlacedField, Spread};
@@ -252,8 +253,7 @@ fn memory(case: &Case, threads: u64) -> f64 {
     /// The program itself, and the figures that it draws when the flights are over.
     const PROGRAM: f64 = 15.0 * (1u64 << 20) as f64;
     const FIGURES: f64 = 20.0 * (1u64 << 20) as f64;
-    /// Most positions that are read back from the file of the shapes, and bytes of one of them there and in the report.
-    const MOST_POSITIONS: f64 = 375_000.0;
+    /// Bytes of a position that is read back from the file of the shapes, there and in the report.
     const POSITION: f64 = 2.0 * 24.0;
     /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those
     /// of each fibre that wait to go to its file.
@@ -270,7 +270,7 @@ fn memory(case: &Case, threads: u64) -> f64 {
     let flying = case.flight_memory().total() * threads as f64
         + ROW * rows.min(ROWS)
         + (ROW * rows).min(FIBRE * fibres);
-    let drawing = FIGURES + POSITION * positions(case).min(MOST_POSITIONS);
+    let drawing = FIGURES + POSITION * positions(case).min(POSITIONS_OF_PAGE as f64);
     PROGRAM + reading.max(air.field_memory() as f64 + flying.max(drawing))
 }
 

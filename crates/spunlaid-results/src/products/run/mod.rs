@@ -35,10 +35,9 @@ use spunlaid::simulation::{
     FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunControl, RunPaths,
 };
 use spunlaid_charts::Figure;
-use summary::summary;
-
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
+use summary::summary;
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
 const KEPT: usize = WIDTH;

@@ -21,7 +21,6 @@ use crate::products::spinline::figures::{SPINLINE, spinline_figures};
 use crate::products::spinline::files::{STATIONS, SpinResults, part_of_case, write_stations};
 use figures::effects::effects_figure;
 use figures::web_figures;
-use files as web;
 use files::summary::Layer;
 use report::effects::Advised;
 use report::spinlines::LayerSpinline;
@@ -91,7 +90,7 @@ impl WebFolder {
     /// # Errors
     /// If it cannot be drawn.
     pub fn specification(&self) -> Result<Vec<u8>, Failure> {
-        web::sheet::specification_sheet(&self.name, (&self.findings, &self.fabric), &self.notes.concat())
+        files::sheet::specification_sheet(&self.name, (&self.findings, &self.fabric), &self.notes.concat())
     }
 }
 
@@ -117,7 +116,7 @@ impl Contents for WebFolder {
         let web = &self.flown.web;
         let rows = rows(&self.file.spec, web);
         let tried = (self.advice.as_ref(), self.guesses.as_ref(), &*self.beside);
-        web::summary::summary_of_web(
+        files::summary::summary_of_web(
             web,
             (&self.findings, &self.fabric),
             tried,
@@ -152,7 +151,7 @@ impl Contents for WebFolder {
                 write_stations(staging, &threads)?;
             }
             paraview::write_strands(staging, &strands)?;
-            web::map::write(staging, &findings.laid.map)
+            files::map::write(staging, &findings.laid.map)
         };
         let report = || {
             web_report(
@@ -224,7 +223,7 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
 /// What a reader must know of what was found.
 fn notes(flown: &FlownWeb, findings: &Findings) -> Vec<String> {
     let mut notes: Vec<String> = flown.doubts(findings).iter().map(ToString::to_string).collect();
-    if findings.laid.map.cells.len() > web::MOST_CELLS {
+    if findings.laid.map.cells.len() > files::MOST_CELLS {
         notes.push(
             "the map is only in map.npy, because it has more cells than a table or a picture can hold"
                 .to_owned(),

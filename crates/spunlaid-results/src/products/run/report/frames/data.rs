@@ -10,7 +10,7 @@ use spunlaid::ground::Vec3;
 use spunlaid::simulation::Trajectory;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
-pub(super) const POSITIONS: usize = 375_000;
+pub(crate) const POSITIONS: usize = 375_000;
 
 /// What the page's script draws.
 #[derive(Debug, Template)]

@@ -5,6 +5,7 @@ mod data;
 mod fixed;
 
 pub(super) use data::Frames;
+pub(crate) use data::POSITIONS;
 
 use crate::page::document::script;
 use spunlaid::fibre::Case;
