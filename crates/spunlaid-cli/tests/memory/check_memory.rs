@@ -53,8 +53,8 @@ fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
     for (name, figures, changes, [few, many]) in [
         // The turbulence is made window by window, and a window lasts for some ten seconds.
         ("duration", "svg,png", &seldom[..], ["run.duration=20 s", "run.duration=200 s"]),
-        // More instants than are kept whole, and three times as many. Without bitmaps, of which as many are in memory as
-        // happen to be drawn side by side.
+        // More instants than are kept whole, and three times as many. Without bitmaps: as many of them are in memory
+        // as happen to be drawn side by side.
         ("instants", "svg", &often[..], ["run.output_interval=60 us", "run.output_interval=20 us"]),
     ] {
         let once = |change: &str| {
