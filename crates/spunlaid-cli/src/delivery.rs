@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::JournalState;
 use spunlaid::ground::error::counted;
-use spunlaid::ground::{Error, Fault};
 use spunlaid_results::files::folder::Staging;
 use spunlaid_results::files::origin::Origin;
 use spunlaid_results::files::pictures::FigureFiles;
@@ -32,26 +31,6 @@ pub(crate) struct Asides<'a> {
     pub(crate) lines: &'a [String],
     /// Remarks about what was found.
     pub(crate) found: &'a [String],
-}
-
-/// Whether a single file can be written there, before anything is computed for it. One that is there already is
-/// replaced with `--force` only.
-///
-/// * `option` – that names the file
-pub(crate) fn check_file(file: &Path, option: &str, force: bool) -> Result<(), Error> {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let fault = if folder.is_some_and(|folder| !folder.is_dir()) {
-        Fault::new("lies in a folder that is not there", "name another file, or make the folder")
-            .option(option.to_owned())
-    } else if file.is_dir() {
-        Fault::new("is a folder", "name a file").option(option.to_owned())
-    } else if file.exists() && !force {
-        Fault::new("is there already", "name another file, or replace it")
-            .option(format!("{option}, --force"))
-    } else {
-        return Ok(());
-    };
-    Err(Error::folder(file, fault))
 }
 
 impl<'a> Delivery<'a> {

@@ -6,6 +6,7 @@ mod commands;
 mod control;
 mod delivery;
 mod failure;
+mod file;
 mod progress;
 mod say;
 mod settled;
@@ -67,7 +68,7 @@ fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
 /// The command of a command line.
 fn parse(words: &[OsString]) -> Result<(Invocation, Arguments), clap::Error> {
     let matches = Arguments::command().try_get_matches_from(words)?;
-    Ok((Invocation::new(&matches), Arguments::from_arg_matches(&matches)?))
+    Ok((Invocation::new(&matches, words), Arguments::from_arg_matches(&matches)?))
 }
 
 fn perform(command: &Command, invocation: &Invocation) -> Result<(), Failure> {
@@ -84,7 +85,7 @@ fn perform(command: &Command, invocation: &Invocation) -> Result<(), Failure> {
         Command::Compare(compare) => commands::compare::compare(compare, invocation),
         Command::Check(check) => commands::check::check(check),
         Command::Keys(keys) => commands::keys::keys(keys),
-        Command::New(new) => commands::new::new(new),
+        Command::New(new) => commands::new::new(new, invocation),
         Command::Completions(completions) => commands::completions::completions(completions),
         Command::Man(man) => commands::completions::man(man),
     }

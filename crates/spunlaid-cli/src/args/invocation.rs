@@ -4,6 +4,7 @@ use super::{Arguments, is_standard};
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory};
 use spunlaid_results::files::origin::Origin;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// Options that do not decide what results are: they say where and how fast they are made, how they are
@@ -28,15 +29,18 @@ const GOES_ON: (&str, &str) = ("sweep", "replicates");
 #[derive(Debug)]
 pub(crate) struct Invocation {
     command: String,
+    words: Vec<OsString>,
     /// Each as it is written, `--frames 30`.
     options: Vec<String>,
 }
 
 impl Invocation {
     /// The command of a command line and the options that are written there.
-    pub(crate) fn new(matches: &ArgMatches) -> Self {
+    ///
+    /// * `words` – the command line itself
+    pub(crate) fn new(matches: &ArgMatches, words: &[OsString]) -> Self {
         let (name, matches) = matches.subcommand().unwrap_or(("", matches));
-        let program = Arguments::command();
+        let (program, words) = (Arguments::command(), words.to_vec());
         let known = program.find_subcommand(name).into_iter().flat_map(clap::Command::get_arguments);
         let written = known.filter(|argument| {
             let id = argument.get_id().as_str();
@@ -45,19 +49,29 @@ impl Invocation {
                 && (name, id) != GOES_ON
                 && matches.value_source(id) == Some(ValueSource::CommandLine)
         });
-        let words = |argument: &clap::Arg| {
+        let option = |argument: &clap::Arg| {
             let id = argument.get_id().as_str();
             let values = matches.get_raw(id).into_iter().flatten().map(|value| value.to_string_lossy());
             format!("--{id} {}", values.collect::<Vec<_>>().join(" "))
         };
-        Self { command: name.to_owned(), options: written.map(words).collect() }
+        Self { command: name.to_owned(), words, options: written.map(option).collect() }
+    }
+
+    /// The command line.
+    pub(crate) fn words(&self) -> &[OsString] {
+        &self.words
+    }
+
+    /// Whether an option is written, `belt-speed`.
+    pub(crate) fn has(&self, option: &str) -> bool {
+        let begin = format!("--{} ", option.replace('-', "_"));
+        self.options.iter().any(|option| option.starts_with(&begin))
     }
 
     /// The first option of these that is written, `--keep-shading`.
     pub(crate) fn first_option<O: clap::Args>(&self) -> Option<String> {
         let options = O::augment_args(clap::Command::new(""));
-        let is_written = |id: &str| self.options.iter().any(|option| option.starts_with(&format!("--{id} ")));
-        let found = options.get_arguments().find(|option| is_written(option.get_id().as_str()))?;
+        let found = options.get_arguments().find(|option| self.has(option.get_id().as_str()))?;
         Some(format!("--{}", found.get_long()?))
     }
 
@@ -79,7 +93,7 @@ mod tests {
     use super::*;
 
     fn invocation(words: &str) -> Invocation {
-        Invocation::new(&Arguments::command().get_matches_from(words.split(' ')))
+        Invocation::new(&Arguments::command().get_matches_from(words.split(' ')), &[])
     }
 
     #[test]

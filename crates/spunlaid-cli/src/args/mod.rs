@@ -11,10 +11,7 @@ mod source;
 pub(crate) use analyse::{Analyse, RecordOptions, Scan};
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
-pub(crate) use new::{
-    Given, LineNumbers, New, basis_weight, beams, belt_speed, depth, holes, length, polymer, speed,
-    throughput, titre, turbulence,
-};
+pub(crate) use new::{LineNumbers, Need, New, QUESTIONS, value};
 pub(crate) use output::{Figures, Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};
 

@@ -1,5 +1,6 @@
 //! `spunlaid new`: a file to start from, and the numbers of a line for one of a web.
 
+use self::Need::{IfKnown, Needed, Usual};
 use super::quantity;
 use clap::{Args, ValueHint};
 use spunlaid::fibre::Polymer;
@@ -31,56 +32,87 @@ pub(crate) struct New {
 }
 
 /// The numbers by which a line is known.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Numbers of the line, with --web")]
 pub(crate) struct LineNumbers {
     /// Polymer: pp, pet, pa6 or pla, in capitals or not
     #[arg(long, value_name = "NAME", requires = "web", value_parser = polymer)]
     pub(crate) polymer: Option<Given<Polymer>>,
     /// Throughput of a hole in g/min, or with its unit, as "0.5 g/min/hole"
-    #[arg(long, value_name = "FLOW", requires = "web", value_parser = throughput)]
+    #[arg(long, value_name = "FLOW", requires = "web", value_parser = in_unit(Dimension::MassFlow, "g/min"))]
     pub(crate) throughput: Option<Given<f64>>,
     /// Titre of a filament in dtex, or with its unit, as "1.8 den"
-    #[arg(long, value_name = "TITRE", requires = "web", conflicts_with = "diameter", value_parser = titre)]
+    #[arg(long, value_name = "TITRE", requires = "web", conflicts_with = "diameter")]
+    #[arg(value_parser = in_unit(Dimension::LinearDensity, "dtex"))]
     pub(crate) dtex: Option<Given<f64>>,
     /// Diameter of a filament in µm in place of the titre, or with its unit, as "16 µm"
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = diameter)]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "µm"))]
     pub(crate) diameter: Option<Given<f64>>,
     /// Basis weight of the web in g/m², of all beams together, or with its unit, as "20 gsm"
-    #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = basis_weight)]
+    #[arg(long, value_name = "WEIGHT", requires = "web", value_parser = in_unit(Dimension::BasisWeight, "g/m²"))]
     pub(crate) basis_weight: Option<Given<f64>>,
     /// Speed of the belt in m/min in place of the basis weight, or with its unit, as "4 m/s"
-    #[arg(long, value_name = "SPEED", requires = "web", value_parser = belt_speed)]
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = in_unit(Dimension::Velocity, "m/min"))]
     pub(crate) belt_speed: Option<Given<f64>>,
     /// Holes of a beam per metre of width
-    #[arg(long, value_name = "N", requires = "web", value_parser = holes)]
+    #[arg(long, value_name = "N", requires = "web", value_parser = count(MOST_HOLES))]
     pub(crate) holes_per_metre: Option<u64>,
     /// Holes of a beam in all, in place of those per metre; needs --width
     #[arg(long, value_name = "N", requires_all = ["web", "width"], conflicts_with = "holes_per_metre")]
-    #[arg(value_parser = holes)]
+    #[arg(value_parser = count(MOST_HOLES))]
     pub(crate) holes: Option<u64>,
     /// Speed of the air at the end of the slot in m/s, or with its unit, as "3600 m/min"
-    #[arg(long, value_name = "SPEED", requires = "web", value_parser = speed)]
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = in_unit(Dimension::Velocity, "m/s"))]
     pub(crate) air_speed: Option<Given<f64>>,
     /// Width of the web in m, or with its unit, as "3200 mm" [default: "1 m"]
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = length)]
-    pub(crate) width: Option<Given<f64>>,
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "m"))]
+    #[arg(default_value = "1 m", hide_default_value = true)]
+    pub(crate) width: Given<f64>,
     /// Distance from the slot to the belt in m, or with its unit, as "500 mm" [default: "0.5 m"]
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = length)]
-    pub(crate) distance: Option<Given<f64>>,
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "m"))]
+    #[arg(default_value = "0.5 m", hide_default_value = true)]
+    pub(crate) distance: Given<f64>,
     /// Depth of the slot along the machine in mm, or with its unit [default: "20 mm", a guess]
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = depth)]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]
     pub(crate) slot_depth: Option<Given<f64>>,
     /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", a guess]
     #[arg(long, value_name = "SHARE", requires = "web", value_parser = turbulence)]
     pub(crate) turbulence: Option<Given<f64>>,
     /// Thickness of the finished fabric in mm, or with its unit, as "250 µm", for the air permeability
-    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = depth)]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]
     pub(crate) thickness: Option<Given<f64>>,
     /// Number of equal beams, one behind the other [default: 1]
-    #[arg(long, value_name = "N", requires = "web", value_parser = beams)]
-    pub(crate) beams: Option<u64>,
+    #[arg(long, value_name = "N", requires = "web", value_parser = count(MOST_BEAMS))]
+    #[arg(default_value_t = 1, hide_default_value = true)]
+    pub(crate) beams: u64,
 }
+
+/// Whether a line can be written without a number.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Need {
+    /// There is no line without it.
+    Needed,
+    /// The usual one is taken.
+    Usual,
+    /// It stays away if it is not known.
+    IfKnown,
+}
+/// What is asked: the options of which the first takes the answer that can read it, the question, and what an empty
+/// answer means.
+pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
+    (&["polymer"], Needed, "Polymer: pp, pet, pa6 or pla", "pp"),
+    (&["throughput"], Needed, "Throughput of a hole", "0.5 g/min"),
+    (&["dtex", "diameter"], Needed, "Titre of a filament", "2 dtex"),
+    (&["basis-weight", "belt-speed"], Needed, "Basis weight of the web, or speed of its belt", "20 g/m²"),
+    (&["width"], Usual, "Width of the web", "1 m"),
+    (&["holes-per-metre", "holes"], Needed, "Holes of a beam per metre of width", "5000"),
+    (&["beams"], Usual, "Number of equal beams", "1"),
+    (&["air-speed"], Needed, "Speed of the air at the end of the slot", "60 m/s"),
+    (&["distance"], Usual, "Distance from the slot to the belt", "0.5 m"),
+    (&["slot-depth"], IfKnown, "Depth of the slot", "20 mm, a guess"),
+    (&["turbulence"], IfKnown, "Turbulence of the air at its end", "10 %, a guess"),
+    (&["thickness"], IfKnown, "Thickness of the finished fabric", "not known"),
+];
 
 /// A value as it was given, and what there is to say about it.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,36 +127,33 @@ impl<T> From<T> for Given<T> {
     }
 }
 
+/// The value of a number that was given.
+pub(crate) fn value<T: Copy>(given: &Option<Given<T>>) -> Option<T> {
+    given.as_ref().map(|given| given.value)
+}
+
 impl LineNumbers {
     /// What there is to say about the numbers, each once.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &str> {
-        let Self { throughput, dtex, diameter, basis_weight, belt_speed, air_speed, width, distance, .. } =
-            self;
-        let Self { slot_depth, turbulence, thickness, .. } = self;
-        let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed, width, distance];
-        let numbers = of_line.into_iter().chain([slot_depth, turbulence, thickness]);
-        let of_numbers = numbers.flatten().map(|given| &given.remark);
-        self.polymer.iter().map(|given| &given.remark).chain(of_numbers).flatten().map(String::as_str)
+        let Self { polymer, throughput, dtex, diameter, basis_weight, belt_speed, air_speed, .. } = self;
+        let Self { width, distance, slot_depth, turbulence, thickness, .. } = self;
+        let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed].into_iter().flatten();
+        let of_air = [slot_depth, turbulence, thickness].into_iter().flatten();
+        let numbers = of_line.chain([width, distance]).chain(of_air).map(|given| &given.remark);
+        polymer.iter().map(|given| &given.remark).chain(numbers).flatten().map(String::as_str)
     }
 }
 
-/// A number of holes.
-pub(crate) fn holes(text: &str) -> Result<u64, String> {
-    count(text, MOST_HOLES)
-}
-
-/// A number of beams.
-pub(crate) fn beams(text: &str) -> Result<u64, String> {
-    count(text, MOST_BEAMS)
-}
-
-fn count(text: &str, most: u64) -> Result<u64, String> {
-    let number = text.trim().parse().ok().filter(|number| (1..=most).contains(number));
-    number.ok_or_else(|| format!("write a whole number from 1 to {most}"))
+/// A number of holes or beams.
+fn count(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.trim().parse().ok().filter(|number| (1..=most).contains(number));
+        number.ok_or_else(|| format!("write a whole number from 1 to {most}"))
+    }
 }
 
 /// A polymer by its name, in capitals or not. A melt flow rate beside it is read over, and said to be.
-pub(crate) fn polymer(text: &str) -> Result<Given<Polymer>, String> {
+fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     let lower = text.trim().to_lowercase();
     let named = |words: &[&str]| {
         let name = words.concat().replace('-', "");
@@ -169,50 +198,10 @@ fn in_unit(dimension: Dimension, unit: &'static str) -> impl Fn(&str) -> Result<
     }
 }
 
-/// A titre [kg/m]; a number without a unit is one in dtex.
-pub(crate) fn titre(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::LinearDensity, "dtex")(text)
-}
-
-/// A throughput of a hole [kg/s]; a number without a unit is one in g/min.
-pub(crate) fn throughput(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::MassFlow, "g/min")(text)
-}
-
-/// A diameter [m]; a number without a unit is one in µm.
-fn diameter(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::Length, "µm")(text)
-}
-
-/// A basis weight [kg/m²]; a number without a unit is one in g/m².
-pub(crate) fn basis_weight(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::BasisWeight, "g/m²")(text)
-}
-
-/// The speed of a belt [m/s]; a number without a unit is one in m/min.
-pub(crate) fn belt_speed(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::Velocity, "m/min")(text)
-}
-
-/// A depth or a thickness [m]; a number without a unit is one in mm.
-pub(crate) fn depth(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::Length, "mm")(text)
-}
-
 /// A turbulence intensity; a number without a unit is a share up to one, and per cent above.
-pub(crate) fn turbulence(text: &str) -> Result<Given<f64>, String> {
+fn turbulence(text: &str) -> Result<Given<f64>, String> {
     match text.trim().parse::<f64>() {
         Ok(share) if share <= 1.0 => quantity(Dimension::Ratio)(text.trim()).map(Given::from),
         _ => in_unit(Dimension::Ratio, "%")(text),
     }
-}
-
-/// A speed [m/s].
-pub(crate) fn speed(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::Velocity, "m/s")(text)
-}
-
-/// A length [m].
-pub(crate) fn length(text: &str) -> Result<Given<f64>, String> {
-    in_unit(Dimension::Length, "m")(text)
 }

@@ -3,8 +3,9 @@
 use super::{counted, stem};
 use crate::args::{self, Invocation, Output, overrides};
 use crate::control::lay_control;
-use crate::delivery::{Asides, Delivery, check_file};
+use crate::delivery::{Asides, Delivery};
 use crate::failure::Failure;
+use crate::file::check_file;
 use crate::settled::{settled, settled_with};
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, are_tried, judged_by, steps};

@@ -1,8 +1,8 @@
 //! `spunlaid air --at`: the air at places of a table.
 
 use crate::args::Air;
-use crate::delivery::check_file;
 use crate::failure::Failure;
+use crate::file::check_file;
 use crate::say;
 use spunlaid::ground::{Error, Problem};
 use spunlaid::input::{Resources, read_points};

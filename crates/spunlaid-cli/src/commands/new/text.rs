@@ -1,0 +1,74 @@
+//! The files of a line: one of its web and its filament, `line.toml`, and the air between slot and belt.
+
+use super::beam::beam;
+use super::line::{GIVEN, NewLine, length};
+use crate::args::value;
+use spunlaid::ground::Dimension;
+use spunlaid_results::numbers::significant;
+use std::f64::consts::PI;
+
+/// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the
+/// velocity at the belt over that at the slot.
+const INTENSITY: f64 = 0.1;
+const EDDY: f64 = 16e-3;
+const SLOWED: f64 = 1.0 / 6.0;
+
+/// The file; all beams have the same filament.
+///
+/// * `name` – what the line is called
+/// * `air` – the file of its air
+pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str) -> String {
+    let NewLine { given, polymer, titre, .. } = line;
+    // What is made up and counts for much. The numbers of the air are factors on what its table has.
+    let guesses = [
+        (given.slot_depth.is_none(), "line.depth, "),
+        (given.turbulence.is_none(), "air.intensity_factor, "),
+        (true, "air.length_factor"),
+    ];
+    let material = polymer.material(false);
+    let diameter = Dimension::Length.pretty((4.0 * titre / (PI * material.solid_density)).sqrt());
+    let dtex = |digits| significant(titre * 1e7, digits);
+    let size = match value(&given.diameter) {
+        Some(diameter) => {
+            format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
+        }
+        None => format!(
+            "linear_density = \"{} dtex\"   # of {diameter}: √(4 × titre / (π × density))",
+            dtex(GIVEN)
+        ),
+    };
+    let fabric = value(&given.thickness).map(|thickness| {
+        format!("\n[fabric]\nthickness = \"{}\"   # between its bonds\n", length(thickness))
+    });
+    format!(
+        include_str!("line.toml"),
+        name = name,
+        beams = (1..=given.beams).map(|number| beam(line, number)).collect::<String>(),
+        width = length(given.width.value),
+        guessed = guesses.map(|(is_guess, key)| if is_guess { key } else { "" }).concat(),
+        fabric = fabric.unwrap_or_default(),
+        size = size,
+        density = Dimension::Density.pretty(material.solid_density),
+        polymer = polymer.name(),
+        // A filament as spun is oriented somewhat.
+        modulus = Dimension::Pressure.pretty_to(1.5 * material.unoriented_modulus, 2),
+        distance = length(given.distance.value),
+        air = air,
+    )
+}
+
+/// The table of the air between slot and belt: it slows down evenly.
+pub(super) fn air(line: &NewLine<'_>) -> String {
+    let intensity = significant(value(&line.given.turbulence).unwrap_or(INTENSITY), GIVEN);
+    let row = |[place, velocity]: [f64; 2]| {
+        let cutoff = significant(velocity / (4.0 * EDDY), 4);
+        format!("{},{velocity},{intensity},{},{cutoff}\n", place * 1e3, EDDY * 1e3)
+    };
+    let ends = [[0.0, line.air_speed], [line.given.distance.value, SLOWED * line.air_speed]];
+    format!(
+        "# Air between the slot and the belt: made up, of the usual shape and size (cut-off = velocity / \
+        4 / length scale).\nx_mm,velocity_m_s,turbulence_intensity,length_scale_mm,cutoff_frequency_hz\n\
+        {}",
+        ends.map(row).concat()
+    )
+}
