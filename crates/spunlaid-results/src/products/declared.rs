@@ -19,7 +19,7 @@ use spunlaid::ground::{Isa, Measure, Value, measure};
 use spunlaid::input::{read_spinline, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
-use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{
     FewDoubt, FewFilamentsCv, Format, LayControl, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES,
     OF_SCANS, OF_WEBS, Picture, scan,
@@ -53,8 +53,9 @@ static STOP: AtomicBool = AtomicBool::new(false);
 const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from
-/// neither, and of filaments in one air, all or a few of which were flown, and so few that they tell nothing.
-fn kinds(found: &Findings) -> [Findings; 5] {
+/// neither, and of filaments in one air, all or a few of which were flown, on a sheet that is smaller than the
+/// patches, and so few that they tell nothing.
+fn kinds(found: &Findings) -> [Findings; 6] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();
         kind.patches.iter_mut().for_each(change);
@@ -71,16 +72,17 @@ fn kinds(found: &Findings) -> [Findings; 5] {
             own: 1e-3,
             few,
         };
-        (patch.few, patch.filled) = (Some(told), Some(0.061));
+        (patch.few, patch.of_map, patch.evidence) = (Some(told), 0.061, Evidence::FewInOneAir);
     };
     [
         found.clone(),
-        with(&|patch| patch.in_one_air = true),
-        with(&|patch| (patch.in_one_air, patch.single_fibres) = (true, None)),
+        with(&|patch| patch.evidence = Evidence::AllInOneAir),
+        with(&|patch| (patch.evidence, patch.single_fibres) = (Evidence::AllInOneAir, None)),
         with(&few),
+        with(&|patch| patch.evidence = Evidence::FewInOneAir),
         with(&|patch| {
             few(patch);
-            (patch.in_one_air, patch.doubt) = (true, Some(FewDoubt::Neighbours(0.1)));
+            patch.doubt = Some(FewDoubt::Neighbours(0.1));
             patch.map.standard_error = None;
             if let Some(few) = &mut patch.few {
                 (few.cv, few.by_chance, few.by_pitch, few.of_halves) = (0.0, None, f64::NAN, f64::NAN);
@@ -111,6 +113,8 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         let (summary, report): (Json, _) =
             (serde_json::from_str(&read("summary.json")).unwrap(), read("report.html"));
         assert!(!text.contains("NaN") && !report.contains("NaN"), "{text}");
+        let says_all = report.contains("every filament of the sheet was flown");
+        assert_eq!(says_all, findings.patches[0].evidence == Evidence::AllInOneAir, "{text}");
         if findings.patches[0].doubt.is_some() {
             let patch = &summary["web"]["patches"][0];
             assert!(patch["cv"].is_null() && patch.get("cv").is_some(), "{patch}");

@@ -77,8 +77,7 @@ pub const MOST_STEPS: u64 = 20_000_000;
 /// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
 /// effects are seen. Guesses must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
-    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
-    let is_told = seen.is_none_or(|seen| findings.patches[seen].doubt.is_none());
+    let is_told = findings.seen().is_none_or(|seen| seen.doubt.is_none());
     let says_enough = is_told && findings.laid.flown.iter().all(|layer| layer.few.is_some());
     let are_guesses = changes.iter().any(is_guess);
     let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
@@ -261,11 +260,10 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
 /// How uneven a web of filaments in one air is.
 fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     let of_map = |found: &PatchFindings| {
-        let few = found.few.map_or(0.0, |few| few.by_pitch);
-        let error = found.map.standard_error.map_or(f64::NAN, |error| error.hypot(few));
-        ExpectedCv::alone(found.map.patch, found.map.cv, error)
+        let (told, error) = (found.told()?, found.whole_error().whole());
+        Some(ExpectedCv::alone(told.patch, told.cv, error.unwrap_or(f64::NAN)))
     };
-    patches.iter().filter(|found| found.doubt.is_none()).map(of_map).collect()
+    patches.iter().filter_map(of_map).collect()
 }
 
 /// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of

@@ -96,7 +96,7 @@ impl Simulator for WebSimulator<'_> {
             let of_side = |side: f64| {
                 let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
                 let patch = found.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-                patch.map_or(0.0, |patch| of_logarithm(cause(patch), patch.filled.unwrap_or(patch.map.cv)))
+                patch.map_or(0.0, |patch| of_logarithm(cause(patch), patch.of_map))
             };
             let error = |texture: &Texture| match texture {
                 Texture::Patch(side) => of_side(*side),
@@ -106,8 +106,8 @@ impl Simulator for WebSimulator<'_> {
             self.target.textures().iter().map(error).collect()
         };
         // Where a few filaments do not tell the CV of all, the map may be off by all of it.
-        let told = |patch: &PatchFindings| patch.told().map_or(0.0, |told| told.cv);
-        let of_map = |patch: &PatchFindings| Some((patch.filled? - told(patch)).abs());
+        let of_map =
+            |patch: &PatchFindings| Some((patch.of_map - patch.told().map_or(0.0, |told| told.cv)).abs());
         let causes = [errors(&|patch| patch.whole_error().flight), errors(&of_map)];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }

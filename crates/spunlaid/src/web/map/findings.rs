@@ -5,7 +5,7 @@ use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
-use super::laid_web::{LaidWeb, LayControl, LayerFlown};
+use super::laid_web::{Evidence, LaidWeb, LayControl, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
@@ -53,12 +53,16 @@ impl Findings {
         map.between(first..map.columns - last)
     }
 
+    /// How uneven it is over patches of the size that the eye judges first.
+    pub fn seen(&self) -> Option<&PatchFindings> {
+        nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch)).map(|i| &self.patches[i])
+    }
+
     /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web
     /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring.
     pub fn basis_weight(&self) -> (f64, Option<f64>) {
         let map = self.within();
-        let seen = nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch));
-        let side = seen.map_or(1, |seen| (self.patches[seen].map.patch / map.cell).round() as usize);
+        let side = self.seen().map_or(1, |seen| (seen.map.patch / map.cell).round() as usize);
         let weight = map.basis_weight();
         (weight, error_of_mean(&map, side).map(|error| error * weight))
     }
@@ -75,18 +79,16 @@ pub struct PatchFindings {
     pub single_fibres: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// Whether the filaments were flown in one air: in airs of their own they would give
-    /// [`PatchFindings::independent`].
-    pub in_one_air: bool,
+    /// From what it is known. In airs of their own, filaments in one air would give [`PatchFindings::independent`].
+    pub evidence: Evidence,
     /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
     /// the sheet that they laid.
     pub few: Option<FewFilamentsCv>,
     /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
     /// were flown.
     pub doubt: Option<FewDoubt>,
-    /// CV of the map itself, in which filaments between the flown ones are filled in; None if all were flown
-    /// or nothing.
-    pub filled: Option<f64>,
+    /// CV of the map itself, in which filaments between few flown ones are filled in.
+    pub of_map: f64,
 }
 
 impl PatchFindings {
@@ -105,18 +107,26 @@ impl PatchFindings {
     /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
     /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
     pub fn independent(&self) -> Option<f64> {
-        self.single_fibres.filter(|_| self.in_one_air).map(|(cv, _)| cv)
+        self.single_fibres.filter(|_| self.evidence != Evidence::Known).map(|(cv, _)| cv)
+    }
+
+    /// The error of the CV of the map, by its causes.
+    pub fn whole_error(&self) -> WholeError {
+        let flight = match self.evidence {
+            Evidence::Known => None,
+            Evidence::AllInOneAir => Some(0.0),
+            Evidence::FewInOneAir => self.few.filter(|_| self.doubt.is_none()).map(|few| few.by_pitch),
+        };
+        WholeError { chance: self.map.standard_error, flight }
     }
 
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
     /// a few filaments do not tell it. Which filaments were flown for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
-        if !self.in_one_air {
+        if self.evidence == Evidence::Known {
             return self.map.interval();
         }
-        let by_pitch = self.few.map_or(0.0, |few| few.by_pitch);
-        let standard_error = self.map.standard_error.map(|error| error.hypot(by_pitch));
-        Unevenness { standard_error, ..self.map }.interval_of_few()
+        Unevenness { standard_error: self.whole_error().whole(), ..self.map }.interval_of_few()
     }
 }
 
@@ -152,7 +162,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
         return Err(Fault::new(message, "write web.edges = \"periodic\", or a larger web.width").into());
     }
     let laid = laid.map_or_else(|| lay(web, by), Ok)?;
-    let is_shared = !laid.flown.is_empty();
+    let evidence = laid.evidence();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
     let by = LayControl { laid: &aside, ..by };
@@ -163,7 +173,8 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
         None => None,
     };
     // The air displaces neighbours together, so their streaks are chance.
-    let places = if is_shared { Places::Unknown } else { web.places(columns.len() as f64 * sheet.cell) };
+    let width = columns.len() as f64 * sheet.cell;
+    let places = if evidence == Evidence::Known { web.places(width) } else { Places::Unknown };
     let mut patches = Vec::new();
     let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
@@ -172,22 +183,15 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
         let straight_fibres =
             alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
         let few = of_all_layers(web, &laid, map);
-        let of_map = map.cv;
-        // A map of pieces of another sheet says nothing of chance.
-        let is_of_few = laid.few().next().is_some();
-        let unknown = if is_of_few { Unevenness { standard_error: None, ..map } } else { map };
         let doubt = laid.few().find_map(|few| few.doubt_over(map.patch));
-        let told = few.filter(|_| doubt.is_none());
-        let map = told.map_or(unknown, |few| Unevenness { cv: few.cv, standard_error: few.by_chance, ..map });
-        patches.push(PatchFindings {
-            few,
-            doubt,
-            filled: few.map(|_| of_map),
-            map,
-            single_fibres,
-            straight_fibres,
-            in_one_air: is_shared,
-        });
+        let (of_map, is_told) = (map.cv, doubt.is_none());
+        let map = match (evidence, few) {
+            (_, Some(few)) if is_told => Unevenness { cv: few.cv, standard_error: few.by_chance, ..map },
+            // A map of pieces of another sheet says nothing of chance.
+            (Evidence::FewInOneAir, _) => Unevenness { standard_error: None, ..map },
+            _ => map,
+        };
+        patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     let clouds = Clouds::at(&map, &places, by.threads);
@@ -267,16 +271,6 @@ impl WholeError {
     }
 }
 
-impl PatchFindings {
-    /// The error of the CV of the map, by its causes.
-    pub fn whole_error(&self) -> WholeError {
-        // Unless a few stand for all, every filament of the sheet has been flown.
-        let flight = self.few.map_or(0.0, |few| few.by_pitch);
-        let is_known = self.in_one_air && self.doubt.is_none();
-        WholeError { chance: self.map.standard_error, flight: is_known.then_some(flight) }
-    }
-}
-
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
 const MISSING: f64 = 0.1;
 /// A map whose CV is farther from the told one, as a share of it, is another one.
@@ -286,10 +280,10 @@ impl Findings {
     /// What must be known of these numbers before they are believed.
     pub(crate) fn doubts(&self, web: &Web) -> Vec<Doubt> {
         let laid = &self.laid;
-        let mut doubts = match laid.flown.is_empty() {
-            false => [lost(web, laid), few_filaments(self), charged(laid)].concat(),
-            true if self.patches.is_empty() => Vec::new(),
-            true => vec![Doubt::NothingFlown],
+        let mut doubts = match laid.evidence() {
+            Evidence::Known if self.patches.is_empty() => Vec::new(),
+            Evidence::Known => vec![Doubt::NothingFlown],
+            _ => [lost(web, laid), few_filaments(self), charged(laid)].concat(),
         };
         if laid.cut > 0.0 {
             let whole = laid.map.total() as f64 * laid.map.quantum + laid.cut;
@@ -338,10 +332,7 @@ fn few_filaments(findings: &Findings) -> Vec<Doubt> {
     });
     let mut doubts: Vec<Doubt> = too_few.collect();
     let missing = few().flat_map(|few| few.missing).fold(0.0, f64::max);
-    let apart = |patch: &PatchFindings| {
-        let told = patch.few.and_then(|_| patch.told())?;
-        Some((told.patch, patch.filled? / told.cv - 1.0))
-    };
+    let apart = |patch: &PatchFindings| Some((patch.map.patch, patch.of_map / patch.told()?.cv - 1.0));
     let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
     let off: Vec<(f64, f64)> = apart.into_iter().filter(|(_, apart)| apart.abs() > OF_MAP).collect();
     if missing > MISSING || !off.is_empty() {

@@ -47,6 +47,17 @@ pub struct LaidWeb {
     pub flown: Vec<LayerFlown>,
 }
 
+/// From what the CV of a web is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// From known numbers of filaments that are independent of each other.
+    Known,
+    /// From all filaments of the sheet, which were flown in one air.
+    AllInOneAir,
+    /// From a few filaments that were flown in one air, for all.
+    FewInOneAir,
+}
+
 /// What is known of the filaments of a layer that were flown together, in one air.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerFlown {
@@ -65,6 +76,15 @@ pub struct LayerFlown {
 }
 
 impl LaidWeb {
+    /// From what its CV is known.
+    pub fn evidence(&self) -> Evidence {
+        match (self.flown.is_empty(), self.few().next()) {
+            (true, _) => Evidence::Known,
+            (false, None) => Evidence::AllInOneAir,
+            (false, Some(_)) => Evidence::FewInOneAir,
+        }
+    }
+
     /// What the few filaments say of each layer of which only a few were flown.
     pub fn few(&self) -> impl Iterator<Item = &LayerFew> {
         self.flown.iter().filter_map(|layer| layer.few.as_ref())

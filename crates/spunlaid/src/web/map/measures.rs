@@ -1,7 +1,7 @@
 //! What is measured of a web. `summary.json`, the tables of the terminal and of the report, Python and the
 //! studies follow from it.
 
-use super::{Findings, PatchFindings};
+use super::{Evidence, Findings, PatchFindings};
 use crate::ground::measure::figure;
 use crate::ground::{ErrorRole, Formula, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
 use ErrorRole::{Further, OfOne};
@@ -35,7 +35,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
             share("cv_whole_error", "", |patch| patch.whole_error().whole())
                 .meaning("error of the CV by all causes together"),
         ]),
-    share("cv_of_map", "", |patch| patch.filled)
+    share("cv_of_map", "", |patch| patch.few.map(|_| patch.of_map))
         .meaning("CV of the map itself, in which filaments are filled in"),
     OfPatch::new(
         "own_share",
@@ -55,13 +55,13 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
             "CV in airs of their own",
         ))
         .short("airs of their own")
-        .shown_if(|patch| patch.in_one_air),
+        .shown_if(|patch| patch.evidence != Evidence::Known),
     share("cv_one_fibre", "CV expected from single fibres", |patch| Some(of_known(patch)?.0))
         .meaning("CV that is expected of independent filaments of known numbers")
         .kept("cv_#_mm_one_fibre", "cv_#_mm_one_fibre")
         .figure(&figure("cv_one_fibre", "CV expected from single fibres", "expected CV"))
         .short("single fibres")
-        .shown_if(|patch| !patch.in_one_air)
+        .shown_if(|patch| patch.evidence == Evidence::Known)
         .errors(&[share("cv_one_fibre_standard_error", "", |patch| Some(of_known(patch)?.1))
             .meaning("its standard error")
             .role(OfOne)]),
@@ -144,5 +144,5 @@ const fn share(
 
 /// What is expected of filaments of known numbers, with its error.
 fn of_known(patch: &PatchFindings) -> Option<(f64, f64)> {
-    patch.single_fibres.filter(|_| !patch.in_one_air)
+    patch.single_fibres.filter(|_| patch.evidence == Evidence::Known)
 }

@@ -4,7 +4,7 @@ use super::{MM, PER_CENT, Weights};
 use crate::figures::joined;
 use crate::numbers::significant;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Findings, PatchFindings, straight_fibres};
+use spunlaid::web::map::{Evidence, Findings, PatchFindings, straight_fibres};
 use spunlaid::web::{Edges, Map, Web, scan};
 use spunlaid_charts::palette::{BLUE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
@@ -48,7 +48,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let single: Vec<(f64, f64)> = single.collect();
     let straight = patches().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT));
     let mut chart = empty_chart().line(Series::reference("straight fibres at random"), straight);
-    let is_shared = !findings.laid.flown.is_empty();
+    let is_shared = findings.laid.evidence() != Evidence::Known;
     let of_single =
         if is_shared { "the same filaments in airs of their own" } else { "expected, from single fibres" };
     if !single.is_empty() {
@@ -84,7 +84,6 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
 /// What is told below the figure of a web in one air.
 ///
 /// * `of_few` – whether a few filaments were flown for all
-/// * `by_pairs` – whether the CV that pairs tell is drawn
 fn shared_air(places: &str, of_few: bool) -> String {
     let bars = match of_few {
         true => "by chance, from the waves of the map of the flown filaments, and because few were flown",

@@ -2,7 +2,6 @@
 //! screen, and a table of all changes that were tried.
 
 use super::cards::Card;
-use super::unevenness::headline_patch;
 use crate::command::web_command;
 use crate::effects::{PER_CENT, describe, difference_text, label};
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
@@ -12,7 +11,7 @@ use crate::products::web::files::effects::HOUR;
 use spunlaid::experiment::{Advice, ChangedWeb, Tried, setting};
 use spunlaid::ground::{Difference, Effect, NAMED};
 use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::Findings;
+use spunlaid::web::map::{Evidence, Findings};
 
 /// What was tried with a web.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +28,7 @@ pub struct Advised<'a> {
 
 /// Side of the patches by which changes are judged [m].
 fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
-    let seen = || headline_patch(findings).map(|i| findings.patches[i].map.patch);
-    advice.judged_by.or_else(seen)
+    advice.judged_by.or_else(|| findings.seen().map(|patch| patch.map.patch))
 }
 
 /// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput.
@@ -65,7 +63,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         with_command(row(found, format!("; over patches of {}{here}", millimetres(found.1.of))), found)
     });
     let weight = grams(findings.within().basis_weight());
-    let what = if !findings.laid.flown.is_empty() { "CV" } else { "expected CV" };
+    let what = if findings.laid.evidence() == Evidence::Known { "expected CV" } else { "CV" };
     let about = format!(
         "the {what} over patches of {}, of {} changes that were tried at the same {weight}",
         millimetres(patch),
@@ -205,7 +203,7 @@ pub(super) fn effects_table(
     let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
     let mut error = if advice.tried.iter().any(in_same_air) {
         "from blocks of both webs which the same air has laid, so that what both have by chance does not count"
-    } else if !findings.laid.flown.is_empty() {
+    } else if findings.laid.evidence() != Evidence::Known {
         "which counts both maps as independent"
     } else {
         "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is \

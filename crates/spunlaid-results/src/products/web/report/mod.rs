@@ -27,10 +27,10 @@ use spinlines::{LayerSpinline, sections_of_web};
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::{Findings, PatchFindings};
+use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
 use spunlaid_charts::Figure;
-use unevenness::{CV_OF_PATCHES, headline, headline_patch, largest_clouds, patch_table, per_cent};
+use unevenness::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
 
 /// A web.
 ///
@@ -69,7 +69,7 @@ pub fn web_report<'a>(
         rows: Vec::new(),
         words: [error_sentences(findings), air_sentence(findings)].into(),
     };
-    let judged = headline_patch(findings).map(|i| Judged::from(&findings.patches[i]));
+    let judged = findings.seen().map(Judged::from);
     let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
     let mut sentences = verdict(findings);
     Ok(Report::new("web", headline_of(findings))
@@ -189,12 +189,12 @@ const AS_HEAVY: f64 = 0.005;
 /// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
 fn headline_of(findings: &Findings) -> String {
     let weight = findings.basis_weight();
-    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
+    let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
         return headline(
             Some(weight),
             patch.and_then(PatchFindings::told_with_whole_error).as_ref(),
-            findings.laid.flown.is_empty(),
+            findings.laid.evidence() == Evidence::Known,
         );
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
@@ -212,23 +212,23 @@ fn headline_of(findings: &Findings) -> String {
 /// What the filaments of a web without independent filaments have in common, and what those with airs of
 /// their own leave out, in a sentence or two.
 fn air_sentence(findings: &Findings) -> String {
-    let patch = headline_patch(findings).map(|i| &findings.patches[i]);
-    match (findings.laid.flown.is_empty(), patch.and_then(|patch| Some((patch, patch.independent()?)))) {
-        (false, Some((patch, independent))) if patch.doubt.is_some() => format!(
+    let independent = findings.seen().and_then(|patch| Some((patch, patch.independent()?)));
+    match (findings.laid.evidence(), independent) {
+        (Evidence::Known, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
+            and come down together, and σ and A of one filament do not say how. Name a case whose filament \
+            lies as this one (laydown.case) in place of the numbers to fly them in one air."
+            .to_owned(),
+        (_, Some((patch, independent))) if patch.doubt.is_some() => format!(
             "In airs of their own the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
         ),
-        (false, Some((patch, independent))) => format!(
+        (_, Some((patch, independent))) => format!(
             "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
             the same gusts, which carry them aside together and lay them in ropes and clouds.",
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
-        (false, None) => "All filaments were flown in one air.".to_owned(),
-        (true, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
-            and come down together, and σ and A of one filament do not say how. Name a case whose filament \
-            lies as this one (laydown.case) in place of the numbers to fly them in one air."
-            .to_owned(),
+        (_, None) => "All filaments were flown in one air.".to_owned(),
     }
 }
 
@@ -254,37 +254,43 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
 
 /// What the error in the headline is made of, in sentences.
 fn error_sentences(findings: &Findings) -> String {
-    let Some(patch) = headline_patch(findings).map(|i| &findings.patches[i]) else { return String::new() };
-    if patch.in_one_air && patch.few.is_none() {
-        return "The error is by chance: every filament of the sheet was flown, and another piece of the same web, in \
-            other gusts, has another CV."
-            .to_owned();
-    }
+    let Some(patch) = findings.seen() else { return String::new() };
     let error = patch.whole_error();
     let part = |part: Option<f64>| match part {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
         None => "an unknown part".to_owned(),
     };
-    if patch.few.is_some() {
-        let filaments: u64 = findings.laid.few().map(|few| few.filaments).sum();
-        let sheets = findings.laid.few().map(|few| few.sheet.map(metres).join(" × "));
-        let mut sheets: Vec<String> = sheets.collect();
-        sheets.dedup();
-        let flown = format!(
-            "Of all filaments, {filaments} were flown, evenly across, on a sheet of {}",
-            sheets.join(" and of ")
-        );
-        if patch.doubt.is_some() {
-            return format!("{flown}; they are too few for the CV of all, and the map is no better.");
+    match (patch.evidence, patch.doubt) {
+        (Evidence::Known, _) => {
+            "The error is by chance only; that of the surrogate is not known, because no fibre \
+            was flown."
+                .to_owned()
         }
-        return format!(
-            "{flown}; the others follow from them. Chance contributes {} to the error, because the clouds \
+        (Evidence::AllInOneAir, _) => {
+            "The error is by chance: every filament of the sheet was flown, and another \
+            piece of the same web, in other gusts, has another CV."
+                .to_owned()
+        }
+        (Evidence::FewInOneAir, Some(_)) => {
+            format!("{}; they are too few for the CV of all, and the map is no better.", flown(findings))
+        }
+        (Evidence::FewInOneAir, None) => format!(
+            "{}; the others follow from them. Chance contributes {} to the error, because the clouds \
             on that sheet are few, and the small number of flown filaments {}.",
+            flown(findings),
             part(error.chance),
             part(error.flight)
-        );
+        ),
     }
-    "The error is by chance only; that of the surrogate is not known, because no fibre was flown.".to_owned()
+}
+
+/// How many filaments were flown for all, and where.
+fn flown(findings: &Findings) -> String {
+    let filaments: u64 = findings.laid.few().map(|few| few.filaments).sum();
+    let mut sheets: Vec<String> = findings.laid.few().map(|few| few.sheet.map(metres).join(" × ")).collect();
+    sheets.dedup();
+    let sheets = sheets.join(" and of ");
+    format!("Of all filaments, {filaments} were flown, evenly across, on a sheet of {sheets}")
 }
 
 fn layer(layer: &Layer) -> Row {
@@ -306,12 +312,11 @@ fn layer(layer: &Layer) -> Row {
 /// What makes the web uneven, in sentences.
 fn verdict(findings: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
-    let Some(i) = headline_patch(findings) else { return sentences };
-    let patch = &findings.patches[i];
+    let Some(patch) = findings.seen() else { return sentences };
     if patch.doubt.is_some() {
         return Vec::new();
     }
-    let is_shared = patch.in_one_air;
+    let is_shared = patch.evidence != Evidence::Known;
     let cv = patch.single_fibres.filter(|_| !is_shared).map_or(patch.map.cv, |(cv, _)| cv);
     let ratio = cv / patch.straight_fibres;
     let why = if is_shared {

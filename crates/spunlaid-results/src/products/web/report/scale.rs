@@ -56,7 +56,7 @@ impl From<&PatchFindings> for Judged {
     fn from(patch: &PatchFindings) -> Self {
         Self {
             patch: patch.map.patch,
-            of_map: patch.filled.unwrap_or(patch.map.cv),
+            of_map: patch.of_map,
             told: patch.told_with_whole_error().map(|told| (told.cv, told.standard_error)),
             interval: patch.interval(),
             chance: Some(patch.straight_fibres),

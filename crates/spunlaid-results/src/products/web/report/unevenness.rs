@@ -6,7 +6,7 @@ use crate::page::table::{Row, Table};
 use crate::page::words::{grams_with_error, millimetres};
 use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::map::{Findings, PatchFindings, nearest_to_seen};
+use spunlaid::web::map::{Findings, PatchFindings};
 use spunlaid::web::{Clouds, OF_PATCHES};
 
 pub(super) const PER_CENT: f64 = 100.0;
@@ -15,11 +15,6 @@ pub(super) const PER_CENT: f64 = 100.0;
 pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
     one standard error, in percentage points as the CV is; the interval holds the CV of all such webs in 95 % of \
     the cases.";
-
-/// The patch nearest to what the eye judges first.
-pub(super) fn headline_patch(findings: &Findings) -> Option<usize> {
-    nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch))
-}
 
 /// * `weight` – mean basis weight and its standard error, if they are known [kg/m²]
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
@@ -107,13 +102,12 @@ fn cell(number: Option<String>, unit: Unit) -> String {
 /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
 /// error by chance, and interval.
 fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
-    let (told, error) = (patch.told(), patch.whole_error());
-    let whole = error.whole().or(error.chance);
+    let told = patch.told_with_whole_error();
     let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
     [
         format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),
-        cell(told.map(|told| plus_minus(100.0 * told.cv, whole.map(|error| 100.0 * error))), PERCENT),
-        cell(error.chance.map(|error| significant(100.0 * error, 2)), PERCENT),
+        told.map_or("–".to_owned(), |told| per_cent(told.cv, told.standard_error)),
+        cell(patch.map.standard_error.map(|error| significant(100.0 * error, 2)), PERCENT),
         cell(patch.interval().map(ends), PERCENT),
     ]
 }
