@@ -44,7 +44,6 @@
 mod chart;
 mod decimate;
 mod draw;
-mod drawing;
 mod figure;
 mod glyphs;
 pub mod label;
@@ -65,8 +64,8 @@ mod table;
 
 pub use chart::{Chart, Mark, Series};
 pub use decimate::even;
-pub use drawing::Drawing;
-pub use figure::Figure;
+
+pub use figure::{Drawing, Figure};
 pub use map::{Map, Shades};
 pub use numbers::{shortest, signed, significant};
 pub use palette::Marker;

@@ -1,7 +1,6 @@
 //! A rose: how often each direction occurs, as wedges around a centre.
 
-use crate::drawing::Drawing;
-use crate::figure::Figure;
+use crate::figure::{Drawing, Figure};
 use crate::label::width as width_of;
 use crate::numbers::shortest;
 use crate::palette::{BLUE, GREY, GRID, INK, PAPER};

@@ -16,7 +16,7 @@ use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 /// Under which rows are found again.
-pub type Key = [u64; 2];
+pub(crate) type Key = [u64; 2];
 
 /// Bytes of a number, and of all else.
 const BYTES: usize = size_of::<u64>();

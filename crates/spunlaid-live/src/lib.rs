@@ -38,7 +38,7 @@ use message::Complaint;
 use server::Server;
 use session::Session;
 use spunlaid::fibre::case::keys;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::{Dimension, Error, Fault, Problem};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};

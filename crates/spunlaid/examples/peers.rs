@@ -20,7 +20,7 @@ use common::*;
 use flights::{Difference, compare, trajectories_of};
 use measure::{Trial, in_rounds, processor_time};
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Fibre, Flight, Root, Strand};
 use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::simulation::Trajectory;

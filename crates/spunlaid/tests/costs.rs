@@ -12,7 +12,7 @@ mod vtk;
 
 use common::*;
 use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Strand};
 use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::read_case;

@@ -26,7 +26,7 @@ use output::FigureWidth;
 use source::key_and_value;
 use spunlaid::air::PlaceAxes;
 use spunlaid::fibre::Checks;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::{Dimension, Fault, Removed};
 use std::ffi::OsString;
 use std::path::PathBuf;

@@ -40,7 +40,7 @@ impl FileKind {
     }
 
     /// There is no such file.
-    pub fn not_there(self) -> Fault {
+    pub(crate) fn not_there(self) -> Fault {
         let (remedy, option) = match self {
             Self::Case => ("name a case file".to_owned(), "`spunlaid new` writes one"),
             Self::Study => ("name a study file".to_owned(), "`spunlaid help sweep` shows one"),
@@ -60,7 +60,7 @@ impl FileKind {
     }
 
     /// The file is larger than `most` bytes.
-    pub fn too_large(self, most: u64) -> Fault {
+    pub(crate) fn too_large(self, most: u64) -> Fault {
         let (most, name) = (memory(most as f64), self.name());
         Fault::new(format!("is larger than {most}, the limit for a {name}"), "is it the right file?")
     }
@@ -73,7 +73,7 @@ impl FileKind {
 
 impl Fault {
     /// The operating system cannot read the file.
-    pub fn unreadable(source: &std::io::Error) -> Self {
+    pub(crate) fn unreadable(source: &std::io::Error) -> Self {
         Self::plain(format!("cannot be read: {source}"))
     }
 

@@ -11,13 +11,11 @@ mod abreast;
 mod functions;
 mod isa;
 mod simd;
-mod task;
 mod wide;
 
 pub use functions::{bend_ratio, cos_sin_turn, exp2, indices, integers, log2, power, singles};
-pub use isa::Isa;
+pub use isa::{Isa, Task};
 pub use simd::{Plain, Register, Simd, Singles, Sixteen};
-pub use task::Task;
 pub use wide::Wide;
 
 use std::array::from_fn;

@@ -4,16 +4,14 @@
 //! a list of measures + what was found → rows of values with their errors → JSON, tables, studies, Python
 //! ```
 
-mod known;
-mod unit;
+mod number;
 
 use crate::Interval;
-pub use known::Known;
-use std::fmt;
-pub use unit::{
-    HERTZ, KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, OF_PERCENT, PER_METRE, PER_SQUARE_METRE,
-    PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit,
+pub use number::{
+    HERTZ, KELVIN, Known, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, OF_PERCENT, PER_METRE,
+    PER_SQUARE_METRE, PERCENT, RATIO, SQUARE_MILLIMETRES_PER_HERTZ, Unit,
 };
+use std::fmt;
 
 /// Something measured of a `T`: of a web, of its patches of one size, of a scan, of a velocity record or a
 /// component of it, of a spinline; of the fibres of a flight, which observers look at.

@@ -3,8 +3,7 @@
 mod difference;
 mod spectrum;
 
-pub use difference::student_t_95_at;
-pub use difference::{Difference, difference_of_deviations, difference_of_logarithms};
+pub use difference::{Difference, difference_of_deviations, difference_of_logarithms, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.
@@ -210,7 +209,7 @@ impl<T> Default for EvenSample<T> {
 impl<T> EvenSample<T> {
     /// Most values that are kept. A series that is not longer is kept whole; of a longer one, half as many at
     /// least are kept.
-    pub const MOST: usize = 1 << 14;
+    pub(crate) const MOST: usize = 1 << 14;
 
     /// Takes the next value of the series.
     pub fn push(&mut self, value: T) {

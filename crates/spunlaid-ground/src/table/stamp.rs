@@ -24,7 +24,7 @@ const HOUR: f64 = 3600.0;
 impl Stamp {
     /// Reads a stamp as in [`FORMS`], also with `T` before the time and a zone behind it; none if the text is something
     /// else. A sign of the decimals may be a point, a comma or a third colon.
-    pub fn parse(text: &str) -> Option<Self> {
+    pub(crate) fn parse(text: &str) -> Option<Self> {
         let (text, half) = half_of_day(text.trim());
         let (days, clock) = match text.split_once(['T', ' ']) {
             Some((date, clock)) => (Some(days_of(date)?), clock.trim_start()),

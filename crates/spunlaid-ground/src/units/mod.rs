@@ -1,17 +1,12 @@
 //! Quantities with units. They are converted to SI units when they are read, and from SI units when they are shown.
 
 mod expression;
-mod si;
 mod spelling;
 mod table;
 
 pub use crate::error::{excerpt, shortest};
-pub use expression::Expression;
-pub use expression::{Powers, unknown_name};
-pub use si::si_unit_of;
-pub use si::udunits;
-pub use spelling::with_decimal_point;
-pub use spelling::{plain_spelling, readings};
+pub use expression::{Expression, Powers, unknown_name};
+pub use spelling::{plain_spelling, readings, si_unit_of, udunits, with_decimal_point};
 pub use table::Dimension;
 
 use crate::error::Fault;

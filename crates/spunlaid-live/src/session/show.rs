@@ -5,7 +5,7 @@ use crate::board::Topic;
 use crate::frame::Frame;
 use crate::settings::{present, settings};
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Root};
 use spunlaid::ground::{Dimension, WIDTH};
 use spunlaid_results::products::spinline::files::filament;

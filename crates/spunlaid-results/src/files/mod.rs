@@ -6,7 +6,6 @@ pub mod leftovers;
 pub mod measured;
 pub mod origin;
 pub mod paraview;
-pub mod performance;
 pub mod pictures;
 pub mod table;
 

@@ -1,6 +1,6 @@
 //! Sentences, and numbers with their units.
 
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
 use spunlaid::ground::{Dimension, Estimate};
 

@@ -9,7 +9,7 @@ use super::spinline::report::spinline_text;
 use super::web::WebFolder;
 use super::web::files::summary::summary_of_scan;
 use crate::files::folder::Staging;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::folders::{Contents, Making};
 use crate::products::spinline::SpinFolder;
 use serde_json::Value as Json;

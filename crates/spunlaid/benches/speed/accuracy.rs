@@ -4,7 +4,7 @@ use crate::common::table1;
 use crate::flights::{compare, trajectories_of};
 use crate::title;
 use spunlaid::fibre::Case;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::WIDTH;
 use spunlaid::simulation::Trajectory;
 

@@ -6,7 +6,7 @@ use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use cpu_time::ProcessTime;
 use spunlaid::fibre::Case;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::{Error, Isa, WIDTH};
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum};
 use spunlaid::simulation::{Keep, Results, RunControl};

@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Strand};
 use spunlaid::ground::{Isa, WIDTH};
 

@@ -5,7 +5,7 @@ use crate::kernel::Setup;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use spunlaid::air::{Air, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::{Isa, WIDTH};
 use std::hint::black_box;
 

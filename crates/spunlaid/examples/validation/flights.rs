@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, FrictionLaw, Snapshot, Strand};
 use spunlaid::ground::{Error, Estimate, Isa, WIDTH};
 use spunlaid::simulation::ensemble::fly;

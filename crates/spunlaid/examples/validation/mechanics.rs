@@ -5,7 +5,7 @@ use crate::common::modes::{frequency_of, vibrations};
 use crate::common::reference::{ReferenceDrag, forces as scalar_forces};
 use crate::common::*;
 use crate::title;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Root, Strand};
 use spunlaid::ground::{Isa, Vec3};
 use std::f64::consts::PI;

@@ -1,9 +1,9 @@
 //! Energy of the chain, and the two checks of the work done on it.
 
+use crate::fibre::chain::Scheme;
 use crate::fibre::chain::constants::Constants;
 use crate::fibre::chain::forces::Element;
 use crate::fibre::chain::laying::CarriedEnergy;
-use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
 use crate::ground::lanes::bend_ratio;
 use crate::ground::{Isa, Lanes, Register, Task, Vec3, Wide};

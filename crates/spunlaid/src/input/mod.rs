@@ -9,7 +9,6 @@ mod document;
 mod entry;
 mod file;
 mod influence;
-mod kind;
 mod open;
 mod overrides;
 pub mod paper;
@@ -27,9 +26,8 @@ mod written_values;
 pub use crate::simulation::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use data::read_points;
 pub use influence::{Influence, OfFilament};
-pub use kind::kind_of;
 pub use settle::Resources;
-pub use source::Source;
+pub use source::{Source, kind_of};
 pub use spinline::{SpinFile, read_spinline, write_spinline};
 pub use study::{
     Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_study, read_changes, read_fit,

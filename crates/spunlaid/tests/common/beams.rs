@@ -1,7 +1,7 @@
 //! Cantilevers at rest, under a load at the tip and their weight.
 
 use super::*;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Root, Strand};
 use spunlaid::ground::{Isa, Lanes, Vec3, WIDTH};
 

@@ -2,7 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used)]
 
 use spunlaid::air::Air;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Contact, Fibre, Flight, Job, LaidPoint, Line, Root, Run};
 use spunlaid::ground::Isa;
 use spunlaid::input::read_case;

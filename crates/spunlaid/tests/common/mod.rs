@@ -8,7 +8,7 @@ pub mod modes;
 pub mod reference;
 
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{
     Case, Drag, ElementDrag, Fibre, Flight, FrictionLaw, Growth, NormalLaw, Root, Run, Share, Strand,
 };

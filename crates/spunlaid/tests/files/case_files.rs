@@ -4,7 +4,7 @@ use crate::cases;
 use crate::cases::{bits, changed, read_again};
 use spunlaid::air::record::{analyse, read_record};
 use spunlaid::air::{Air, Flow, Layout, Settings};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
 use spunlaid::input::{read_case, starter_case, write_case};
 use std::fs;

@@ -3,7 +3,7 @@
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
 use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{
     Case, Checks, Contact, Drag, FLIGHT_MEMORY_LIMIT, Fibre, FrictionLaw, Line, NormalLaw, Root, Run,
 };

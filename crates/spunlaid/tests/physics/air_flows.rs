@@ -5,7 +5,7 @@ use spunlaid::air::{
     Air, Atmosphere, Axis, Eddies, Field, FileContent, Flow, FlowNumbers, Hint, PlacedField, Profile,
     StreamKey, Surroundings, Values, Wind,
 };
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight};
 use spunlaid::ground::{Error, Isa, Vec3};
 use spunlaid::input::read_case;

@@ -2,7 +2,7 @@
 //! has them.
 
 use crate::common::*;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{BoundaryLayer, Drag, Fibre, Flight, FrictionLaw, NormalLaw, Root, Strand};
 use spunlaid::ground::Isa;
 use std::f64::consts::PI;

@@ -3,7 +3,7 @@
 use crate::common::reference::{ReferenceDrag, forces};
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Root, Strand};
 use spunlaid::ground::Isa;
 

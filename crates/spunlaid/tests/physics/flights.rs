@@ -1,7 +1,7 @@
 //! Flights that others step: owned, changed in flight, endless.
 
 use crate::common;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Job};
 use spunlaid::ground::{Error, Isa};
 

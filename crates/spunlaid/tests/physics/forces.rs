@@ -163,7 +163,7 @@ fn analytic_terminal_velocity_along_and_across() {
 #[test]
 fn analytic_terminal_velocity_is_reached_by_falling() {
     use spunlaid::fibre::Flight;
-    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::fibre::chain::Scheme;
     use spunlaid::ground::Isa;
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);

@@ -3,7 +3,7 @@
 use crate::common::laying::{GRAVITY, Thread, flight, laid_until, spunbond};
 use crate::common::{X, in_all_lanes, steady_air};
 use spunlaid::air::Air;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Fibre, Flight, Strand};
 use spunlaid::ground::{Isa, Lanes, Vec3};
 use spunlaid::simulation::RunControl;

@@ -2,7 +2,7 @@
 
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Run, Snapshot, Strand};
 use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::simulation::ensemble::fly_together;

@@ -3,7 +3,7 @@
 
 use crate::common::modes::{frequency_of, vibrations};
 use crate::common::*;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Root};
 use spunlaid::ground::{Isa, Vec3, WIDTH};
 use std::f64::consts::PI;

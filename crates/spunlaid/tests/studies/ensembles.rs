@@ -2,7 +2,7 @@
 
 use crate::common;
 use crate::common::*;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Job, LaidPoint};
 use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::read_case;

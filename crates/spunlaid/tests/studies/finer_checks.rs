@@ -3,7 +3,7 @@
 use crate::common;
 use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
 use spunlaid::ground::{Error, Estimate, Isa};
 use spunlaid::input::read_case;

@@ -1,7 +1,7 @@
 //! The studies of the paper, which are compiled in.
 
 use spunlaid::fibre::Root;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::input::paper::{Parameter, choices, table1, time_steps};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -210,7 +210,7 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
 mod tests {
     use super::super::sample;
     use super::*;
-    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::fibre::chain::Scheme;
     use spunlaid::simulation::Statistic;
 
     fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {

@@ -156,7 +156,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::fibre::chain::schemes::Scheme;
+    use spunlaid::fibre::chain::Scheme;
     use spunlaid::simulation::{Change, Statistic};
 
     fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {

@@ -1,7 +1,7 @@
 //! Made-up results for the tests.
 
 use spunlaid::air::Air;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Contact, Drag, Fibre, FrictionLaw, LaidPoint, Line, NormalLaw, Root, Run};
 use spunlaid::ground::{MeasureKind, Value, Vec3};
 use spunlaid::simulation::ensemble::Sample;

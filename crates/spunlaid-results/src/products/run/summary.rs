@@ -2,7 +2,7 @@
 
 use super::doubt;
 use crate::files::measured::{joined, known};
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::files::versioned_json;
 use crate::products::load;
 use crate::products::spinline::files as spinline;

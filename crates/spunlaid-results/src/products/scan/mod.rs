@@ -3,7 +3,7 @@
 pub(crate) mod report;
 
 use crate::Failure;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::folders::{Contents, Maker, Page};
 use crate::products::web::WebFolder;
 use crate::products::web::figures::scan_figures;

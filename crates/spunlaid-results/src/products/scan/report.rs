@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::files::measured::text as shown_number;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::document::{Part, Report, Section};
 use crate::page::methods::methods;

@@ -2,12 +2,7 @@
 
 pub(crate) mod figures;
 mod files;
-mod lost;
 mod report;
-
-pub use figures::quantity::Scale;
-pub use files::shown;
-pub use lost::lost;
 
 use crate::Failure;
 use crate::failure::other_study;
@@ -16,12 +11,16 @@ use crate::files::kept_input::copy;
 use crate::files::origin::Origin;
 use crate::files::table::TABLES;
 use crate::folders::{Contents, JournalFolder, Maker, Making, Page, Work, remove};
+use crate::numbers::lost_fibres_text;
 use figures::study_figures;
 use files::json::write_json;
 use report::study_report;
 use spunlaid::experiment::study::{judge, rankings};
-use spunlaid::experiment::{Claim, Experiment, Header, Journal, JournalState, PointResults, Rankings};
-use spunlaid::fibre::MOST_REPLICATES;
+use spunlaid::experiment::{
+    Claim, Experiment, Header, Journal, JournalState, PointResults, Rankings, ReplicateOutcome, Study,
+};
+use spunlaid::fibre::case::keys;
+use spunlaid::fibre::{MOST_REPLICATES, SpinSpec, spinline};
 use spunlaid::ground::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
 use std::io::Write;
@@ -29,11 +28,12 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::{fs, io};
 
+pub use figures::quantity::Scale;
+pub use files::shown;
+
 const STUDY: &str = "study.toml";
-/// Files that describe the study.
+/// Files that describe the study, which one that was killed before its journal existed may have left.
 const DESCRIPTION: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
-/// What a study may have left that was killed before its journal existed.
-const REMAINS: &[&str] = &[CASE_FILES, "case.toml", "web.toml", "spinline.toml", STUDY];
 /// Files that are made from the journal; the last one marks them as complete.
 const MADE: &[&str] = &[
     "results.csv",
@@ -68,7 +68,7 @@ pub fn open<'a>(
     let wanted = Header { version: env!("CARGO_PKG_VERSION").to_owned(), study: file.study.identity() };
     let size = (file.study.points.len(), MOST_REPLICATES);
     let entries = &[DESCRIPTION, MADE];
-    let work = Work { header: &wanted, entries, description: REMAINS, force, origin, size };
+    let work = Work { header: &wanted, entries, description: DESCRIPTION, force, origin, size };
     let begin = |place: &Path| begin(place, file, stop);
     let (at, journal, found) = JournalFolder::open(path, &work, stop, begin, |place| differs(place, file))?;
     if found.is_some() {
@@ -194,4 +194,54 @@ fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure
         let written = [from, from.strip_prefix(folder).unwrap_or(from)];
         written.into_iter().fold(text, |text, from| text.replace(&quoted(from), &quoted(to)))
     }))
+}
+
+/// Largest number of lost fibres that are listed.
+const LOST_LISTED: u64 = 10;
+
+/// A list of the lost fibres, if there are any.
+///
+/// * `fibres` – number of all
+///
+/// # Errors
+/// If the journal cannot be read.
+pub fn lost(study: &Study, journal: &mut Journal, fibres: u64) -> Result<Option<String>, Failure> {
+    let (mut lost, mut first) = (0, String::new());
+    for (index, point) in study.points.iter().enumerate() {
+        for record in journal.records(index, u64::MAX)? {
+            if let ReplicateOutcome::Lost { node, time } = record.outcome {
+                lost += 1;
+                if lost <= LOST_LISTED {
+                    let number = index + 1;
+                    if let Some(Err(failure)) = point.experiment.spinline().map(SpinSpec::solve) {
+                        first.push_str(&format!("\npoint {number}: {}", no_steady_state(&failure)));
+                        continue;
+                    }
+                    let cause = point.experiment.case().map(|case| case.likely_cause_of_divergence());
+                    let cause = cause.unwrap_or_default();
+                    let replicate = record.replicate + 1;
+                    first.push_str(&format!(
+                        "\npoint {number}, replicate {replicate}: node {node} at {time:e} s; {cause}"
+                    ));
+                }
+            }
+        }
+    }
+    if lost == 0 {
+        return Ok(None);
+    }
+    let what = match study.noun() {
+        "spinline" if lost == 1 => format!("1 of {fibres} spinlines has no steady state"),
+        "spinline" => format!("{lost} of {fibres} spinlines have no steady state"),
+        _ => lost_fibres_text(lost, fibres),
+    };
+    Ok(Some(format!("{what}; all others are in the results{first}")))
+}
+
+/// Why a spinline has no steady state: `spinline.length = 20 mm is too short…`.
+fn no_steady_state(failure: &spinline::Failure) -> String {
+    let dimension = keys::find(failure.key).and_then(|key| key.dimension());
+    let value =
+        failure.value.zip(dimension).map(|(value, dimension)| format!(" = {}", dimension.pretty(value)));
+    format!("{}{} {}", failure.key, value.unwrap_or_default(), failure.fault)
 }

@@ -2,8 +2,7 @@
 
 use super::flat::FlatPart;
 use super::{Autocorrelation, IntegralRule, Trend};
-use crate::ground::Interval;
-use crate::ground::{Fault, Spectrum, Window};
+use crate::ground::{Fault, Interval, Spectrum, Window};
 
 /// Fewest and most blocks of a record.
 pub(super) const BLOCKS: (usize, usize) = (8, 64);

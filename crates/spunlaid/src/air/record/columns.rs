@@ -52,7 +52,7 @@ pub(super) fn roles(
     layout: &Layout,
 ) -> Result<Roles, FileError> {
     if let Some(rate) = layout.rate.filter(|rate| !(rate.is_finite() && *rate > 0.0)) {
-        return Err(super::limits::rate_fault(rate).into());
+        return Err(super::rate_fault(rate).into());
     }
     let time = find_time(heads, named, first, layout)?;
     let mut chosen = if layout.columns.is_empty() {

@@ -6,8 +6,10 @@ use super::doubts::warnings;
 use super::flat::FlatPart;
 use super::interval::{error, jackknife};
 use super::jackknife::{Blocks, Estimates};
-use super::limits::{LEAST_SAMPLES, number, rate_fault, too_few_samples};
-use super::{Analysis, Autocorrelation, Component, IntegralRule, Moments, Record, Samples, Settings, Trend};
+use super::{
+    Analysis, Autocorrelation, Component, IntegralRule, LEAST_SAMPLES, Moments, Record, Samples, Settings,
+    Trend, number, rate_fault, too_few_samples,
+};
 use crate::ground::units::shortest;
 use crate::ground::{Dimension, Fault, FileError, Interval, Welch};
 use std::ops::Range;

@@ -2,8 +2,7 @@
 
 use super::analysis::BLOCKS;
 use super::artefacts::Artefacts;
-use super::limits::{hertz, number, time};
-use super::{Analysis, Component, Reading, Record, Trend};
+use super::{Analysis, Component, Reading, Record, Trend, hertz, number, time};
 use crate::ground::error::{by_count, counted, listed};
 use crate::ground::{Dimension, Fault, Interval, WAS};
 

@@ -47,13 +47,17 @@ mod flat;
 mod grid;
 mod interval;
 mod jackknife;
-mod limits;
 mod measures;
 mod parquet;
 mod rows;
 mod text;
 
-use crate::ground::{Fault, FileError, FileKind, file};
+use crate::ground::error::counted;
+use crate::ground::units::shortest;
+use crate::ground::{Dimension, Fault, FileError, FileKind, file};
+use std::io::Read;
+use std::path::Path;
+
 pub use analysis::{Analysis, Component, Settings, SpectrumSettings};
 pub use compute::analyse;
 pub(crate) use compute::analyse_fluctuation;
@@ -62,8 +66,6 @@ pub use flat::FlatPart;
 pub use interval::Trend;
 pub use jackknife::Moments;
 pub use measures::{OF_COMPONENTS, OF_RECORDS};
-use std::io::Read;
-use std::path::Path;
 pub use text::parse_csv;
 
 /// Largest number of samples in a record, over all components.
@@ -192,4 +194,32 @@ pub fn parse_record(mut source: impl Read, name: &str, layout: &Layout) -> Resul
 /// The errors of [`read_record`].
 pub fn parse_parquet(bytes: Vec<u8>, name: &str, layout: &Layout) -> Result<Record, FileError> {
     parquet::parse(bytes.into(), name, layout)
+}
+
+/// Least number of samples.
+pub(super) const LEAST_SAMPLES: usize = 64;
+
+/// The fault of a record that has too few samples.
+pub(super) fn too_few_samples(found: usize, least: usize) -> Fault {
+    Fault::new(
+        format!("has {}", counted(found as u64, "sample")),
+        format!("at least {least} are needed for statistics of turbulence"),
+    )
+}
+
+/// The fault of a sampling rate [Hz] that is not above zero.
+pub(super) fn rate_fault(rate: f64) -> Fault {
+    Fault::new(format!("the sampling rate cannot be {} Hz", shortest(rate)), "give a rate above zero")
+}
+
+pub(super) fn time(seconds: f64) -> String {
+    Dimension::Time.pretty_to(seconds, 3)
+}
+
+pub(super) fn hertz(frequency: f64) -> String {
+    Dimension::Frequency.pretty_to(frequency, 3)
+}
+
+pub(super) fn number(value: f64) -> String {
+    shortest(format!("{value:.2e}").parse().unwrap_or(value))
 }

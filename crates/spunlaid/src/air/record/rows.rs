@@ -125,8 +125,8 @@ impl Rows {
             return Err(Fault::no_rows().into());
         }
         let Some(interval) = interval else {
-            let least = super::limits::LEAST_SAMPLES;
-            return Err(super::limits::too_few_samples(end - first, least).into());
+            let least = super::LEAST_SAMPLES;
+            return Err(super::too_few_samples(end - first, least).into());
         };
         self.reading.skipped = skipped;
         self.reading.jitter = jitter;

@@ -6,14 +6,12 @@
 //!   → in one air the best ones flown once more in another air → Advice
 //! ```
 
-mod aim;
 mod kept;
 pub mod setting;
 mod web_of_few;
 
-pub use aim::judged_by;
 pub use kept::KEPT_OUTCOMES;
-pub use setting::ChangedWeb;
+pub use setting::{ChangedWeb, judged_by};
 
 use self::kept::{numbers_of, outcomes_of};
 use self::web_of_few::WebOfFew;

@@ -1,6 +1,7 @@
-//! Settings of the machine that change how even a web is, and webs in which one of them is changed.
+//! Settings of the machine that change how even a web is, webs in which one of them is changed, and what these are judged
+//! by: the CV over patches of some size, which is that of what a buyer sees.
 
-use crate::ground::Setting;
+use crate::ground::{Dimension, Error, Fault, Removed, Setting};
 use crate::simulation::WebSpec;
 
 const fn named(name: &'static str, words: &'static str) -> Setting {
@@ -47,4 +48,59 @@ pub struct ChangedWeb {
     pub belt_speed: [f64; 2],
     /// Mass that is laid per time and width before and after [kg/(m s)].
     pub mass_flow: [f64; 2],
+}
+
+/// Something that follows the CV over patches of its size.
+#[derive(Debug)]
+pub(crate) struct Aim {
+    /// As it is asked for.
+    pub name: &'static str,
+    /// Side of its patches [m].
+    side: fn(&WebSpec) -> f64,
+}
+
+/// All of them. How many thin places there are follows from the CV over patches of their size, and the weakest
+/// section of a strip from that over patches of the area of a section.                 theory.md (103), (104)
+pub(crate) const AIMS: [Aim; 2] = [
+    Aim { name: "thin-places", side: |_| 10e-3 },
+    Aim { name: "strips", side: |web| (web.fabric.strip.width * web.fabric.strip.section).sqrt() },
+];
+
+/// The side of the patches by whose CV a web is judged [m].
+///
+/// * `text` – a length, or the name of one of `AIMS`, for which the nearest of the patches of the web is taken
+///
+/// # Errors
+/// If it is neither, or if the web is not looked at over such patches.
+pub fn judged_by(spec: &WebSpec, text: &str) -> Result<f64, Error> {
+    let patches = &spec.sheet.patches;
+    if let Some(aim) = AIMS.iter().find(|aim| aim.name == text) {
+        let distance = |patch: &f64| (patch / (aim.side)(spec)).ln().abs();
+        let nearest = patches.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        return nearest.ok_or_else(|| {
+            Fault::new("the web is looked at over no patches", "name some in web.patches").into()
+        });
+    }
+    if let Some(fault) = Removed::Command.fault(&format!("web --for {text}")) {
+        return Err(Fault::new(format!("--for {text} {}", fault.message), fault.remedy).into());
+    }
+    let names = || AIMS.map(|aim| aim.name).join(", ");
+    let side = Dimension::Length.parse(text).ok().filter(|side| *side > 0.0).ok_or_else(|| {
+        let remedy = format!("write the side of patches, like 10mm, or one of {}", names());
+        Fault::new(format!("{text} is not what a web can be judged by"), remedy)
+    })?;
+    check_patch(spec, side)?;
+    Ok(side)
+}
+
+/// Checks that the CV of a web is known over patches of a side [m], so that changes can be judged by it.
+fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
+    if spec.sheet.patches.iter().any(|patch| super::is_same(*patch, side)) {
+        return Ok(());
+    }
+    let pretty = |patch: &f64| Dimension::Length.pretty_to(*patch, 3);
+    let known: Vec<String> = spec.sheet.patches.iter().map(pretty).collect();
+    let what =
+        format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
+    Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
 }

@@ -19,11 +19,10 @@ mod effects;
 mod experiment;
 mod journal;
 mod keys;
+mod made;
 mod measures;
 mod rounds;
 mod run;
-mod spinlines;
-mod webs;
 
 pub use batch::{Batch, Bundles, fly_batches};
 pub use claims::{Statement, StudyClaim, Way, judge};
@@ -33,10 +32,10 @@ pub use experiment::Experiment;
 pub use journal::{Header, Journal, JournalState, foreign, in_use, unsynced};
 pub use keys::STUDY;
 pub(crate) use keys::{MOST_POINTS, MOST_REPLICATES, RANGE};
+pub(crate) use made::seed_of_web;
 pub use measures::{Quantity, Record, ReplicateOutcome, measured};
 pub use rounds::{PointResults, Rounds, results_of_point};
 pub use run::{Progress, fly_bundle, run};
-pub(crate) use webs::seed_of_web;
 
 use crate::fibre::Case;
 use crate::fibre::case::keys::VariedKey;

@@ -2,9 +2,10 @@
 
 use super::batch::{Batch, LostReplicate, fly_and_land};
 use super::journal::{Journal, unsynced};
+use super::made::{lay_webs, solve_spinlines};
 use super::measures::{Record, ReplicateOutcome, measured};
 use super::rounds::Rounds;
-use super::{Point, Study, spinlines, webs};
+use super::{Point, Study};
 use crate::ground::Error;
 use crate::ground::threads::{lock, look_while, unlock};
 use crate::simulation::{Keep, RunControl, Trajectory};
@@ -85,8 +86,8 @@ fn make(
     steps: &AtomicU64,
     keep: &(impl Fn(Vec<Record>) -> Result<(), Error> + Sync),
 ) -> Result<(), Error> {
-    webs::lay((points, sides), batches, computing, steps, |record| keep(vec![record]))?;
-    spinlines::solve(points, batches, computing, |record| keep(vec![record]))?;
+    lay_webs((points, sides), batches, computing, steps, |record| keep(vec![record]))?;
+    solve_spinlines(points, batches, computing, |record| keep(vec![record]))?;
     let flies = |batch: &&Batch| points[batch.point].experiment.case().is_some();
     let flown: Vec<Batch> = batches.iter().filter(flies).cloned().collect();
     let land = |trajectories, lost| keep(records(trajectories, lost));

@@ -1,7 +1,7 @@
 //! A case that the tests of this module share.
 
 use crate::air::Air;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
 use crate::ground::Vec3;
 

@@ -7,7 +7,7 @@ use super::note::Note;
 use super::step::{FEEDING, StepLimit};
 use crate::air::{FileContent, Flow, Lateral, Measured};
 use crate::fibre::body::Root;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::line::Contact;
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Fault, Finding, Problem, error};

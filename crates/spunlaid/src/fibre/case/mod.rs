@@ -1,7 +1,6 @@
 //! A case: everything that a run needs, checked and in SI units.
 
 mod check;
-mod checks;
 mod files;
 pub mod keys;
 mod limits;
@@ -10,24 +9,22 @@ mod remarks;
 mod step;
 mod usual;
 
-pub(crate) use check::too_many_steps;
-pub use checks::Checks;
-pub use limits::{FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
-pub(crate) use limits::{MOST_SHAPES, whole_parts};
-pub use note::{Note, Remark};
-use step::FEEDING;
-pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
-pub(crate) use usual::unusual;
-
 use crate::air::motion::time_between_looks;
 use crate::air::{Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, StationGrid, StreamKey};
 use crate::fibre::body::Fibre;
-use crate::fibre::chain::Strand;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::{Scheme, Strand};
 use crate::fibre::drag::Drag;
 use crate::fibre::line::Line;
 use crate::fibre::spinline::{Solution, Spinline};
 use crate::ground::{Dimension, Error, Vec3, WIDTH};
+use step::FEEDING;
+
+pub(crate) use check::too_many_steps;
+pub use limits::{FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
+pub(crate) use limits::{MOST_SHAPES, whole_parts};
+pub use note::{Note, Remark};
+pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
+pub(crate) use usual::unusual;
 
 /// A fibre, the air it flies in and how the flight is computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -317,5 +314,19 @@ impl Case {
             Some(slip) => format!("{cause}; but first look at this: {slip}"),
             None => cause,
         }
+    }
+}
+
+named! {
+    /// What the checks of a run may cost.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+    pub enum Checks {
+        /// At most a fifth of the flight.
+        #[default]
+        Auto = "auto",
+        /// Nothing: the run is not checked.
+        None = "none",
+        /// As much as the whole run takes with a finer step and with finer elements.
+        Full = "full",
     }
 }

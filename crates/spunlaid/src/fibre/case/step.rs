@@ -1,7 +1,7 @@
 //! The longest stable time step, and the choice of one where the case does not give it.
 
 use super::{Case, whole_parts};
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::line::{Contact, Line};
 use std::f64::consts::PI;
 

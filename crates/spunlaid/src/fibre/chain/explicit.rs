@@ -9,8 +9,7 @@
 //! ```
 
 use super::constants::{Constants, ElementConstants};
-use super::force_pass::{ElementBlock, Integrator, force_pass};
-use super::forces::Element;
+use super::forces::{Element, ElementBlock, Integrator, force_pass};
 use super::laying::LayingState;
 use super::work::{Charged, Kick, Supports, WorkDone, WorkRegisters};
 use super::{Chain, Stride};

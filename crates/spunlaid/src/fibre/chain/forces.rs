@@ -1,7 +1,163 @@
-//! Forces inside the chain: tension of the elements, bending at the nodes.
+//! Forces on a chain: one pass along eight chains computes all of them on every node.
 
+use super::constants::{Constants, ElementConstants};
+use crate::air::{LastEddy, Velocities, VelocityAt, VelocityTask};
+use crate::fibre::drag::{DragLanes, Split};
 use crate::ground::lanes::bend_ratio;
 use crate::ground::{Register, Simd, Vec3, Wide};
+
+/// What a time-integration scheme gives to a force pass, and what it does with the forces.
+pub(crate) trait Integrator<S: Register> {
+    /// Position of node `i` [m].
+    fn position(&self, i: usize) -> Vec3<Wide<S>>;
+
+    /// Velocity of node `i` from which drag and damping are computed [m/s].
+    fn drag_velocity(&self, i: usize) -> Vec3<Wide<S>>;
+
+    /// Tension of element `j` [N], negative in compression.
+    fn tension(&mut self, j: usize, c: &ElementConstants, element: &Element<S>) -> Wide<S>;
+
+    /// Takes the power that the bending viscosity dissipates [W].
+    fn dissipated(&mut self, power: Wide<S>);
+
+    /// Takes the force on node `i` without gravity and damping, and the part of it that is drag [N].
+    /// The pass does not need the node any more.
+    fn node(&mut self, i: usize, force: Vec3<Wide<S>>, drag: Vec3<Wide<S>>);
+}
+
+/// Computes the forces on eight chains.
+///
+/// * `count` – number `N` of elements
+///
+/// The pass goes from the root to the free end in blocks of elements. For each block it computes first the
+/// geometry and the relative velocities, then the powers of the drag law, then all forces and their sums on
+/// the nodes. Three short loops are faster than one long loop, because the processor then works on several
+/// elements at once instead of waiting for one result after the other. A block fits in the first-level
+/// cache. The force on a node is complete when the element below it is done.
+#[inline(always)]
+pub(crate) fn force_pass<S: Register>(
+    integrator: &mut impl Integrator<S>,
+    c: &Constants,
+    air: &Velocities<'_, S>,
+    count: usize,
+    block: &mut ElementBlock<S>,
+) {
+    let mut above = Element {
+        tangent: Vec3::load(&c.root_direction),
+        inverse_length: Wide::zero(),
+        length: Wide::zero(),
+    };
+    let viscosity = c.viscosity.as_ref();
+    // The fibres of a flight have the kinds of the laws in common.
+    let own = &c.element;
+    let powers = own.half_drag.is_powers();
+    let mut spin_above = Vec3::zero();
+    let mut dissipated = Wide::zero();
+    // Sums so far on nodes j−1 and j: of all forces, and of the drag alone.
+    let (mut force, mut force_above) = (Vec3::zero(), Vec3::zero());
+    let (mut drag, mut drag_above) = (Vec3::zero(), Vec3::zero());
+    for start in (0..count).step_by(BLOCK) {
+        let elements = &mut block.0[..BLOCK.min(count - start)];
+        air.run(Kinematics {
+            integrator: &*integrator,
+            start,
+            block: elements,
+            viscous: viscosity.is_some(),
+        });
+        if powers {
+            // Without a closure, which would not be compiled for the instruction set.
+            for item in &mut *elements {
+                own.half_drag.raise(&mut item.split);
+            }
+        } else {
+            for (j, item) in (start..).zip(&mut *elements) {
+                own.half_drag.look_up(j, &mut item.split);
+            }
+        }
+        for (j, item) in (start..).zip(&*elements) {
+            let stiffness = Wide::load(c.bending_stiffness(j));
+            let tension = integrator.tension(j, own, &item.element);
+            let (mut a, mut pull) = internal(&above, &item.element, stiffness, tension);
+            if let Some(time) = viscosity {
+                let turning = item.spin - spin_above;
+                let moment = turning * (stiffness * Wide::load(time));
+                let pair = couple(&above, &item.element, moment);
+                (a, pull) = (a + pair.0, pull + pair.1);
+                dissipated = moment.dot_add(turning, dissipated);
+                spin_above = item.spin;
+            }
+            if j > 0 {
+                integrator.node(j - 1, force_above - a, drag_above);
+            }
+            let blow = own.half_drag.force(&item.split, item.element.tangent);
+            (force_above, force) = (force + (a + pull + blow), blow - pull);
+            (drag_above, drag) = (drag + blow, blow);
+            above = item.element;
+        }
+    }
+    integrator.node(count - 1, force_above, drag_above);
+    integrator.node(count, force, drag);
+    if viscosity.is_some() {
+        integrator.dissipated(dissipated);
+    }
+}
+
+/// Number of elements in a block.
+const BLOCK: usize = 8;
+
+/// An element during a force pass.
+#[derive(Clone, Copy)]
+struct BlockElement<S: Register> {
+    element: Element<S>,
+    /// Angular velocity `t × dt/dt` [1/s]; only with bending viscosity.
+    spin: Vec3<Wide<S>>,
+    /// Intermediate values for half the element's drag.
+    split: Split<S>,
+}
+
+/// Memory for the elements of a block.
+pub(crate) struct ElementBlock<S: Register>([BlockElement<S>; BLOCK]);
+
+impl<S: Register> ElementBlock<S> {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        let (vector, number) = (Vec3::zero(), Wide::zero());
+        let element = Element { tangent: vector, inverse_length: number, length: number };
+        let none = BlockElement { element, spin: vector, split: Split::none() };
+        Self([none; BLOCK])
+    }
+}
+
+/// Computes the geometry of the elements of a block, and their relative velocities.
+struct Kinematics<'a, S: Register, I> {
+    integrator: &'a I,
+    /// Number of the first element.
+    start: usize,
+    block: &'a mut [BlockElement<S>],
+    viscous: bool,
+}
+
+impl<S: Register, I: Integrator<S>> VelocityTask<S> for Kinematics<'_, S, I> {
+    #[inline(always)]
+    fn call(self, air: &impl VelocityAt<S>) {
+        let Self { integrator, start, block, viscous } = self;
+        let mut upper = (integrator.position(start), integrator.drag_velocity(start));
+        let mut last = LastEddy::none();
+        for (j, item) in (start + 1..).zip(block.iter_mut()) {
+            let lower = (integrator.position(j), integrator.drag_velocity(j));
+            item.element = Element::between(upper.0, lower.0);
+            if viscous {
+                item.spin =
+                    item.element.tangent.cross_wide((lower.1 - upper.1) * item.element.inverse_length);
+            }
+            // Element `j−1` is above node `j`.
+            let air = air.at(j - 1, &mut last);
+            let relative = (upper.1 + lower.1).neg_mul_add(Wide::splat(0.5), air);
+            item.split = DragLanes::split(relative, item.element.tangent);
+            upper = lower;
+        }
+    }
+}
 
 /// Geometry of an element.
 #[derive(Clone, Copy)]

@@ -2,16 +2,13 @@
 
 pub(crate) mod constants;
 pub(crate) mod explicit;
-pub(crate) mod force_pass;
 pub(crate) mod forces;
 pub(crate) mod implicit;
 pub(crate) mod laying;
-pub mod schemes;
 pub mod work;
 
 use self::constants::Constants;
 use self::laying::LayingState;
-use self::schemes::Scheme;
 use self::work::Charged;
 use crate::fibre::body::Fibre;
 use crate::fibre::drag::{Curve, ElementDrag};
@@ -172,5 +169,27 @@ impl Chain {
     /// Number of elements `N`.
     pub fn elements(&self) -> usize {
         self.position.len() - 1
+    }
+}
+
+named! {
+    /// How the equations of motion are advanced in time.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Scheme {
+        /// `v ← v + h a(r, v)`, then `r ← r + h v`. First order; the paper uses it. theory.md (27)
+        SemiImplicitEuler = "semi-implicit-euler",
+        /// Velocities at half steps, drag from the velocity extrapolated to the full step. Second order.
+        /// theory.md (28)
+        Leapfrog = "leapfrog",
+        /// Leapfrog with the tension that the elements will have at the end of the step. Axial waves do not limit
+        /// the step; the scheme damps them.                                  theory.md (51) to (54)
+        ImplicitTension = "implicit-tension",
+    }
+}
+
+impl Scheme {
+    /// Whether the velocities are those at half steps.
+    pub(crate) const fn is_staggered(self) -> bool {
+        !matches!(self, Self::SemiImplicitEuler)
     }
 }

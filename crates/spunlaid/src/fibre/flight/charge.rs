@@ -33,8 +33,7 @@ mod tests {
     use crate::air::{Air, Eddies, StreamKey, Wind};
     use crate::fibre::body::{Fibre, Root};
     use crate::fibre::case::{Case, Run};
-    use crate::fibre::chain::Strand;
-    use crate::fibre::chain::schemes::Scheme;
+    use crate::fibre::chain::{Scheme, Strand};
     use crate::fibre::charge::{Charge, ChargedNode, CurtainScale, PERMITTIVITY, SheetField, Sheets};
     use crate::fibre::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
     use crate::fibre::flight::{Flight, Job};

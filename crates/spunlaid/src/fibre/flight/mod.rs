@@ -33,11 +33,10 @@ mod steps;
 
 use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::fibre::case::Case;
-use crate::fibre::chain::Chain;
 use crate::fibre::chain::laying::Feed;
 pub use crate::fibre::chain::laying::LaidPoint;
-use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
+use crate::fibre::chain::{Chain, Scheme};
 use crate::fibre::energy::Energy;
 use crate::ground::place::Inlet;
 use crate::ground::{Isa, Lanes, Register, Vec3, WIDTH, Wide};

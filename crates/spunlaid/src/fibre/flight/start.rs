@@ -7,9 +7,8 @@ use crate::air::{
 };
 use crate::fibre::body::Fibre;
 use crate::fibre::case::Case;
-use crate::fibre::chain::schemes::Scheme;
 use crate::fibre::chain::work::WorkDone;
-use crate::fibre::chain::{self, Chain, Strand};
+use crate::fibre::chain::{self, Chain, Scheme, Strand};
 use crate::fibre::energy::Energy;
 use crate::ground::{Bits, Error, Fault, Isa, Lanes, PerLane, Vec3};
 use std::sync::Arc;

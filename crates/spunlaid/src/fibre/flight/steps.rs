@@ -2,9 +2,8 @@
 
 use super::{Flight, Snapshot};
 use crate::air::Instant;
-use crate::fibre::chain::force_pass::ElementBlock;
-use crate::fibre::chain::schemes::Scheme;
-use crate::fibre::chain::{Stride, explicit, implicit};
+use crate::fibre::chain::forces::ElementBlock;
+use crate::fibre::chain::{Scheme, Stride, explicit, implicit};
 use crate::fibre::energy::Energy;
 use crate::ground::{Error, Lanes, Register, Task, Vec3, WIDTH, Wide};
 

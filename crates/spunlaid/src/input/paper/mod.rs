@@ -9,7 +9,7 @@ mod claims;
 pub use claims::{claims_of_step_errors, claims_of_trend};
 
 use crate::experiment::{PointResults, Study};
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, ERROR_TOLERANCE};
 use crate::ground::Error;
 use crate::input::{parse_study, read_case};

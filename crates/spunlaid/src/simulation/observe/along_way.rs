@@ -3,7 +3,7 @@
 use super::momentum::{MomentumBalance, NodeStates};
 use super::{Declaration, FIBRE, Observation, Observer, fed, number_of_each};
 use crate::fibre::Flight;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::ground::measure::figure;
 use crate::ground::{Figure, MILLINEWTONS, Measure, MeasureKind, RATIO, Unit, Value, WIDTH};
 

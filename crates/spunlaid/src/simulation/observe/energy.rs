@@ -2,7 +2,7 @@
 
 use super::{Declaration, ENERGY, FibreMeasure, Observation, Observer, Sample, always};
 use crate::fibre::Flight;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::ground::measure::figure;
 use crate::ground::statistics::median;
 use crate::ground::{Aggregate, EvenSample, Figure, Measure, MeasureKind, OF_PERCENT, Value, WIDTH};

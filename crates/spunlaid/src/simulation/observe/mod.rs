@@ -31,11 +31,11 @@ use std::sync::LazyLock;
 pub type FibreMeasure = Measure<Flight>;
 
 /// Motion of the free end.
-pub const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
+pub(crate) const END_NODE: Group = Group { name: "end_node", title: "free end of the fibre" };
 /// The fibre as a whole.
-pub const FIBRE: Group = Group { name: "fibre", title: "fibre" };
+pub(crate) const FIBRE: Group = Group { name: "fibre", title: "fibre" };
 /// The energy checks.
-pub const ENERGY: Group = Group { name: "energy", title: "energy" };
+pub(crate) const ENERGY: Group = Group { name: "energy", title: "energy" };
 
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[

@@ -1,7 +1,6 @@
 //! Streaks that defects of the line leave in the web, and whether they show.
 
-use crate::ground::Known;
-use crate::ground::NORMAL_95;
+use crate::ground::{Known, NORMAL_95};
 use crate::web::map::Map;
 use std::f64::consts::SQRT_2;
 

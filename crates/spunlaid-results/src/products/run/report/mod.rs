@@ -9,7 +9,7 @@ mod words;
 use super::finer::CheckWords;
 use super::{doubt, finer};
 use crate::Failure;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::numbers::{THIN, capitalised, number};
 use crate::page::document::{Part, Report, Section};
 use crate::page::methods::{methods, of_case};

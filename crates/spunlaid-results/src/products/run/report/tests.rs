@@ -1,7 +1,7 @@
 //! The page holds what it should, safely and small.
 
 use super::run_report;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::products::run::figures::run_figures;
 use crate::products::run::sample;
 use crate::products::spinline::figures::{SPINLINE, spinline_figures};

@@ -4,7 +4,7 @@ use crate::numbers::THIN;
 use crate::page::words::{count, estimate_text, length, quantity, time};
 use crate::products::run::doubt;
 use spunlaid::air::EddyModel;
-use spunlaid::fibre::chain::schemes::Scheme;
+use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Root};
 use spunlaid::ground::Estimate;
 use spunlaid::simulation::{FinerChecks, Results};

@@ -1,9 +1,8 @@
 //! The figures of a web's report.
 
-mod charge;
 pub(crate) mod clouds;
+mod curtain;
 pub(crate) mod effects;
-mod neighbours;
 mod profiles;
 pub(crate) mod unevenness;
 
@@ -37,8 +36,8 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
         unevenness::histogram(&findings.within(), GRAMS),
         profiles::laid(web, findings),
     ];
-    figures.extend(neighbours::figure(&findings.laid.flown));
-    figures.extend(charge::figure(&findings.laid));
+    figures.extend(curtain::neighbours(&findings.laid.flown));
+    figures.extend(curtain::charge(&findings.laid));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));
     figures

@@ -2,7 +2,7 @@
 
 use super::{effects, fabric};
 use crate::files::measured::{joined, json, known, mean, values, with_errors};
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::files::versioned_json;
 use crate::products::load;
 use crate::products::web::figures::clouds::SEEN;

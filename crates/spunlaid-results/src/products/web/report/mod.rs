@@ -11,7 +11,7 @@ pub(crate) mod unevenness;
 use super::files::summary::Layer;
 use crate::Failure;
 use crate::effects::PER_CENT;
-use crate::files::performance::Performance;
+use crate::files::origin::Performance;
 use crate::numbers::{THIN, number, significant};
 use crate::page::document::{Part, Report, Section};
 use crate::page::methods::{methods, of_web};

@@ -1,6 +1,6 @@
 //! What is told of the samples of a component that are no velocities.
 
-use super::super::limits::{hertz, number, time};
+use super::super::{hertz, number, time};
 use super::apart::Apart;
 use super::{Record, Robust};
 use crate::ground::Fault;

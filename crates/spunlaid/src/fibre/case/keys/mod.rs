@@ -133,7 +133,7 @@ pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
 }
 
 /// The key most similar to a misspelt name.
-pub fn nearest(name: &str) -> Option<&'static Key> {
+pub(crate) fn nearest(name: &str) -> Option<&'static Key> {
     like(name).first().copied()
 }
 

@@ -2,8 +2,7 @@
 
 use super::Tensions;
 use crate::fibre::chain::constants::{Constants, ElementConstants, Node};
-use crate::fibre::chain::force_pass::Integrator;
-use crate::fibre::chain::forces::Element;
+use crate::fibre::chain::forces::{Element, Integrator};
 use crate::fibre::chain::work::Charged;
 use crate::ground::{Lanes, Register, Vec3, Wide};
 

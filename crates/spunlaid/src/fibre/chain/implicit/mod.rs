@@ -19,7 +19,7 @@ mod corrections;
 mod iterations;
 mod motion;
 
-use super::force_pass::{ElementBlock, force_pass};
+use super::forces::{ElementBlock, force_pass};
 use super::work::{Supports, WorkDone, WorkRegisters};
 use super::{Chain, Stride};
 use crate::air::Velocities;

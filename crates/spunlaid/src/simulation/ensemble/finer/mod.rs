@@ -16,7 +16,7 @@ mod plan;
 
 use super::Trajectory;
 use crate::fibre::Run;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::ground::Estimate;
 pub(super) use flights::Paths;
 pub use flights::RunPaths;

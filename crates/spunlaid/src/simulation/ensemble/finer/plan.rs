@@ -2,7 +2,7 @@
 
 use super::{Refinement, Refinements, Unchecked};
 use crate::air::EddyModel;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, Checks, Contact, ERROR_TOLERANCE, Line, MOST_STEPS};
 use crate::ground::WIDTH;
 

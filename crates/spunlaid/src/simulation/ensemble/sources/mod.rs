@@ -16,7 +16,7 @@ mod watch;
 use super::{Job, LostFibre, RunControl, in_order};
 use crate::air::motion::temperature_of;
 use crate::air::{FieldCells, Flow, PlacedField};
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, SolidFilament};
 use crate::ground::place::Inlet;
 use crate::ground::{Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};

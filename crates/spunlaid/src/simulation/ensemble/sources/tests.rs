@@ -3,7 +3,7 @@
 use super::watch::see;
 use super::*;
 use crate::air::{Air, Axis, Cells, Field, FileContent, Flow, PlacedField, Shape, Values};
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{End, Fibre, Flight, Line, Melt, Polymer, Root, SolidFilament, Spinline};
 use crate::ground::{Isa, Vec3};
 use std::path::PathBuf;

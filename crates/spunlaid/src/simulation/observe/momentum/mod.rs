@@ -10,7 +10,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, Flight, Snapshot, WayPlace};
 use crate::ground::{Estimate, Lanes, Vec3, WIDTH};
 

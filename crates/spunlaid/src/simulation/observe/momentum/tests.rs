@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::air::Air;
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::fibre::{Fibre, Flight, Job, Line, Root};
 use crate::ground::{Isa, Lanes, Vec3};
 

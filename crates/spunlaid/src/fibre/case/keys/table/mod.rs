@@ -1,6 +1,11 @@
 //! The table of keys: one row for each, in the order of a case file.
 
-mod air;
+// What the air is: its flow, its properties and its turbulence.
+mod air {
+    pub(super) mod flow;
+    pub(super) mod numbers;
+    pub(super) mod turbulence;
+}
 mod belt;
 mod drag;
 mod fibre;
@@ -18,7 +23,7 @@ const TABLES: [Table<Case>; 8] = [
     ("fibre", &[fibre::KEYS]),
     ("feed", &[belt::FEED]),
     ("belt", &[belt::KEYS]),
-    ("air", air::KEYS),
+    ("air", &[air::flow::KEYS, air::numbers::KEYS, air::turbulence::KEYS]),
     ("drag", &[drag::KEYS]),
     ("run", &[run::KEYS]),
 ];

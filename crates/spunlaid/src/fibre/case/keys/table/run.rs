@@ -5,7 +5,7 @@ use super::super::row::{Access, FED, choose, key, number, quantity};
 use super::super::value::Sign::{Any, NotNegative, Positive};
 use super::super::value::{Kind, Value};
 use crate::fibre::case::{Checks, MOST_REPLICATES, MOST_SHAPES, whole_parts};
-use crate::fibre::chain::schemes::Scheme;
+use crate::fibre::chain::Scheme;
 use crate::ground::Dimension;
 
 named_fields!(Checks, Scheme);

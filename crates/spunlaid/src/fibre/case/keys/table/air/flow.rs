@@ -11,7 +11,7 @@ use crate::ground::{Dimension, Fault};
 
 named_fields!(Axis);
 
-pub(super) const KEYS: &[Key] = &[
+pub(in super::super) const KEYS: &[Key] = &[
     // Up to the speed of sound.
     quantity("air.velocity", Dimension::Velocity, Any, (1e-3, 340.0))
         .access(Access {

@@ -54,7 +54,7 @@ fn beyond_sutherland() -> Fault {
     )
 }
 
-pub(super) const KEYS: &[Key] = &[
+pub(in super::super) const KEYS: &[Key] = &[
     quantity("air.turbulence_intensity", Dimension::Ratio, NotNegative, (1e-5, 1.0))
         .access(of_air!(turbulence_intensity))
         .derived(|case| case.air.from_flow.turbulence_intensity)

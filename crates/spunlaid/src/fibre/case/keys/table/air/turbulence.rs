@@ -16,7 +16,7 @@ const MOST_MISSING: u64 = 1_000_000;
 
 named_fields!(Lateral);
 
-pub(super) const KEYS: &[Key] = &[
+pub(in super::super) const KEYS: &[Key] = &[
     file("air.spectrum", DataFile::Spectrum)
         .access(Access {
             get: |case| match &case.air.spectrum {

@@ -1,9 +1,10 @@
-//! Lays the webs of a study, one after another.
+//! Makes the replicates of a study that no fibre flies alone: lays its webs, one after another, and solves its spinlines.
 
 use super::batch::Batch;
-use super::measures::{Record, ReplicateOutcome, measured_of_web};
+use super::measures::{Record, ReplicateOutcome, measured_of_spinline, measured_of_web};
 use super::{Point, seed_of_point};
 use crate::ground::Error;
+use crate::simulation::ensemble::in_order;
 use crate::simulation::{Flights, Flyer, RunControl, WebSpec};
 use crate::web::LayControl;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,7 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 ///
 /// # Errors
 /// If fibres cannot be flown or read, if a web cannot be laid, and every error of `take`.
-pub(super) fn lay(
+pub(super) fn lay_webs(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
     computing: RunControl<'_>,
@@ -51,4 +52,41 @@ pub(super) fn lay(
 /// then less by chance.
 pub(crate) fn seed_of_web(spec: &WebSpec, replicate: u64) -> u64 {
     if replicate == 0 { spec.seed } else { seed_of_point(spec.seed, replicate) }
+}
+
+/// Solves the spinlines of some batches. One without a steady state is a lost replicate.
+///
+/// * `take` – receives the record of each, in their order
+///
+/// # Errors
+/// When the computation is stopped, and every error of `take`.
+pub(super) fn solve_spinlines(
+    points: &[Point],
+    batches: &[Batch],
+    computing: RunControl<'_>,
+    mut take: impl FnMut(Record) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let of_spinlines = |batch: &&Batch| points[batch.point].experiment.spinline().is_some();
+    let batches: Vec<&Batch> = batches.iter().filter(of_spinlines).collect();
+    in_order(
+        batches.len(),
+        computing.threads,
+        |index| {
+            let Batch { point, replicates } = batches[index];
+            let stopped = computing.stop.load(Ordering::Relaxed);
+            let solved = points[*point].experiment.spinline().filter(|_| !stopped).map(|spec| spec.solve());
+            (*point, replicates.clone(), solved)
+        },
+        |(point, replicates, solved)| {
+            let Some(solved) = solved else { return Err(Error::Interrupted) };
+            let outcome = match &solved {
+                Ok(found) => ReplicateOutcome::Measured(measured_of_spinline(found)),
+                Err(_) => ReplicateOutcome::Lost { node: 0, time: 0.0 },
+            };
+            for replicate in replicates {
+                take(Record { point: point as u64, replicate, outcome: outcome.clone() })?;
+            }
+            Ok(())
+        },
+    )
 }
