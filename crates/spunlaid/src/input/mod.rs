@@ -27,7 +27,7 @@ pub use crate::simulation::{LaydownSource, LayerSpec, WEB_KEYS, WEB_TABLES, WebK
 pub use data::read_points;
 pub use influence::{Influence, OfFilament};
 pub use settle::Resources;
-pub use source::{Source, kind_of};
+pub use source::Source;
 pub use spinline::{SpinFile, read_spinline, write_spinline};
 pub use study::{
     Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_study, read_changes, read_fit,
@@ -44,6 +44,7 @@ use crate::ground::{Error, Fault, FileError, FileKind};
 use data::DataFiles;
 use open::OpenCase;
 use std::path::Path;
+use toml::de::DeTable;
 use written_values::WrittenValues;
 
 /// What is read of a case file: the case, with notes and warnings about it.
@@ -182,4 +183,25 @@ pub const fn starter_case() -> &'static str {
 /// A commented case of a fibre that is fed and laid on a moving belt.
 pub const fn starter_case_of_fed() -> &'static str {
     include_str!("starter_of_fed.toml")
+}
+
+/// What a file describes by its keys and tables: a study, a web, a spinline alone, or else a case. A file
+/// that cannot be read counts as a case.
+pub fn kind_of(path: &Path) -> FileKind {
+    let Ok(text) = file::read(path, FileKind::Case) else { return FileKind::Case };
+    let Ok(root) = DeTable::parse(&text) else { return FileKind::Case };
+    let has = |name: &str| root.get_ref().contains_key(name);
+    let is_spinline = || {
+        document::read(&keys::CASE, &text, "", &[])
+            .is_ok_and(|key_values| spinline::is_spinline_alone(&key_values))
+    };
+    if has("vary") || has("design") {
+        FileKind::Study
+    } else if document::is_of_web(&text) {
+        FileKind::Web
+    } else if is_spinline() {
+        FileKind::Spinline
+    } else {
+        FileKind::Case
+    }
 }
