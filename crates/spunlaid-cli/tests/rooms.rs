@@ -44,7 +44,7 @@ const CHARTS: &[&[&str]] = &[
     &["decimate", "glyphs", "numbers", "palette"],
     &["label", "picture"],
     &["outline", "svg"],
-    &["pixels", "pdf", "drawing", "table", "map"],
+    &["pixels", "pdf", "table", "map"],
     &["png", "scale"],
     &["chart"],
     &["legend"],

@@ -1,5 +1,5 @@
-//! Settings of the machine that change how even a web is, webs in which one of them is changed, and what these are judged
-//! by: the CV over patches of some size, which is that of what a buyer sees.
+//! Settings of the machine that change how even a web is, webs in which one of them is changed, and what these are
+//! judged by: the CV over patches of some size, which is that of what a buyer sees.
 
 use crate::ground::{Dimension, Error, Fault, Removed, Setting};
 use crate::simulation::WebSpec;

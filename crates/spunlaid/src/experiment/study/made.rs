@@ -1,4 +1,4 @@
-//! Makes the replicates of a study that no fibre flies alone: lays its webs, one after another, and solves its spinlines.
+//! Makes the replicates of a study that are not flights: lays its webs, one after another, and solves its spinlines.
 
 use super::batch::Batch;
 use super::measures::{Record, ReplicateOutcome, measured_of_spinline, measured_of_web};

@@ -1,5 +1,5 @@
-//! The curtain of filaments: where charged ones hang between inlet and belt, as they are seen from the side, and how those
-//! that hang side by side in one air come down together.
+//! The curtain of filaments: where charged ones hang between inlet and belt, as they are seen from the side, and how
+//! those that hang side by side in one air come down together.
 
 use super::MM;
 use crate::figures::joined;
