@@ -1,5 +1,6 @@
 //! What is claimed of results, and whether the data support it.
 
+use crate::ground::Difference;
 use std::borrow::Cow;
 
 /// Number of standard errors from which a difference counts as real.
@@ -26,14 +27,34 @@ impl Verdict {
         if holds { Self::Holds } else { Self::Fails }
     }
 
-    /// Of a difference in standard errors, which the claim says is above zero.
-    pub(crate) fn of_difference(difference: f64) -> Self {
-        match difference {
-            _ if difference > REAL => Self::Holds,
-            _ if difference < -REAL => Self::Fails,
+    /// Of a difference that the claim says is above zero. Without an error every difference counts.
+    pub(crate) fn of_difference(difference: Difference) -> Self {
+        match significance(difference) {
+            _ if difference.standard_error == 0.0 => Self::of(difference.value > 0.0),
+            errors if errors > REAL => Self::Holds,
+            errors if errors < -REAL => Self::Fails,
             _ => Self::Open,
         }
     }
+}
+
+/// A difference in standard errors.
+pub(crate) fn significance(difference: Difference) -> f64 {
+    match difference.value {
+        0.0 => 0.0,
+        value if difference.standard_error == 0.0 => value.signum() * f64::INFINITY,
+        value => value / difference.standard_error,
+    }
+}
+
+/// How a result goes in a direction (`+1` up, `−1` down) from the first to the last value of a key: the largest step
+/// the other way in standard errors, zero if there is none, and whether it goes there.
+///
+/// * `ends`, `steps` – from the first to the last value, and from each to the next
+pub(crate) fn goes((ends, steps): (Difference, &[Difference]), direction: f64) -> (f64, Verdict) {
+    let back = steps.iter().map(|step| -direction * significance(*step)).fold(0.0, f64::max);
+    let forth = Difference { value: direction * ends.value, ..ends };
+    (back, if back > CHANCE { Verdict::Fails } else { Verdict::of_difference(forth) })
 }
 
 /// Written as its name.

@@ -14,8 +14,8 @@ pub mod fit;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use advice::{Advice, Change, ChangedWeb, KEPT_OUTCOMES, MOST_STEPS, Tried, setting};
-pub(crate) use claim::CHANCE;
 pub use claim::{Claim, REAL, Verdict};
+pub(crate) use claim::{goes, significance};
 pub(crate) use fit::USUAL_FACTOR;
 pub use fit::{
     FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, MOST_TRIALS, MeasuredPatch,

@@ -3,7 +3,7 @@
 use super::effects::Ranking;
 use super::journal::Journal;
 use super::{PointResults, Quantity, Study};
-use crate::experiment::claim::{CHANCE, Claim, REAL, Verdict};
+use crate::experiment::claim::{CHANCE, Claim, REAL, Verdict, goes, significance};
 use crate::ground::{Difference, Error};
 use std::borrow::Cow;
 
@@ -107,17 +107,15 @@ fn matters(
     times: f64,
 ) -> (String, Verdict) {
     let [more, less] = told.map(|(_, effect)| effect);
-    let error = more.standard_error.hypot(times * less.standard_error);
-    let distance = (more.value.abs() - times * less.value.abs()) / error;
+    let beyond = Difference {
+        value: more.value.abs() - times * less.value.abs(),
+        standard_error: more.standard_error.hypot(times * less.standard_error),
+        degrees: f64::INFINITY,
+    };
     let words = told.map(|(factor, effect)| {
         format!("{} over {}", in_words(quantity, effect), study.factors[factor].key.name)
     });
-    let verdict = match error {
-        0.0 => Verdict::of(more.value.abs() > times * less.value.abs()),
-        error if error.is_finite() => Verdict::of_difference(distance),
-        _ => Verdict::Open,
-    };
-    (words.join(", "), verdict)
+    (words.join(", "), Verdict::of_difference(beyond))
 }
 
 /// A difference in the unit of a quantity, and its standard error if it is known and there is one.
@@ -188,15 +186,6 @@ impl Differences<'_> {
     }
 }
 
-/// A difference in standard errors.
-fn significance(difference: Difference) -> f64 {
-    match difference.value {
-        0.0 => 0.0,
-        value if difference.standard_error == 0.0 => value.signum() * f64::INFINITY,
-        value => value / difference.standard_error,
-    }
-}
-
 fn follows(
     of: &Differences<'_>,
     factor: usize,
@@ -206,21 +195,11 @@ fn follows(
     let (last, quantity) = (of.points.len() - 1, &of.study.quantities[of.quantity]);
     let place = |i: usize| of.study.factors[factor].key.pretty(of.study.points[of.points[i]].values[factor]);
     let ends = of.between(0, last, journal)?;
-    let overall = significance(ends);
-    let mut steps = Vec::with_capacity(last);
-    for i in 0..last {
-        steps.push(significance(of.between(i, i + 1, journal)?));
-    }
+    let steps = (0..last).map(|i| of.between(i, i + 1, journal)).collect::<Result<Vec<_>, _>>()?;
     let told = format!("{} from {} to {}", in_words(quantity, ends), place(0), place(last));
-    let step_back = |direction: f64| steps.iter().map(|step| -direction * step).fold(0.0, f64::max);
     if way != Way::Turns {
         let direction = if way == Way::Rises { 1.0 } else { -1.0 };
-        let back = step_back(direction);
-        let verdict = match ends.standard_error {
-            _ if back > CHANCE => Verdict::Fails,
-            0.0 => Verdict::of(direction * ends.value > 0.0),
-            _ => Verdict::of_difference(direction * overall),
-        };
+        let (back, verdict) = goes((ends, &steps), direction);
         let evidence = match ends.standard_error {
             0.0 if back > CHANCE => format!("{told}, without error; a step goes the other way"),
             0.0 => format!("{told}, without error; no step goes the other way"),
@@ -246,7 +225,8 @@ fn follows(
     let [before, after] = turn_ends.map(|difference| in_words(quantity, difference));
     let evidence =
         format!("at {}: {before} beside {}, {after} beside {}", place(turn), place(0), place(last));
-    let is_monotone = step_back(overall.signum()) <= CHANCE;
+    let overall = significance(ends);
+    let is_monotone = goes((ends, &steps), overall.signum()).0 <= CHANCE;
     let verdict = match most {
         most if most > REAL => Verdict::Holds,
         // Without error, the steps are as they are.

@@ -1,7 +1,8 @@
 //! The paper's claims. Each gets its evidence and a verdict from the data.
 
 use super::{LateralEstimates, Parameter, TrendPoint};
-use crate::experiment::{CHANCE, Claim, REAL, Verdict};
+use crate::experiment::{Claim, REAL, Verdict, goes, significance};
+use crate::ground::Difference;
 use std::borrow::Cow;
 
 /// Share of the variance that a straight line must explain for a trend to count as almost linear.
@@ -121,20 +122,20 @@ fn straight(spots: &[Spot], unit: &str) -> (String, Verdict) {
 
 fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
     let (first, last) = (spots[0], spots[spots.len() - 1]);
-    let overall = direction * significance(&first, &last);
-    let back = worst_step_back(spots, direction);
+    let steps: Vec<Difference> = spots.windows(2).map(|pair| pair[0].to(pair[1])).collect();
+    let (back, verdict) = goes((first.to(last), &steps), direction);
     let evidence = format!(
         "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; largest step in the other direction {back:.1} standard errors",
         first.y, first.error, last.y, last.error
     );
-    (evidence, if back > CHANCE { Verdict::Fails } else { Verdict::of_difference(overall) })
+    (evidence, verdict)
 }
 
 /// Whether a trend rises up to a place and changes by less than a tenth after it.
 fn plateau(spots: &[Spot], place: f64) -> (String, Verdict) {
     let at = spots.iter().position(|s| s.x >= place * (1.0 - 1e-9)).unwrap_or(spots.len() - 1);
     let (first, knee, last) = (spots[0], spots[at], spots[spots.len() - 1]);
-    let (rise, after) = (significance(&first, &knee), (last.y - knee.y) / knee.y);
+    let (rise, after) = (significance(first.to(knee)), (last.y - knee.y) / knee.y);
     let error = last.error.hypot(knee.error) / knee.y;
     let evidence = format!(
         "{:.1} to {:.1} Hz up to {place} ({rise:.1} standard errors), then {:+.0} ± {:.0} %",
@@ -164,7 +165,7 @@ fn thicker(spots: &[Spot]) -> (String, Verdict) {
         "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",
         thin.y, thin.error, thick.y, thick.error
     );
-    (evidence, Verdict::of_difference(significance(thin, thick)))
+    (evidence, Verdict::of_difference(thin.to(*thick)))
 }
 
 /// Whether the curve over the diameter is steepest between its ends and flatter at both ends. The paper plots the
@@ -203,6 +204,14 @@ struct Spot {
     error: f64,
 }
 
+impl Spot {
+    /// The difference to another point.
+    fn to(self, other: Self) -> Difference {
+        let (value, standard_error) = (other.y - self.y, self.error.hypot(other.error));
+        Difference { value, standard_error, degrees: f64::INFINITY }
+    }
+}
+
 /// A straight line fitted to points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct StraightLine {
@@ -222,18 +231,6 @@ fn line(spots: &[Spot]) -> StraightLine {
     let syy: f64 = spots.iter().map(|s| (s.y - my).powi(2)).sum();
     let variance: f64 = spots.iter().map(|s| ((s.x - mx) * s.error).powi(2)).sum();
     StraightLine { slope: sxy / sxx, slope_error: variance.sqrt() / sxx, r_squared: sxy * sxy / (sxx * syy) }
-}
-
-/// The difference of two points, divided by its standard error.
-fn significance(from: &Spot, to: &Spot) -> f64 {
-    let error = from.error.hypot(to.error);
-    let difference = to.y - from.y;
-    if error > 0.0 { difference / error } else { difference.signum() * f64::INFINITY }
-}
-
-/// The largest step against the general direction (`+1` up, `−1` down), in standard errors. Zero if there is none.
-fn worst_step_back(spots: &[Spot], direction: f64) -> f64 {
-    spots.windows(2).map(|w| -direction * significance(&w[0], &w[1])).fold(0.0, f64::max)
 }
 
 /// Slopes between neighbouring points, each with its standard error.
@@ -301,8 +298,10 @@ mod tests {
     #[test]
     fn analytic_steps_back_and_slopes() {
         let s = spots_of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)], 0.5);
-        assert!((worst_step_back(&s, 1.0) - 1.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
-        assert!((worst_step_back(&s, -1.0) - 2.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
+        let steps = [s[0].to(s[1]), s[1].to(s[2])];
+        let back = |direction| goes((s[0].to(s[2]), &steps), direction).0;
+        assert!((back(1.0) - 1.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
+        assert!((back(-1.0) - 2.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
         assert_eq!(slopes(&s).iter().map(|s| s.0).collect::<Vec<_>>(), [2.0, -1.0]);
     }
 }
