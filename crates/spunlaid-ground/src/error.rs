@@ -70,6 +70,11 @@ impl Error {
         Self::Flight(Fault::new(message, remedy))
     }
 
+    /// Whether it is an error of the values that were asked for: others may do.
+    pub const fn is_of_values(&self) -> bool {
+        matches!(self, Self::Rejected(_) | Self::Flight(_) | Self::Diverged { .. } | Self::NotLanding { .. })
+    }
+
     /// A flight without fibres.
     pub fn no_fibre() -> Self {
         Self::Flight(Fault::plain("a flight needs at least one fibre"))

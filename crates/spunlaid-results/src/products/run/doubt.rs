@@ -61,12 +61,16 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
     }
 }
 
-/// What some changes told do not show.
-fn not_shown<'a>(check: &FinerCheck, mut told: impl Iterator<Item = &'a Change>) -> &'static str {
-    match told.any(|change| check.error_over(change).is_none() && change.from_quarter.is_some()) {
+/// All that a check tells beyond its limit, with words before each and between them; none if there is nothing.
+fn all_told(check: &FinerCheck, case: &Case, [before, between]: [&str; 2]) -> Option<String> {
+    let each: Vec<String> =
+        beyond(check).map(|change| format!("{before}{}", told(check, change, case))).collect();
+    let is_open = |change: &Change| check.error_over(change).is_none() && change.from_quarter.is_some();
+    let end = match beyond(check).any(is_open) {
         true => ", which does not show how far this is from very fine elements",
         false => "",
-    }
+    };
+    (!each.is_empty()).then(|| format!("{}{}{end}", part(check, case), each.join(between)))
 }
 
 /// With what a run is compared: `half the step`.
@@ -105,18 +109,9 @@ fn part(check: &FinerCheck, case: &Case) -> String {
 /// Notes about checks that are beyond their limit, and about those that could not be made.
 pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
     let found = |check: &FinerCheck| {
-        let changes: Vec<String> = beyond(check).map(|change| told(check, change, case)).collect();
-        (!changes.is_empty()).then(|| {
-            format!(
-                "the check of the {} is beyond its limit of {} %: {}{}{}; {}",
-                check.refined.name(),
-                100.0 * FINE_ENOUGH,
-                part(check, case),
-                changes.join(", "),
-                not_shown(check, beyond(check)),
-                kept(check, case)
-            )
-        })
+        let (name, limit, kept) = (check.refined.name(), 100.0 * FINE_ENOUGH, kept(check, case));
+        let told = all_told(check, case, ["", ", "])?;
+        Some(format!("the check of the {name} is beyond its limit of {limit} %: {told}; {kept}"))
     };
     let each = [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)];
     each.into_iter()
@@ -184,12 +179,8 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
             (false, 2..) => "The error contains what",
             _ => "No error above contains what",
         };
-        let each: Vec<String> =
-            beyond(check).map(|change| format!("the {}", told(check, change, case))).collect();
-        if !each.is_empty() {
-            let (name, part) = (check.refined.name(), part(check, case));
-            let end = not_shown(check, beyond(check));
-            text += &format!(" {kept} the check of the {name} found: {part}{}{end}.", each.join("; "));
+        if let Some(told) = all_told(check, case, ["the ", "; "]) {
+            text += &format!(" {kept} the check of the {} found: {told}.", check.refined.name());
         }
     }
     let why = if case.run.checks == Checks::None { ", as the case asks" } else { "" };

@@ -142,11 +142,7 @@ impl WebSimulator<'_> {
         for replicate in 0..TWINS {
             let [few, all] = specs.each_ref().map(|spec| self.web_of(spec, replicate));
             let all = match all {
-                Err(
-                    Error::Rejected(_) | Error::Flight(_) | Error::Diverged { .. } | Error::NotLanding { .. },
-                ) => {
-                    return Ok(None);
-                }
+                Err(error) if error.is_of_values() => return Ok(None),
                 all => all?,
             };
             for (square, (few, all)) in squares.iter_mut().zip(few?.iter().zip(&all)) {

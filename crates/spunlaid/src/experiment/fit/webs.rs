@@ -93,12 +93,7 @@ impl<'a> Webs<'a> {
                 Ok(Some(self.trials.len() - 1))
             }
             // Another value of a key may do.
-            Err(
-                error @ (Error::Rejected(_)
-                | Error::Flight(_)
-                | Error::Diverged { .. }
-                | Error::NotLanding { .. }),
-            ) => {
+            Err(error) if error.is_of_values() => {
                 self.refused.push((values, error));
                 Ok(None)
             }

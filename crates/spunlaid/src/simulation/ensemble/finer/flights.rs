@@ -4,10 +4,9 @@ use super::plan::case_of_air;
 use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
 use crate::fibre::{Case, Job, LaidPoint, SurroundingRun};
 use crate::ground::Error;
-use crate::ground::threads::{lock, unlock};
+use crate::ground::threads::{each, lock, unlock};
 use crate::simulation::ensemble::trajectory::fly_in_air;
-use crate::simulation::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory, in_order};
-use std::convert::Infallible;
+use crate::simulation::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory};
 use std::sync::{Mutex, MutexGuard};
 
 /// The position across the flow at the recorded instants after the start [m].
@@ -30,13 +29,9 @@ impl FinerPlans {
     pub fn check(&self, paths: &RunPaths, computing: RunControl<'_>) -> FinerChecks {
         let flights: Vec<_> =
             self.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
-        let (mut flown, fly) = (Vec::new(), |index: usize| {
+        let flown = each(computing.threads, flights.len(), |index| {
             let (plan, case) = flights[index];
             plan.fly(case, computing)
-        });
-        let Ok(()) = in_order(flights.len(), computing.threads, fly, |flight| {
-            flown.push(flight);
-            Ok::<(), Infallible>(())
         });
         let mut flown = flown.into_iter();
         self.and_then(|plan| {
