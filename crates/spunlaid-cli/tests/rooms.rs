@@ -161,3 +161,21 @@ fn every_option_and_command_that_a_text_names_exists() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(seen.len() > 25, "{seen:?}");
 }
+
+/// Each command has a page of the manual.
+#[test]
+fn the_tour_shows_every_command() {
+    let desk = Desk::new();
+    success(&mut desk.spunlaid("man pages"));
+    let tour = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/tour.md");
+    let tour = std::fs::read_to_string(tour).unwrap();
+    let mut seen = 0;
+    for page in std::fs::read_dir(desk.path("pages")).unwrap() {
+        let page = page.unwrap().file_name().into_string().unwrap();
+        let Some(command) = page.strip_prefix("spunlaid-") else { continue };
+        let command = command.strip_suffix(".1").unwrap();
+        assert!(tour.contains(&format!("spunlaid {command}")), "{command}");
+        seen += 1;
+    }
+    assert!(seen > 10, "{seen}");
+}

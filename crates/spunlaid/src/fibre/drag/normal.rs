@@ -70,7 +70,7 @@ pub(super) enum Form {
 
 impl NormalLaw {
     /// Name in the case file.
-    pub(crate) const fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         self.law().name
     }
 
