@@ -1,15 +1,14 @@
 //! How a command delivers what it has found: into its folder, then as JSON or as lines of the terminal.
 
-use crate::args::{Output, Threads};
+use crate::args::{Invocation, Output, Threads};
 use crate::control::stop_on_ctrl_c;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::JournalState;
 use spunlaid::ground::error::counted;
 use spunlaid_results::files::folder::Staging;
-use spunlaid_results::files::origin::Origin;
 use spunlaid_results::files::pictures::FigureFiles;
-use spunlaid_results::folders::{Contents, Making};
+use spunlaid_results::folders::{Contents, JournalFolder, Making};
 use std::path::{Path, PathBuf};
 
 /// The folder of a command, if it writes one, and what is said.
@@ -24,35 +23,28 @@ pub(crate) struct Delivery<'a> {
     said: Option<String>,
 }
 
-/// What is said besides the results.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Asides<'a> {
-    /// Lines below the results.
-    pub(crate) lines: &'a [String],
-    /// Remarks about what was found.
-    pub(crate) found: &'a [String],
-}
-
 impl<'a> Delivery<'a> {
     /// Opens the folder for results of a kind, if there shall be one. What the same command wrote before is
     /// replaced, and a note says so.
     ///
-    /// * `origin` – of results in a folder
-    pub(crate) fn open<C: Contents>(
-        folder: Option<PathBuf>,
-        origin: impl FnOnce(&Path) -> Option<Origin>,
-        output: &'a Output,
-        figures: &FigureFiles,
+    /// * `files` – that the command reads
+    /// * `name` – of the folder, if none is named
+    pub(crate) fn open<'f, C: Contents>(
+        invocation: &Invocation,
+        files: impl IntoIterator<Item = &'f PathBuf>,
+        name: impl AsRef<Path>,
+        (output, figures): (&'a Output, FigureFiles),
     ) -> Result<Self, Failure> {
         let open = |folder: &PathBuf| -> Result<_, Failure> {
-            let (origin, stop) = (origin(folder), stop_on_ctrl_c());
+            let (origin, stop) = (invocation.origin_of(files, folder), stop_on_ctrl_c());
             let mut staging = Staging::with_origin(folder, C::ENTRIES, output.force, origin, stop)?;
-            staging.set_figures(figures);
+            staging.set_figures(&figures);
             if staging.replaces_own() {
                 say_replaced(folder, output);
             }
             Ok(staging)
         };
+        let folder = output.optional_folder(name);
         let staging = folder.as_ref().map(open).transpose()?;
         let (making, text) = (making(Threads::default()), String::new());
         Ok(Self { folder, staging, making, output, text, said: None })
@@ -69,15 +61,16 @@ impl<'a> Delivery<'a> {
     }
 
     /// Writes results, and says what was found.
+    ///
+    /// * `lines` – below the results
     pub(crate) fn deliver(
         mut self,
         contents: &impl Contents,
         threads: Threads,
-        asides: Asides<'_>,
+        lines: &[String],
     ) -> Result<(), Failure> {
         self.publish(contents, threads)?;
-        self.say(asides);
-        self.finish(contents);
+        self.finish(contents, lines);
         Ok(())
     }
 
@@ -105,12 +98,14 @@ impl<'a> Delivery<'a> {
     }
 
     /// Says as lines what was found and has not been said; the first time also which page to open.
-    pub(crate) fn say(&mut self, asides: Asides<'_>) {
+    pub(crate) fn say(&mut self, contents: &impl Contents, lines: &[String]) {
         if self.output.json || self.output.quiet {
             return;
         }
-        let page = self.folder.as_deref().filter(|_| self.said.is_none());
-        say_lines(&new_text(self.said.as_deref().unwrap_or_default(), &self.text), page, asides);
+        match &self.said {
+            None => say_lines(&self.text, contents, lines, self.folder.as_deref()),
+            Some(said) => say::table(&new_text(said, &self.text)),
+        }
         self.said = Some(self.text.clone());
     }
 
@@ -121,8 +116,9 @@ impl<'a> Delivery<'a> {
         }
     }
 
-    /// Says what was found as JSON, if that is asked for.
-    pub(crate) fn finish(&self, contents: &impl Contents) {
+    /// Says the rest of what was found, or all of it as JSON.
+    pub(crate) fn finish(&mut self, contents: &impl Contents, lines: &[String]) {
+        self.say(contents, lines);
         if self.output.json {
             say::text(&contents.summary());
         }
@@ -131,9 +127,6 @@ impl<'a> Delivery<'a> {
 
 /// What a text says that an earlier one did not: the lines of its first paragraph, and whole paragraphs below it.
 fn new_text(before: &str, now: &str) -> String {
-    if before.is_empty() {
-        return now.to_owned();
-    }
     let (first, rest) = now.split_once("\n\n").unwrap_or((now, ""));
     let first = first.lines().filter(|line| !before.lines().any(|other| other == *line));
     let rest = rest.split("\n\n").filter(|part| !part.is_empty() && !before.contains(part.trim_end()));
@@ -155,31 +148,39 @@ pub(crate) fn making(threads: Threads) -> Making<'static> {
 /// Says what was found: as JSON, or as lines with the report to open.
 pub(crate) fn tell(
     contents: &impl Contents,
-    (folder, text): (Option<&Path>, &str),
+    (folder, text): (&Path, &str),
+    lines: &[String],
     output: &Output,
-    asides: Asides<'_>,
 ) {
     if output.json {
         say::text(&contents.summary());
     } else if !output.quiet {
-        say_lines(text, folder, asides);
+        say_lines(text, contents, lines, Some(folder));
     }
 }
 
-fn say_lines(text: &str, folder: Option<&Path>, asides: Asides<'_>) {
+fn say_lines(text: &str, contents: &impl Contents, lines: &[String], folder: Option<&Path>) {
     say::table(text);
-    asides.lines.iter().for_each(|line| say::line(line));
-    asides.found.iter().for_each(|note| say::remark(false, note));
+    lines.iter().for_each(|line| say::line(line));
+    contents.found().iter().for_each(|found| say::remark(false, found));
     folder.iter().for_each(|folder| say::line(&format!("open {}", folder.join("report.html").display())));
 }
 
 /// Says that the earlier results of the same command are replaced.
-pub(crate) fn say_replaced(folder: &Path, output: &Output) {
+fn say_replaced(folder: &Path, output: &Output) {
     if !output.quiet {
         let replaced =
             format!("{}: holds earlier results of this command, which are replaced", folder.display());
         say::remark(false, &replaced);
     }
+}
+
+/// Begins to write results in a folder with a journal; a note says that earlier ones are replaced.
+pub(crate) fn begin(folder: &mut JournalFolder<'_>, figures: FigureFiles, output: &Output) {
+    if folder.replaces() {
+        say_replaced(folder.path(), output);
+    }
+    folder.figures = figures;
 }
 
 /// Says what has been done before of work that goes on.

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 pub(crate) enum Failure {
     /// Something that the user can mend, or that the operating system does not allow.
     Error(Error),
-    /// A study was interrupted.
-    Paused { done: u64, total: Option<u64>, what: &'static str },
+    /// Work was interrupted that the same command goes on with: so many things of a kind are done.
+    Paused { done: u64, total: Option<u64>, noun: &'static str },
     /// What was tried with a web was interrupted, and the web is in its folder, if there is one.
     Kept { folder: Option<PathBuf> },
     /// The results are written but lack something: lost fibres, or the sources of flights that are not steady.
@@ -27,6 +27,14 @@ impl Failure {
             Self::Error(Error::Interrupted) | Self::Paused { .. } | Self::Kept { .. } => 130,
             Self::Error(error) => error.exit_code(),
             Self::Incomplete { .. } | Self::Panicked => 2,
+        }
+    }
+
+    /// The failure of work that the same command goes on with where it is interrupted.
+    pub(crate) fn or_paused(self, done: u64, total: Option<u64>, noun: &'static str) -> Self {
+        match self {
+            Self::Error(Error::Interrupted) => Self::Paused { done, total, noun },
+            other => other,
         }
     }
 
@@ -62,11 +70,11 @@ impl fmt::Display for Failure {
                 write!(f, "interrupted; nothing was written. Repeat the command to start again")
             }
             Self::Error(error) => f.write_str(&error.with_options()),
-            Self::Paused { done, total, what } => {
+            Self::Paused { done, total, noun } => {
                 let total = total.map_or_else(String::new, |total| format!(" of {total}"));
                 write!(
                     f,
-                    "interrupted; {done}{total} {what} are done and kept. Repeat the command to continue"
+                    "interrupted; {done}{total} {noun}s are done and kept. Repeat the command to continue"
                 )
             }
             Self::Kept { folder: Some(folder) } => write!(
@@ -129,7 +137,7 @@ mod tests {
             assert_eq!(not_the_inputs_fault.exit_code(), 2, "{not_the_inputs_fault:?}");
         }
         for interrupted in [
-            Failure::Paused { done: 1, total: Some(2), what: "fibres" },
+            Failure::Paused { done: 1, total: Some(2), noun: "fibre" },
             Failure::Kept { folder: None },
             Error::Interrupted.into(),
         ] {

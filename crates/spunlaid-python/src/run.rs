@@ -5,13 +5,12 @@ use crate::computed::{Computed, Of};
 use crate::watched::{Watch, watched};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use spunlaid::fibre::Remark;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::products::run::{Flights, RunFolder, fly as flown, found, performance};
+use spunlaid_results::products::run::{Flights, RunFolder, fly as flown};
 use std::path::PathBuf;
-use std::sync::{Mutex, OnceLock};
+use std::sync::Mutex;
 use std::time::Instant;
 
 /// Flies a case. See spunlaid.run, which calls it.
@@ -38,19 +37,18 @@ pub(crate) fn fly(
         flown.kept.iter().for_each(Flights::finish);
         staging.publish().map(|()| flown)
     })?;
-    let performance = performance(&case, &flown.results, computing, started.elapsed().as_secs_f64());
+    let (is_whole, paths) = (flown.paths.is_some(), flown.paths);
+    let results = (flown.results, flown.replicates, is_whole);
+    let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, (started, computing));
     let checks = Mutex::new(plans.before_flight());
     watch.begin(plans.fibre_steps());
     let checked = watched(py, &watch, progress.as_ref().filter(|_| plans.all().next().is_some()), || {
-        flown.paths.iter().for_each(|paths| *lock(&checks) = plans.check(paths, computing));
+        paths.iter().for_each(|paths| *lock(&checks) = plans.check(paths, computing));
         Ok(())
     });
     // What was flown is kept: a check that Ctrl-C stops says so in its place.
     checked
         .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
-    let (results, checks, drawn) = (flown.results, unlock(checks), OnceLock::new());
-    let mut notes = Remark::notes_of_results(&notes);
-    notes.extend(found(&case, &results).into_iter().flatten());
-    let run = RunFolder { name: name.clone(), case, results, checks, notes, performance, drawn };
+    run.checks = unlock(checks);
     Ok(Computed { name, of: Of::Run(Box::new(run)) })
 }

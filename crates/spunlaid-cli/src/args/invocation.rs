@@ -75,15 +75,16 @@ impl Invocation {
         Some(format!("--{}", found.get_long()?))
     }
 
-    /// What its results in a folder are made from: the files or folders that it reads.
+    /// What its results in a folder are made from: the files or folders that it reads. None for standard input, which
+    /// may differ each time.
     pub(crate) fn origin_of<'a>(
-        &'a self,
+        &self,
         files: impl IntoIterator<Item = &'a PathBuf>,
-    ) -> impl FnOnce(&Path) -> Option<Origin> {
+        folder: &Path,
+    ) -> Option<Origin> {
         let files: Vec<&Path> = files.into_iter().map(PathBuf::as_path).collect();
-        // Standard input may differ each time.
         let is_known = !files.iter().any(|file| is_standard(file));
-        move |folder| is_known.then(|| Origin::new(&self.command, &files, &self.options, folder))
+        is_known.then(|| Origin::new(&self.command, &files, &self.options, folder))
     }
 }
 

@@ -147,6 +147,15 @@ pub(crate) struct Sweep {
     pub(crate) figures: Figures,
 }
 
+impl Run {
+    /// The keys that options of their own replace, with their values.
+    pub(crate) fn changes(&self) -> Vec<(&'static str, String)> {
+        let numbers = [("run.replicates", self.replicates), ("run.seed", self.seed)];
+        let numbers = numbers.into_iter().filter_map(|(key, value)| Some((key, value?.to_string())));
+        numbers.chain(self.checks.map(|checks| ("run.checks", format!("\"{}\"", checks.name())))).collect()
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct Spin {
     /// File with the table [spinline] (TOML), alone or in a case

@@ -29,6 +29,11 @@ impl Output {
         self.out.clone().unwrap_or_else(|| Path::new("results").join(name))
     }
 
+    /// The same output with a folder also where none is named.
+    pub(crate) fn with_folder(&self, name: impl AsRef<Path>) -> Self {
+        Self { out: Some(self.folder(name)), ..self.clone() }
+    }
+
     /// The same; with `--json`, results go to a folder only if one is requested.
     pub(crate) fn optional_folder(&self, name: impl AsRef<Path>) -> Option<PathBuf> {
         (self.out.is_some() || !self.json).then(|| self.folder(name))

@@ -2,7 +2,7 @@
 
 use super::stem;
 use crate::args::{Compare, Invocation, Threads};
-use crate::delivery::{Asides, Delivery};
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::perform_words;
 use spunlaid::ground::FileKind;
@@ -15,11 +15,9 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     let runs: Vec<PathBuf> =
         compare.runs.iter().map(|run| results_of(run, compare)).collect::<Result<_, _>>()?;
     let folders = Folders::new(&runs)?;
-    let (folder, output) = (compare.output.optional_folder(folders.joined()), &compare.output);
-    let (origin, figures) = (invocation.origin_of(&runs), compare.figures.files());
-    let delivery = Delivery::open::<ComparedFolders>(folder, origin, output, &figures)?;
-    let found = folders.compare()?;
-    delivery.deliver(&found, Threads::default(), Asides { found: found.notes(), ..Asides::default() })
+    let shown = (&compare.output, compare.figures.files());
+    let delivery = Delivery::open::<ComparedFolders>(invocation, &runs, folders.joined(), shown)?;
+    delivery.deliver(&folders.compare()?, Threads::default(), &[])
 }
 
 /// The results folder that is named; of a file, one that is made now: a web is laid, a case flown, anything else

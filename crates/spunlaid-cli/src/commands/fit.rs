@@ -3,65 +3,40 @@
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::control::{lay_control, stop_on_ctrl_c};
-use crate::delivery::{Asides, making, say_continued, say_replaced, tell};
+use crate::delivery::{begin, making, say_continued, tell};
 use crate::failure::Failure;
 use crate::settled::settled;
 use crate::{progress, say};
-use spunlaid::experiment::fit::fit as find;
-use spunlaid::experiment::{Fit, Journal, Question, Target, WebInProgress};
-use spunlaid::fibre::Remark;
+use spunlaid::experiment::{Journal, WebInProgress};
 use spunlaid::ground::Error;
-use spunlaid::input::{FitFile, Resources, read_fit};
-use spunlaid::simulation::{Flights, Flyer};
-use spunlaid_results::products::finished::read_measured_web;
+use spunlaid::input::{Resources, read_fit};
 use spunlaid_results::products::fit::{self, FitInput, FoundFit, pretty};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
-    let set = overrides(&arguments.set);
-    let read =
-        |resources: &Resources| read_fit(&arguments.web, set.with(resources), &arguments.vary, "--vary");
-    let (threads, quiet) = (arguments.threads, arguments.output.quiet);
-    let file = settled(threads, quiet, read)?;
+    let (set, threads, output) = (overrides(&arguments.set), arguments.threads, &arguments.output);
+    let (web, webs) = (&arguments.web, arguments.webs);
+    let read = |resources: &Resources| read_fit(web, set.with(resources), &arguments.vary, "--vary");
+    let file = &settled(threads, output.quiet, read)?;
     file.start.notes.iter().for_each(say::note);
-    let scan = read_measured_web(&arguments.to)?;
-    let target = Target::new(&scan, &file.start.spec.sheet, arguments.spectrum)
-        .map_err(|fault| Error::folder(&arguments.to, fault))?;
-    let notes = Remark::notes_of_results(&file.start.notes);
-    let name = stem(&arguments.web, "web");
-    let paths = [arguments.web.display().to_string(), arguments.to.display().to_string()];
-    let input = FitInput {
-        name: &name,
-        paths: [&paths[0], &paths[1]],
-        file: &file,
-        target: &target,
-        webs: arguments.webs,
-        notes: &notes,
-    };
-    let path = arguments.output.folder(format!("{name}_fit"));
-    let origin = invocation.origin_of([&arguments.web])(&path);
-    let (mut folder, mut journal, state) =
-        fit::open(&path, &input, arguments.output.force, origin.as_ref(), stop_on_ctrl_c())?;
-    if folder.replaces() {
-        say_replaced(&path, &arguments.output);
-    }
+    let target = &fit::target(&arguments.to, file, arguments.spectrum)?;
+    let (name, paths) = (stem(web, "web"), [web, &arguments.to].map(|path| path.display().to_string()));
+    let path = output.folder(format!("{name}_fit"));
+    let input = FitInput { name, paths, file, target, webs };
+    let origin = invocation.origin_of([web], &path);
+    let opened = fit::open(&path, &input, output.force, origin.as_ref(), stop_on_ctrl_c())?;
+    let (mut folder, mut journal, state) = opened;
+    begin(&mut folder, arguments.figures.files(), output);
     if let Some(state) = state {
         let done = format!("{} already laid", counted(state.fibres, "web"));
-        say_continued(&state, &done, "web", &arguments.output);
+        say_continued(&state, &done, "web", output);
     }
-    let found = search(arguments, &file, &target, &mut journal).map_err(|error| match error {
-        Error::Interrupted => Failure::Paused { done: journal.total(), what: "webs", total: None },
-        other => other.into(),
-    })?;
-    folder.figures = arguments.figures.files();
-    let values: Vec<f64> = found.keys.iter().map(|key| key.value).collect();
-    let web = settled(threads, quiet, |resources| file.web(&values, resources))?;
-    let trials = counted(found.trials.len() as u64, "trial");
-    let lines = &[format!("{trials} of {} each", counted(found.webs, "web"))];
-    let contents = FoundFit { input, fit: &found, spec: &web.spec };
-    let text = folder.write(&contents, making(arguments.threads))?;
-    let asides = Asides { lines, ..Asides::default() };
-    tell(&contents, (Some(&path), &text), &arguments.output, asides);
+    let paused = |error, done| Failure::from(error).or_paused(done, None, "web");
+    let found = search(arguments, &input, &mut journal).map_err(|error| paused(error, journal.total()))?;
+    let trials = counted(found.fit.trials.len() as u64, "trial");
+    let lines = [format!("{trials} of {} each", counted(found.fit.webs, "web"))];
+    let text = folder.write(&found, making(threads))?;
+    tell(&found, (&path, &text), &lines, output);
     Ok(())
 }
 
@@ -69,31 +44,25 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
 const BEFORE: usize = 56;
 
 /// Searches, and shows how far it is.
-fn search(
+fn search<'a>(
     arguments: &args::Fit,
-    file: &FitFile,
-    target: &Target,
+    input: &'a FitInput<'_>,
     journal: &mut Journal,
-) -> Result<Fit, Error> {
-    let make =
-        |values: &[f64]| Ok(settled(arguments.threads, true, |resources| file.web(values, resources))?.spec);
-    let question = Question { parameters: &file.parameters, target, make: &make, webs: arguments.webs };
-    let laid = AtomicU64::new(0);
-    let by = lay_control(arguments.threads, &laid);
+) -> Result<FoundFit<'a>, Error> {
+    let (threads, laid) = (arguments.threads, AtomicU64::new(0));
+    let web = |values: &[f64]| settled(threads, true, |resources| input.file.web(values, resources));
     // How many trials there will be is not known.
     let template = "[{bar:20}] web {pos} of {len}  {elapsed} elapsed  {msg}";
     let bar = progress::bar(arguments.webs, template, arguments.output.quiet);
-    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let flyer = Flyer::new(by.threads, by.stop, &follow);
     let watch = |WebInProgress { trial, web, webs, values }: WebInProgress<'_>| {
-        let values = file.parameters.iter().zip(values);
+        let values = input.file.parameters.iter().zip(values);
         let values = values.map(|(key, value)| format!("{} = {}", key.key.name, pretty(key, *value)));
         bar.set_length(webs);
         bar.set_position(web - 1);
         let words = format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", "));
         bar.set_message(progress::fitting(&words, BEFORE));
     };
-    let found = find(question, flyer, by, journal, &watch);
+    let found = input.find(&web, lay_control(threads, &laid), journal, &watch);
     bar.finish_and_clear();
     found
 }

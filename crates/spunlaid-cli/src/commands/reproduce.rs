@@ -3,7 +3,7 @@
 use super::counted;
 use crate::args::{Invocation, Reproduce};
 use crate::control::run_control;
-use crate::delivery::{Asides, Delivery};
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::progress;
 use spunlaid::ground::Fault;
@@ -18,18 +18,15 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let mut base = table1(arguments.scheme)?;
     base.run.replicates = arguments.replicates;
-    let (folder, output) = (arguments.output.optional_folder("paper"), &arguments.output);
-    let (origin, figures) = (invocation.origin_of([]), arguments.width.files(&formats));
-    let delivery = Delivery::open::<PaperFolder<'_>>(folder, origin, output, &figures)?;
+    let shown = (&arguments.output, arguments.width.files(&formats));
+    let delivery = Delivery::open::<PaperFolder<'_>>(invocation, [], "paper", shown)?;
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
     let computing = run_control(arguments.threads, &fibre_steps);
     let label = format!("flying {}", counted(flying.fibres(), "fibre"));
-    let flown = progress::follow(&fibre_steps, flying.steps(), &label, arguments.output.quiet, || {
-        flying.fly(computing)
-    })?;
-
+    let (steps, quiet) = (flying.steps(), arguments.output.quiet);
+    let flown = progress::follow(&fibre_steps, steps, &label, quiet, || flying.fly(computing))?;
     let contents = PaperFolder {
         claims: &flown.claims(),
         figures: &flown.figures(&base),
@@ -37,7 +34,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
         how: &flown.how(),
         case: &base,
     };
-    delivery.deliver(&contents, arguments.threads, Asides::default())
+    delivery.deliver(&contents, arguments.threads, &[])
 }
 
 /// The requested figures, or all if none are named. `8`, `9` and `11` mean all their parts.
@@ -57,11 +54,8 @@ fn chosen(names: Vec<&String>) -> Result<Vec<&'static str>, Failure> {
         let found: Vec<_> = FIGURES.into_iter().filter(|&figure| figure == plain || part(figure)).collect();
         if found.is_empty() {
             let message = format!("--figures {name}: there is no such result figure");
-            return Err(Fault::new(
-                message,
-                format!("write some of {}, or svg, png, pdf", FIGURES.join(", ")),
-            )
-            .into());
+            let remedy = format!("write some of {}, or svg, png, pdf", FIGURES.join(", "));
+            return Err(Fault::new(message, remedy).into());
         }
         figures.extend(found);
     }

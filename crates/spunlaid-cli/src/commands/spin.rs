@@ -2,7 +2,7 @@
 
 use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
-use crate::delivery::{Asides, Delivery};
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::say;
 use crate::settled::settled;
@@ -15,10 +15,8 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let read = |resources: &Resources| read_spinline(&spin.file, set.with(resources));
     let file = settled(Threads::default(), spin.output.quiet, read)?;
     file.notes.iter().for_each(say::note);
-    let (name, origin) =
-        (name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]), invocation.origin_of([&spin.file]));
-    let folder = spin.output.optional_folder(&name);
-    let delivery = Delivery::open::<SpinFolder>(folder, origin, &spin.output, &spin.figures.files())?;
-    let contents = SpinFolder::solve(name, file)?;
-    delivery.deliver(&contents, Threads::default(), Asides { found: &contents.found, ..Asides::default() })
+    let name = name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]);
+    let shown = (&spin.output, spin.figures.files());
+    let delivery = Delivery::open::<SpinFolder>(invocation, [&spin.file], &name, shown)?;
+    delivery.deliver(&SpinFolder::solve(name, file)?, Threads::default(), &[])
 }

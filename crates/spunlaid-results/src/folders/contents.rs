@@ -35,6 +35,11 @@ pub trait Contents: Sync {
     /// The numbers, as JSON.
     fn summary(&self) -> String;
 
+    /// Remarks about what was found, for a terminal too.
+    fn found(&self) -> &[String] {
+        &[]
+    }
+
     /// Writes the summary, in parts if it is long.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ mod sources;
 use super::stem;
 use crate::args::{Air, Invocation};
 use crate::control::stop_on_ctrl_c;
-use crate::delivery::{Asides, Delivery};
+use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::settled::settled_with;
 use crate::{progress, say};
@@ -39,9 +39,9 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());
     }
-    let (name, origin) = (stem(&air.source.case, "case"), invocation.origin_of([&air.source.case]));
-    let folder = air.output.optional_folder(format!("{name}_air"));
-    let delivery = Delivery::open::<AirFolder<'_>>(folder, origin, &air.output, &air.figures.files())?;
+    let (name, shown) = (stem(&air.source.case, "case"), (&air.output, air.figures.files()));
+    let folder = format!("{name}_air");
+    let delivery = Delivery::open::<AirFolder<'_>>(invocation, [&air.source.case], folder, shown)?;
     let (replicate, threads) = (air.replicate - 1, air.threads.number());
     let looks = AirViews { replicate, frames: air.frames, duration: air.duration, threads };
     let done = AtomicU64::new(0);
@@ -49,5 +49,5 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         Slices::new(&case, &looks, &done, stop_on_ctrl_c())
     })?;
     let contents = AirFolder { name: &name, case: &case, slices: &slices, replicate, notes: &remarks };
-    delivery.deliver(&contents, air.threads, Asides::default())
+    delivery.deliver(&contents, air.threads, &[])
 }

@@ -94,19 +94,16 @@ pub struct ComparedFolders {
     found: Found,
 }
 
-impl ComparedFolders {
-    /// What is missing, and why.
-    pub fn notes(&self) -> &[String] {
-        &self.found.notes
-    }
-}
-
 impl Contents for ComparedFolders {
     const ENTRIES: &'static [&'static str] = &[ORIGIN, "figures", "report.html", Self::SUMMARY];
     const SUMMARY: &'static str = "comparison.json";
 
     fn summary(&self) -> String {
         files::summary(&self.found.comparisons, &self.found.notes)
+    }
+
+    fn found(&self) -> &[String] {
+        &self.found.notes
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

@@ -13,7 +13,7 @@ use spunlaid::experiment::{
 /// The text of `fit.json`.
 ///
 /// * `web`, `scan` – paths of what was fitted, and to what
-pub fn fit_json(fit: &Fit, target: &Target, [web, scan]: [&str; 2], notes: &[String]) -> String {
+pub(super) fn fit_json(fit: &Fit, target: &Target, [web, scan]: &[String; 2], notes: &[String]) -> String {
     let key = |key: &FittedKey| {
         let parameter = &key.parameter;
         let profile: Vec<Json> =

@@ -28,7 +28,7 @@ use crate::products::spinline::files::{SpinResults, write_stations};
 use figures::run_figures;
 use flown::Tables;
 use report::run_report;
-use spunlaid::fibre::Case;
+use spunlaid::fibre::{Case, Note, Remark};
 use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
 use spunlaid::simulation::{
@@ -37,6 +37,7 @@ use spunlaid::simulation::{
 use spunlaid_charts::Figure;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
+use std::time::Instant;
 use summary::summary;
 
 /// Number of replicates whose shapes are kept for the report and ParaView.
@@ -149,6 +150,33 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
+    /// A run whose time step and mesh are not checked yet; one that was interrupted is of the replicates that have
+    /// landed.
+    ///
+    /// * `notes` – about the case
+    /// * `flown` – the results, the number of replicates, and whether these are all
+    /// * `started` – when the flights began
+    pub fn new(
+        name: String,
+        (mut case, notes): (Arc<Case>, &[Note]),
+        (results, replicates, is_whole): (Results, u64, bool),
+        plans: &FinerPlans,
+        (started, by): (Instant, RunControl<'_>),
+    ) -> Self {
+        let mut notes = Remark::notes_of_results(notes);
+        let checks = if is_whole { plans.before_flight() } else { plans.stopped() };
+        if !is_whole {
+            let asked = case.run.replicates;
+            notes.push(format!(
+                "{replicates} of {asked} replicates: the run was interrupted, and the same command flies the others"
+            ));
+            Arc::make_mut(&mut case).run.replicates = replicates;
+        }
+        let performance = performance(&case, &results, by, started.elapsed().as_secs_f64());
+        notes.extend(found(&case, &results).into_iter().flatten());
+        Self { name, case, results, checks, notes, performance, drawn: OnceLock::new() }
+    }
+
     /// Warnings and remarks, with those of the checks.
     fn all_notes(&self) -> Vec<String> {
         let doubts =

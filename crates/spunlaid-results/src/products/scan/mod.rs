@@ -28,7 +28,7 @@ pub struct ScanFolder {
     /// What is told of the fabric.
     fabric: Fabric,
     /// What a reader must know of what was found.
-    pub notes: Vec<String>,
+    notes: Vec<String>,
     /// What it cost.
     performance: Performance,
 }
@@ -47,6 +47,10 @@ impl Contents for ScanFolder {
 
     fn summary(&self) -> String {
         summary_of_scan(&self.file, (&self.findings, &self.fabric), self.performance, &self.notes)
+    }
+
+    fn found(&self) -> &[String] {
+        &self.notes
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

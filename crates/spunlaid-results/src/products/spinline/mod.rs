@@ -33,7 +33,7 @@ pub struct SpinFolder {
     /// Its solution.
     pub results: SpinResults,
     /// Remarks about what was found.
-    pub found: Vec<String>,
+    found: Vec<String>,
 }
 
 impl SpinFolder {
@@ -59,6 +59,10 @@ impl Contents for SpinFolder {
 
     fn summary(&self) -> String {
         spinline::summary(&self.results, &self.notes())
+    }
+
+    fn found(&self) -> &[String] {
+        &self.found
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

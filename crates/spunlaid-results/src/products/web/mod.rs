@@ -79,11 +79,6 @@ impl WebFolder {
         Self { name, file, flown, findings, fabric, advice, guesses, beside, awaited, notes, performance }
     }
 
-    /// Notes about what was found.
-    pub fn found(&self) -> &[String] {
-        &self.notes[1]
-    }
-
     /// The specification sheet, one page of PDF.
     ///
     /// # Errors
@@ -123,6 +118,10 @@ impl Contents for WebFolder {
             self.performance,
             &self.notes.concat(),
         )
+    }
+
+    fn found(&self) -> &[String] {
+        &self.notes[1]
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {

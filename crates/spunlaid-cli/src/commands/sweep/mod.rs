@@ -1,0 +1,68 @@
+//! `spunlaid sweep`: flies a study and writes its results.
+
+mod told;
+
+use super::{counted, stem};
+use crate::args::{Invocation, Sweep, overrides};
+use crate::control::{run_control, stop_on_ctrl_c};
+use crate::delivery::{begin, making, tell};
+use crate::failure::Failure;
+use crate::settled::settled;
+use crate::{progress, say};
+use spunlaid::experiment::study::run;
+use spunlaid::experiment::{Journal, Progress};
+use spunlaid::ground::threads::unlock;
+use spunlaid::input::{Resources, StudyChanges, StudyFile, read_study};
+use spunlaid_results::folders::JournalFolder;
+use spunlaid_results::products::study::{self, lost};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicU64;
+use told::{print_point, say_begun, state};
+
+pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
+    let (output, points, replicates) = (&sweep.output, sweep.points, sweep.replicates);
+    let read = |resources: &Resources| {
+        let set = overrides(&sweep.set).with(resources);
+        read_study(&sweep.study, StudyChanges { points, replicates, set })
+    };
+    if let Some(number) = sweep.print_point {
+        return print_point(&read(&Resources::default())?.study, number);
+    }
+    let path = output.folder(stem(&sweep.study, "study"));
+    let file = settled(sweep.threads, output.quiet, read)?;
+    file.notes.iter().for_each(say::study_note);
+    let origin = invocation.origin_of([&sweep.study], &path);
+    let (mut folder, journal, found) =
+        study::open(&path, &file, output.force, origin.as_ref(), stop_on_ctrl_c())?;
+    begin(&mut folder, sweep.figures.files(), output);
+    say_begun(&file.study, found, output);
+
+    let (before, journal) = (journal.total(), Mutex::new(journal));
+    let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
+    let work = || run(&file.study, &journal, run_control(sweep.threads, &fibre_steps), &progress);
+    let outcome = progress::follow_state(state(&file.study, &fibre_steps, &progress), output.quiet, work);
+    let mut journal = unlock(journal);
+    let (done, total) = (journal.total(), Some(file.study.most_fibres()));
+    let written =
+        outcome.map_err(Failure::from).and_then(|()| write(sweep, &file, &mut folder, &mut journal, before));
+    written.map_err(|failure| failure.or_paused(done, total, file.study.noun()))
+}
+
+fn write(
+    sweep: &Sweep,
+    file: &StudyFile,
+    folder: &mut JournalFolder<'_>,
+    journal: &mut Journal,
+    before: u64,
+) -> Result<(), Failure> {
+    let name = stem(&sweep.study, "study");
+    let (found, text) = study::write(folder, &name, file, journal, making(sweep.threads))?;
+    let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
+    let noun = file.study.noun();
+    let done = if noun == "web" { "laid" } else { "flown" };
+    let complete =
+        format!("the study was already complete: no {noun} was {done}, and the files were written again");
+    let lines = &Vec::from_iter((before == fibres).then_some(complete));
+    tell(&found, (folder.path(), &text), lines, &sweep.output);
+    lost(&file.study, journal, fibres)?.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
+}

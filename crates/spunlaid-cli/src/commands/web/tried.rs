@@ -1,0 +1,62 @@
+//! What changes do to a web, and what of it is kept.
+
+use super::counted;
+use crate::delivery::Delivery;
+use crate::failure::Failure;
+use crate::{progress, say};
+use spunlaid::experiment::advice::{advise, steps};
+use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES};
+use spunlaid::ground::{Error, Log};
+use spunlaid::web::LayControl;
+use spunlaid_results::products::web::WebFolder;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// What flights have said, which is kept beside the folder until all is told. Nothing here ends the command: what is
+/// not kept is flown again.
+pub(super) fn kept(delivery: &Delivery<'_>) -> Option<(PathBuf, Log)> {
+    let folder = delivery.folder()?;
+    let name = folder.file_name().unwrap_or_default().to_string_lossy();
+    let file = folder.with_file_name(format!(".{name}.trials"));
+    let log = Log::open(&file, KEPT_OUTCOMES).ok()?;
+    let is_whole = !log.torn && log.damaged == 0;
+    if !log.keys().is_empty() || !is_whole {
+        let torn = if is_whole { "" } else { "; a torn or damaged record is flown again" };
+        let flights = counted(log.keys().len() as u64, "flight");
+        delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
+    }
+    Some((file, log))
+}
+
+/// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web
+/// and what was tried before stay in their folder.
+pub(super) fn try_changes(
+    changes: Vec<Change>,
+    [noun, of, without]: [&str; 3],
+    (web, judged_by): (&mut WebFolder, Option<f64>),
+    (kept, by): (Option<&Log>, LayControl<'_>),
+    (quiet, delivery): (bool, &mut Delivery<'_>),
+) -> Result<Option<Advice>, Failure> {
+    let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
+    let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
+    let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
+    let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (kept, by));
+    match progress::follow(&done, all, &label, quiet, work) {
+        Err(Error::Interrupted) => {
+            by.stop.store(false, Ordering::Relaxed);
+            web.awaited = false;
+            delivery.rewrite(web)?;
+            Err(Failure::Kept { folder: delivery.folder().map(Path::to_owned) })
+        }
+        Err(error) => {
+            say::warning(&format!("{label} of {} failed: {error}", web.name));
+            Ok(None)
+        }
+        Ok(advice) => {
+            let seconds = begun.elapsed().as_secs_f64();
+            delivery.line(&format!("{label} took {seconds:.2} s; {without} leaves it out"));
+            Ok(Some(advice))
+        }
+    }
+}
