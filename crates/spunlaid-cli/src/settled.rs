@@ -1,7 +1,7 @@
 //! Tensions at the ends of spinlines, which flights find before a file is settled.
 
 use crate::args::Threads;
-use crate::control::run_control;
+use crate::control::control;
 use crate::progress;
 use spunlaid::ground::Error;
 use spunlaid::input::Resources;
@@ -29,6 +29,6 @@ pub(crate) fn settled_with<T>(
             1 => "flying for the tension at the end of the spinline".to_owned(),
             several => format!("flying for the tensions at the ends of {several} spinlines"),
         };
-        progress::follow(&done, most, &label, quiet, || resources.fly(run_control(threads, &done)))
+        progress::follow(&done, most, &label, quiet, || resources.fly(control(threads, &done)))
     })
 }

@@ -60,6 +60,6 @@ pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
 pub use statistics::{Difference, Estimate, EvenSample, Interval, NORMAL_95, Spectrum, Welch, Window};
 pub use table::{FORMS, FirstCell, Head, Stamp, Table};
-pub use threads::OnDrop;
+pub use threads::{Control, OnDrop};
 pub use units::{Dimension, Expression, Powers, UnitAdvice};
 pub use vec3::Vec3;

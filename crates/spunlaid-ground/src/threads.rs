@@ -1,11 +1,25 @@
 //! Work that is shared among threads.
 
 use crate::error::Error;
+use crate::lanes::Isa;
 use std::convert::Infallible;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::{Scope, ScopedJoinHandle};
 use std::time::Duration;
+
+/// How work is done. None of it changes a bit of the results.
+#[derive(Clone, Copy, Debug)]
+pub struct Control<'a> {
+    /// Number of threads.
+    pub threads: usize,
+    /// Instruction set.
+    pub isa: Isa,
+    /// Set from elsewhere to stop early.
+    pub stop: &'a AtomicBool,
+    /// Grows by what is done, for a display of progress: steps of fibres that fly, pieces of filaments that are laid.
+    pub done: &'a AtomicU64,
+}
 
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///

@@ -6,9 +6,8 @@ use crate::value::overrides;
 use crate::watched::{Watch, guarded, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::{Journal, WebInProgress};
+use spunlaid::ground::Control;
 use spunlaid::input::{Overrides, Resources, read_fit};
-use spunlaid::simulation::RunControl;
-use spunlaid::web::LayControl;
 use spunlaid_results::folders::Contents;
 use spunlaid_results::products::fit::{self as folder, FitInput, sentences};
 use std::collections::BTreeMap;
@@ -60,12 +59,12 @@ pub(crate) fn find_fit(
         };
         // Progress is counted in webs.
         let aside = AtomicU64::new(0);
-        let flying = RunControl { fibre_steps: &aside, ..watch.run_control(threads) };
+        let flying = Control { done: &aside, ..watch.control(threads) };
         let web = |values: &[f64]| {
             let read = |resources: &Resources| file.web(values, resources);
             Resources::default().settle(read, |resources| resources.fly(flying))
         };
-        let laying = LayControl { laid: &aside, ..watch.lay_control(threads) };
+        let laying = Control { done: &aside, ..watch.control(threads) };
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = input.find(&web, laying, &mut journal, &tell)?;
         if let Some(mut place) = place {

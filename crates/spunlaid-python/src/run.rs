@@ -30,7 +30,7 @@ pub(crate) fn fly(
     let (case, notes, name) = case.settled(py, threads).map(|(of, notes)| (of, notes, case.stem()))?;
     let plans = if check_step { FinerPlans::for_case(&case) } else { FinerPlans::none(Unchecked::NotAsked) };
     let watch = Watch::new(case.run.steps.saturating_mul(case.run.replicates));
-    let (started, computing) = (Instant::now(), watch.run_control(threads));
+    let (started, computing) = (Instant::now(), watch.control(threads));
     let flown = watched(py, &watch, progress.as_ref(), || {
         let mut staging = Staging::new(&place, ENTRIES, false, &watch.stop)?;
         let flown = flown(&case, &plans, computing, Some(&staging), shapes, |_| ())?;

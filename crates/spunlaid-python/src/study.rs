@@ -13,12 +13,13 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use spunlaid::experiment::study::{rankings, results_of_point, run, unsynced};
 use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Record, Rounds};
+use spunlaid::ground::Control;
 use spunlaid::ground::threads::{lock, look_while, unlock};
 use spunlaid::ground::units::udunits;
 use spunlaid::input::{
     Overrides, Resources, StudyChanges, StudyFile, parse_study, read_study, read_text, write_experiment,
 };
-use spunlaid::simulation::{RunControl, WebSpec};
+use spunlaid::simulation::WebSpec;
 use spunlaid_results::Failure;
 use spunlaid_results::products::study::{self as folder, Scale};
 use std::path::PathBuf;
@@ -113,7 +114,7 @@ impl Study {
     #[pyo3(signature = (threads = None, progress = None))]
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let (watch, counters, steps) = (Watch::default(), Progress::default(), AtomicU64::new(0));
-        let computing = RunControl { fibre_steps: &steps, ..watch.run_control(threads) };
+        let computing = Control { done: &steps, ..watch.control(threads) };
         // Progress is counted in fibres, as it is on a cluster.
         let look = || {
             watch.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);

@@ -2,11 +2,9 @@
 
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
-use spunlaid::ground::Isa;
 use spunlaid::ground::threads::lock;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::Resources;
-use spunlaid::simulation::RunControl;
-use spunlaid::web::LayControl;
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Making;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -38,26 +36,14 @@ impl Watch {
         self.total.store(parts, Ordering::Relaxed);
     }
 
-    /// How an ensemble is computed that is watched, on so many threads.
-    pub(crate) fn run_control(&self, threads: Option<usize>) -> RunControl<'_> {
-        RunControl {
-            threads: self::threads(threads),
-            isa: Isa::detect(),
-            stop: &self.stop,
-            fibre_steps: &self.done,
-            recorder: None,
-        }
+    /// How work is done that is watched, on so many threads.
+    pub(crate) fn control(&self, threads: Option<usize>) -> Control<'_> {
+        Control { threads: self::threads(threads), isa: Isa::detect(), stop: &self.stop, done: &self.done }
     }
 
     /// How files are made that are watched.
     pub(crate) fn making(&self) -> Making<'_> {
         Making { threads: self::threads(None), stop: &self.stop, room: usize::MAX }
-    }
-
-    /// How a web is laid that is watched, likewise.
-    pub(crate) fn lay_control(&self, threads: Option<usize>) -> LayControl<'_> {
-        let threads = self::threads(threads);
-        LayControl { threads, isa: Isa::detect(), stop: &self.stop, laid: &self.done }
     }
 }
 
@@ -138,7 +124,7 @@ pub(crate) fn settled<T: Send>(
 ) -> PyResult<T> {
     let watch = Watch::default();
     watched(py, &watch, None, || {
-        let by = watch.run_control(threads);
+        let by = watch.control(threads);
         Resources::default().settle(read, |resources| resources.fly(by))
     })
 }

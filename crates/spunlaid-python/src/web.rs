@@ -43,7 +43,7 @@ pub(crate) fn lay_web(
         look_while(LOOK, || watch.done.store(done.load(Ordering::Relaxed), Ordering::Relaxed), work);
     };
     let web = watched(py, &watch, progress.as_ref(), || {
-        let (started, by) = (Instant::now(), watch.lay_control(threads));
+        let (started, by) = (Instant::now(), watch.control(threads));
         let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
         watch.begin(flown.pieces()?);
         let findings = flown.find(by)?;

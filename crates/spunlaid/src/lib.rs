@@ -16,17 +16,17 @@
 //! short, the program does this:
 //!
 //! ```
-//! use spunlaid::simulation::ensemble::{RunControl, Keep, Results, fly};
+//! use spunlaid::simulation::ensemble::{Keep, Results, fly};
 //! use spunlaid::ground::error::Error;
 //! use spunlaid::input::{read_case, starter_case};
-//! use spunlaid::ground::lanes::Isa;
+//! use spunlaid::ground::{Control, Isa};
 //! use std::sync::atomic::{AtomicBool, AtomicU64};
 //!
 //! # fn main() -> Result<(), Error> {
 //! let changes = [("run.duration", "0.1 s"), ("run.time_step", "20 µs"), ("run.replicates", "4")];
 //! let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
-//! let computing = RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &progress, recorder: None };
+//! let computing = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &progress };
 //! // No reader flies fibres. `Resources::settle` flies for a spinline that ends at the tension of its fibre.
 //! let (case, _notes) = read_case((starter_case(), "starter.toml"), &changes)?;
 //!

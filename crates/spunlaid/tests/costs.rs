@@ -14,10 +14,10 @@ use common::*;
 use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Strand};
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::ground::{Control, Isa, WIDTH};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, Keep, MEASURES, Results, RunControl, Trajectory};
+use spunlaid::simulation::{Job, Keep, MEASURES, Results, Trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -75,8 +75,7 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job::new(case, replicate)).collect();
     let flights = fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
@@ -219,13 +218,7 @@ fn memory_of_a_flight_does_not_grow_with_its_recorded_instants() {
         let mut case = table1(Scheme::ImplicitTension, 2e-4, 1.0, 2);
         (case.run.steps, case.run.output_steps) = (instants, 1);
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = RunControl {
-            threads: 1,
-            isa: Isa::detect(),
-            stop: &stop,
-            fibre_steps: &fibre_steps,
-            recorder: None,
-        };
+        let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
         let jobs = [0, 1].map(|replicate| Job::new(&case, replicate));
         let (flown, memory) =
             memory_of(|| fly_together(&jobs, Keep::CURVES, computing).expect("the case flies"));

@@ -2,7 +2,7 @@
 
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
-use crate::control::{lay_control, stop_on_ctrl_c};
+use crate::control::{control, stop_on_ctrl_c};
 use crate::delivery::{begin, making, say_continued, tell};
 use crate::failure::Failure;
 use crate::settled::settled;
@@ -62,7 +62,7 @@ fn search<'a>(
         let words = format!("trial {trial}: {}", values.collect::<Vec<_>>().join(", "));
         bar.set_message(progress::fitting(&words, BEFORE));
     };
-    let found = input.find(&web, lay_control(threads, &laid), journal, &watch);
+    let found = input.find(&web, control(threads, &laid), journal, &watch);
     bar.finish_and_clear();
     found
 }

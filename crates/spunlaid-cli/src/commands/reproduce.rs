@@ -2,7 +2,7 @@
 
 use super::counted;
 use crate::args::{Invocation, Reproduce};
-use crate::control::run_control;
+use crate::control::control;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::progress;
@@ -23,7 +23,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);
-    let computing = run_control(arguments.threads, &fibre_steps);
+    let computing = control(arguments.threads, &fibre_steps);
     let label = format!("flying {}", counted(flying.fibres(), "fibre"));
     let (steps, quiet) = (flying.steps(), arguments.output.quiet);
     let flown = progress::follow(&fibre_steps, steps, &label, quiet, || flying.fly(computing))?;

@@ -2,7 +2,7 @@
 
 use super::{counted, name_of};
 use crate::args::{Invocation, Run};
-use crate::control::run_control;
+use crate::control::control;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::settled::settled;
@@ -24,7 +24,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let mut delivery = Delivery::open::<RunFolder>(invocation, [&run.source.case], &name, shown)?;
 
     let fibre_steps = AtomicU64::new(0);
-    let by = run_control(run.threads, &fibre_steps);
+    let by = control(run.threads, &fibre_steps);
     let (started, plans, asked) = (Instant::now(), FinerPlans::for_case(&case), case.run.replicates);
     let fibres = counted(asked, "fibre");
     let going_on = |left| {

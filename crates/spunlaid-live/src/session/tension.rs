@@ -3,9 +3,8 @@
 
 use super::Session;
 use crate::document::{Document, complaints};
-use spunlaid::ground::{Error, Isa};
+use spunlaid::ground::{Control, Error, Isa};
 use spunlaid::input::{CaseWithNotes, Resources};
-use spunlaid::simulation::RunControl;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
 use std::thread;
@@ -47,8 +46,7 @@ impl Drop for TensionSearch {
 }
 
 fn fly(document: &Document, stop: &AtomicBool) -> Result<CaseWithNotes, Error> {
-    let by =
-        RunControl { threads: 1, isa: Isa::detect(), stop, fibre_steps: &AtomicU64::new(0), recorder: None };
+    let by = Control { threads: 1, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
     Resources::default().settle(|resources| document.case(resources), |resources| resources.fly(by))
 }
 

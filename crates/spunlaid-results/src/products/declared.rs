@@ -15,14 +15,14 @@ use crate::products::spinline::SpinFolder;
 use serde_json::Value as Json;
 use spunlaid::air::{OF_COMPONENTS, OF_RECORDS};
 use spunlaid::fibre::OF_SPINLINES;
-use spunlaid::ground::{Isa, Measure, Value, measure};
+use spunlaid::ground::{Control, Isa, Measure, Value, measure};
 use spunlaid::input::{read_spinline, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{
-    FewDoubt, FewFilamentsCv, Format, LayControl, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES,
-    OF_SCANS, OF_WEBS, Picture, scan,
+    FewDoubt, FewFilamentsCv, Format, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS,
+    Picture, scan,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -96,7 +96,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let file = read_web((WEB, "web.toml"), &[]).unwrap();
     let mut flown = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
     let laid = AtomicU64::new(0);
-    let laying = LayControl { threads: 2, isa: Isa::detect(), stop: &STOP, laid: &laid };
+    let laying = Control { threads: 2, isa: Isa::detect(), stop: &STOP, done: &laid };
     let found = flown.find(laying).unwrap();
     let (name, kinds) = ("web".to_owned(), kinds(&found));
     let mut written = WebFolder::new((name.clone(), name), file, (flown, found), (Instant::now(), laying));

@@ -7,15 +7,15 @@ use crate::title;
 use cpu_time::ProcessTime;
 use spunlaid::fibre::Case;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::ground::{Error, Isa, WIDTH};
+use spunlaid::ground::{Control, Error, Isa, WIDTH};
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum};
-use spunlaid::simulation::{Keep, Results, RunControl};
+use spunlaid::simulation::{Keep, Results};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
-    RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Control<'a> {
+    Control { threads, isa: Isa::detect(), stop, done: fibre_steps }
 }
 
 fn fly_all(case: &Case, threads: usize) {

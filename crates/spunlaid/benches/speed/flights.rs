@@ -2,16 +2,15 @@
 //! paths are off.
 
 use spunlaid::fibre::Case;
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::ground::{Control, Isa, WIDTH};
 use spunlaid::simulation::ensemble::{Sample, fly_together};
-use spunlaid::simulation::{Job, Keep, RunControl, Trajectory};
+use spunlaid::simulation::{Job, Keep, Trajectory};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The first eight flights of a case, on this thread.
 pub fn trajectories_of(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(case, replicate)).collect();
     fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies")
 }

@@ -2,9 +2,9 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::ground::{Isa, Lanes, WIDTH};
+use spunlaid::ground::{Control, Isa, Lanes, WIDTH};
 use spunlaid::web::map::{Filaments, lay};
-use spunlaid::web::{Fibres, LayControl, Layer, PathKey, Paths, Sheet, Surrogate, Web};
+use spunlaid::web::{Fibres, Layer, PathKey, Paths, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };
@@ -22,7 +22,7 @@ pub fn costs() {
                 Trial::new(metres, move || {
                     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
                     processor_time(|| {
-                        let laying = LayControl { threads: 1, isa, stop: &stop, laid: &laid };
+                        let laying = Control { threads: 1, isa, stop: &stop, done: &laid };
                         lay(&web, laying).expect("a web that can be laid");
                     })
                 }),

@@ -7,11 +7,11 @@ use crate::title;
 use spunlaid::experiment::advice::advise;
 use spunlaid::experiment::{Change, Tried};
 use spunlaid::ground::threads::each;
-use spunlaid::ground::{Difference, Isa};
+use spunlaid::ground::{Control, Difference, Isa};
 use spunlaid::input::{Changes, Overrides, WebSpec, read_changes, read_web};
 use spunlaid::simulation::Flyer;
+use spunlaid::web::Web;
 use spunlaid::web::map::{Findings, nearest_to_seen};
-use spunlaid::web::{LayControl, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -125,7 +125,7 @@ fn read(text: &str, changed: &[(&str, &str)]) -> WebSpec {
 
 fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut flown = Flyer::new(threads, &stop, &|_, work| work()).web(spec).expect("a flight");
     let findings = flown.find(by).expect("findings");
     (flown.web, findings)
@@ -134,7 +134,7 @@ fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
 /// What the program tells of a line, with what it takes.
 fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let spec = read(text, &[]);
     let begun = Instant::now();
     let (web, findings) = match std::env::args().any(|word| word == "small") {

@@ -5,9 +5,9 @@ use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, FrictionLaw, Snapshot, Strand};
-use spunlaid::ground::{Error, Estimate, Isa, WIDTH};
+use spunlaid::ground::{Control, Error, Estimate, Isa, WIDTH};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, Number, Results, RunControl};
+use spunlaid::simulation::{Keep, Number, Results};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
@@ -20,8 +20,7 @@ fn case(h: f64, replicates: u64) -> Case {
 fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let computing =
-        RunControl { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let mut collector = Results::collector(0);
     let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
         collector.take(flight);

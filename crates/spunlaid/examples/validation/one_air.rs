@@ -2,11 +2,11 @@
 
 use crate::title;
 use spunlaid::ground::threads::each;
-use spunlaid::ground::{Isa, Measure, measure};
+use spunlaid::ground::{Control, Isa, Measure, measure};
 use spunlaid::input::read_web;
 use spunlaid::simulation::Flyer;
 use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{Fabric, LayControl, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
+use spunlaid::web::{Fabric, OF_FABRIC_PATCHES, OF_FABRICS, OF_WEBS};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SEEDS: usize = 24;
@@ -93,7 +93,7 @@ fn web(file: &str, set: &[(&str, &str)]) -> (Findings, Fabric) {
     let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
     let spec = read_web((file, "web.toml"), &set).unwrap_or_else(|_| panic!("a web")).spec;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut flown = Flyer::new(1, &stop, &|_, work| work()).web(&spec).expect("a flight");
     let found = flown.find(by).expect("findings");
     let fabric = spec.fabric(&flown.web, &found, 1);

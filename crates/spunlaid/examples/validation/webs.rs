@@ -1,11 +1,11 @@
 //! Errors of small webs of each kind, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::ground::Isa;
 use spunlaid::ground::statistics::{difference_of_deviations, interval_of_deviation};
+use spunlaid::ground::{Control, Isa};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::map::{Filaments, find, lay};
-use spunlaid::web::{Clouds, Edges, Fibres, LayControl, Layer, Map, Row, Sheet, Surrogate, Web};
+use spunlaid::web::{Clouds, Edges, Fibres, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -105,7 +105,7 @@ pub fn intervals() {
 
 fn of_kind(web: &Web) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     // The edges are as wide for every seed.
     let margins =
         find(&Web { sheet: Sheet { patches: vec![10.0 * CELL], ..web.sheet.clone() }, ..web.clone() }, by)

@@ -16,13 +16,11 @@ pub mod one_air;
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use ensemble::{
     CellSource, Change, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
-    KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorder, Refinement, Results, RunControl,
-    RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
+    KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorder, Refinement, Results, RunPaths, Shape,
+    Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub(crate) use layers::SAME;
 pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WebKey, WebSpec};
 pub use observe::{DECLARED, FibreMeasure, LAYDOWN, MEASURES, Observation, Observer, SURROGATE};
 pub(crate) use one_air::FewOfWeb;
-pub use one_air::{
-    Beam, BeamCharge, BeamControl, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight,
-};
+pub use one_air::{Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight};

@@ -31,8 +31,8 @@ pub(crate) use map::{
 };
 pub use map::{
     ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres,
-    FlownFibres, LaidWeb, LayControl, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OF_PATCHES,
-    OF_WEBS, OneFibre, Row, Sheet, Strand, TimeSpent, Web, Window,
+    FlownFibres, LaidWeb, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OF_PATCHES, OF_WEBS,
+    OneFibre, Row, Sheet, Strand, TimeSpent, Web, Window,
 };
 pub use scan::{
     CELL, FEWEST, Format, Light, LightKind, OF_SCANNED_PATCHES, OF_SCANS, Picture, ScanRequest, Settings,

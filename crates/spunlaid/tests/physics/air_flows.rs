@@ -7,10 +7,10 @@ use spunlaid::air::{
 };
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight};
-use spunlaid::ground::{Error, Isa, Vec3};
+use spunlaid::ground::{Control, Error, Isa, Vec3};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, KeepShapes, RunControl, Trajectory};
+use spunlaid::simulation::{Keep, KeepShapes, Trajectory};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -23,8 +23,7 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 2, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+    let computing = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
     let mut flights = Vec::new();
     fly::<Error>(
         case,
@@ -391,7 +390,7 @@ fn check_identical(flow: impl Fn() -> Flow) {
     for isa in Isa::available() {
         for threads in [1, 3] {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &steps, recorder: None };
+            let computing = Control { threads, isa, stop: &stop, done: &steps };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             fewer.air.flow = flow();

@@ -2,9 +2,9 @@
 
 use crate::common::laying::{flight, laid_until, spunbond};
 use spunlaid::fibre::{Case, Flight, Job, LaidPoint};
-use spunlaid::ground::{Error, Isa};
+use spunlaid::ground::{Control, Error, Isa};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, LaidCurves, RunControl};
+use spunlaid::simulation::{Keep, LaidCurves};
 use spunlaid::web::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -100,14 +100,9 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
     let ensemble = |threads| {
         let curves = LaidCurves::default();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = RunControl {
-            threads,
-            isa: Isa::detect(),
-            stop: &stop,
-            fibre_steps: &fibre_steps,
-            recorder: Some(&curves),
-        };
-        fly::<Error>(&case, Keep::NUMBERS, computing, |_| Ok(())).unwrap();
+        let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+        fly::<Error>(&case, Keep { recorder: Some(&curves), ..Keep::NUMBERS }, computing, |_| Ok(()))
+            .unwrap();
         (0..11).map(|replicate| bits(&curves.take(replicate))).collect::<Vec<_>>()
     };
     let one = ensemble(1);

@@ -4,9 +4,9 @@ use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Run, Snapshot, Strand};
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::ground::{Control, Isa, WIDTH};
 use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, Keep, RunControl};
+use spunlaid::simulation::{Job, Keep};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;
@@ -209,13 +209,7 @@ fn invariant_strain_99_hardly_depends_on_the_step() {
         (case.run.time_step, case.run.steps, case.run.output_steps) = (h, steps(1.0), steps(1e-3));
         let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = RunControl {
-            threads: 1,
-            isa: Isa::detect(),
-            stop: &stop,
-            fibre_steps: &fibre_steps,
-            recorder: None,
-        };
+        let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
         let flown = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
         ["strain_99", "max_strain"]
             .map(|name| flown.iter().map(|fibre| fibre.number(name)).sum::<f64>() / 8.0)

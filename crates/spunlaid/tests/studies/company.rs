@@ -8,10 +8,10 @@ use spunlaid::experiment::study::fly_batches;
 use spunlaid::experiment::{Batch, Bundles, Point};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::{Error, Isa, Value as Measured};
+use spunlaid::ground::{Control, Error, Isa, Value as Measured};
 use spunlaid::input::{parse_study, read_case, write_case};
 use spunlaid::simulation::ensemble::{fly, fly_together};
-use spunlaid::simulation::{Job, Keep, RunControl, Trajectory};
+use spunlaid::simulation::{Job, Keep, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -83,8 +83,8 @@ fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
 /// All that may differ.
 const KEPT: Keep = Keep { samples: true, ..Keep::CURVES };
 
-fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunControl<'a> {
-    RunControl { threads: 1, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
+    Control { threads: 1, isa: Isa::detect(), stop, done: steps }
 }
 
 /// What a run of a case alone gives, or why it gives nothing.

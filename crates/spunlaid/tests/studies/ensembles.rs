@@ -4,10 +4,10 @@ use crate::common;
 use crate::common::*;
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Job, LaidPoint};
-use spunlaid::ground::{Error, Estimate, Isa};
+use spunlaid::ground::{Control, Error, Estimate, Isa};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, RunControl, Trajectory, Unchecked};
+use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, Trajectory, Unchecked};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -19,8 +19,7 @@ pub fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
 
 pub fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let mut flights = Vec::new();
     let done: Result<(), Error> = fly(case, Keep::SAMPLES, computing, |flight| {
         flights.push(flight);
@@ -174,8 +173,7 @@ fn rejects_a_flight_that_diverges() {
     let mut case = table1(3e-5, 0.5, 3);
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let done: Result<(), Error> = fly(&case, Keep::SAMPLES, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(
@@ -238,18 +236,12 @@ replicates = 12
     for threads in [1, 2] {
         let (stop, fibre_steps, told) =
             (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
-        let computing = RunControl {
-            threads,
-            isa: Isa::detect(),
-            stop: &stop,
-            fibre_steps: &fibre_steps,
-            recorder: Some(&told),
-        };
+        let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
         let (mut flown, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
         fly_for_checks(
             &case,
             &FinerPlans::none(Unchecked::NotAsked),
-            Keep::SAMPLES,
+            Keep { recorder: Some(&told), ..Keep::SAMPLES },
             computing,
             |_, _| Ok(None),
             |landed| {
@@ -279,11 +271,7 @@ replicates = 12
         assert!(told.values().any(|(begun, _)| *begun > 1));
         for flight in flown {
             let jobs = [Job::new(&case, flight.replicate)];
-            let alone = fly_together(
-                &jobs,
-                Keep::SAMPLES,
-                RunControl { recorder: None, fibre_steps: &AtomicU64::new(0), ..computing },
-            );
+            let alone = fly_together(&jobs, Keep::SAMPLES, Control { done: &AtomicU64::new(0), ..computing });
             assert_same(&alone.unwrap()[0], &flight);
             assert!(told[&flight.replicate].1 == flight.samples);
         }

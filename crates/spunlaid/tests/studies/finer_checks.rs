@@ -5,10 +5,10 @@ use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
-use spunlaid::ground::{Error, Estimate, Isa};
+use spunlaid::ground::{Control, Error, Estimate, Isa};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::{fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerCheck, FinerPlans, Keep, Refinement, RunControl, Trajectory, Unchecked};
+use spunlaid::simulation::{FinerCheck, FinerPlans, Keep, Refinement, Trajectory, Unchecked};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -21,7 +21,7 @@ fn checked_by(
     stop: bool,
 ) -> Result<(Vec<Trajectory>, Result<FinerCheck, Unchecked>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
-    let computing = RunControl { threads, isa, stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads, isa, stop: &stop, done: &fibre_steps };
     let none = || Err(Unchecked::NotAsked);
     // Short runs are not worth a check; here all of them are checked.
     let whole = Case { run: Run { checks: Checks::Full, ..case.run }, ..case.clone() };
@@ -127,8 +127,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     fine.set_time_step(check.time_step);
     let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&fine, replicate)).collect();
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &fibre_steps, recorder: None };
+    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let resolved = fly_together(&jobs, Keep::SAMPLES, computing).unwrap();
     let spread = off(&flown, &resolved, ["sigma_md", "sigma_cd"]);
     let found = change(&check, "spread");

@@ -4,12 +4,12 @@
 use spunlaid::air::Lateral;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{Case, Note};
-use spunlaid::ground::{Dimension, Error, Isa};
+use spunlaid::ground::{Control, Dimension, Error, Isa};
 use spunlaid::input::{
     CaseWithNotes, Overrides, Resources, StudyFile, parse_study, read_case, read_spinline, read_web,
 };
+use spunlaid::simulation::Keep;
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, RunControl};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The filament of the whole line, coarse and short.
@@ -39,8 +39,8 @@ fn owned(set: &[(&str, &str)]) -> Vec<(String, String)> {
     set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
 }
 
-fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunControl<'a> {
-    RunControl { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
+    Control { threads, isa: Isa::detect(), stop, done: steps }
 }
 
 /// What a file is when everything has been flown, and how many tensions that took.

@@ -8,10 +8,10 @@ use spunlaid::experiment::{
 };
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Value};
-use spunlaid::ground::{Error, Estimate, Isa};
+use spunlaid::ground::{Control, Error, Estimate, Isa};
 use spunlaid::input::{StudyFile, parse_study, read_case, starter_case, write_case};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, Results, RunControl, Trajectory};
+use spunlaid::simulation::{Keep, Results, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -19,8 +19,8 @@ fn study(text: &str) -> StudyFile {
     short::study(SHORT, text)
 }
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunControl<'a> {
-    RunControl { threads, isa: Isa::detect(), stop, fibre_steps: steps, recorder: None }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
+    Control { threads, isa: Isa::detect(), stop, done: steps }
 }
 
 fn flown(study: &Study, threads: usize) -> Journal {

@@ -3,12 +3,12 @@
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::experiment::Batch;
 use spunlaid::experiment::study::fly_bundle;
-use spunlaid::ground::{Dimension, Isa, Known, Measure, Value, measure};
+use spunlaid::ground::{Control, Dimension, Isa, Known, Measure, Value, measure};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::simulation::layers::web_key;
-use spunlaid::simulation::{Flights, Flyer, RunControl};
+use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::map::PatchFindings;
-use spunlaid::web::{LayControl, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS};
+use spunlaid::web::{OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -165,7 +165,7 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(1, &stop, &follow).web(spec).unwrap();
-    let found = flown.find(LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid }).unwrap();
+    let found = flown.find(Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid }).unwrap();
     // The strips that are cut off at the edges may leave no room for large patches.
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {
@@ -218,8 +218,7 @@ fn of_study(text: &str, study: &str, key: &str) -> Result<[Vec<u64>; 2], String>
     let study = study_beside_cases(text, study, &[]).map_err(|error| error.to_string())?.study;
     assert_ne!(study.points[0].experiment, study.points[1].experiment, "{key} is not set");
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing =
-        RunControl { threads: 1, isa: Isa::detect(), stop: &stop, fibre_steps: &steps, recorder: None };
+    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
     let bundle = [0, 1].map(|point| Batch { point, replicates: 0..1 });
     let records = fly_bundle((&study.points, &study.patch_sides()), &bundle, computing).unwrap();
     Ok([0, 1].map(|point| {

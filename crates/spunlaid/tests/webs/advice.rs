@@ -2,10 +2,9 @@
 
 use spunlaid::experiment::advice::{advise, judged_by};
 use spunlaid::experiment::{Advice, Change, Tried, setting};
-use spunlaid::ground::{Error, Isa, Setting};
+use spunlaid::ground::{Control, Error, Isa, Setting};
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
-use spunlaid::web::LayControl;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -63,11 +62,11 @@ fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
 fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
     let (file, changes) = read(text, &[]);
     let (laid, on) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = LayControl { threads, isa: Isa::detect(), stop: &on, laid: &laid };
+    let by = Control { threads, isa: Isa::detect(), stop: &on, done: &laid };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
     let findings = flown.find(by).unwrap();
-    advise(&file.spec, (&flown.web, &findings), changes, None, (None, LayControl { stop, ..by }))
+    advise(&file.spec, (&flown.web, &findings), changes, None, (None, Control { stop, ..by }))
 }
 
 fn weight(spec: &WebSpec) -> f64 {

@@ -2,10 +2,10 @@
 
 use super::one_air::{case_in, sheet};
 use spunlaid::fibre::{Case, Charge};
-use spunlaid::ground::Isa;
 use spunlaid::ground::place::Inlet;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::read_case;
-use spunlaid::simulation::{Beam, BeamCharge, BeamControl, BeamFindings};
+use spunlaid::simulation::{Beam, BeamCharge, BeamFindings};
 use spunlaid::web::{LaidWeb, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -35,7 +35,7 @@ fn lay(
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [5e-3, 5e-3], sides: [10e-3; 2] };
     let beam = Beam { charge, ..Beam::new(case, places) };
-    beam.lay(&sheet(COLUMNS, 32), window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap()
+    beam.lay(&sheet(COLUMNS, 32), window, Control { threads, isa, stop: &stop, done: &steps }).unwrap()
 }
 
 #[test]

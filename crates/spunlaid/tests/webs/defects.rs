@@ -1,11 +1,11 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::map::{lay, strands};
-use spunlaid::web::{Defect, LaidWeb, LayControl, Map};
+use spunlaid::web::{Defect, LaidWeb, Map};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const KNOWN: &str = "
@@ -52,7 +52,7 @@ fn missing(whole: &Map, other: &Map) -> (f64, f64) {
 fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() {
     let spec = read_web((KNOWN, "known.toml"), &[]).unwrap().spec;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = |threads| Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let lay_with = |defects: &[Defect], threads: usize| {
         let spec = with(&spec, defects);
         let flyer = Flyer::new(threads, &stop, &unwatched);
@@ -96,7 +96,7 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() 
 #[test]
 fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = |threads| LayControl { threads, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = |threads| Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let small = read(&[("web.length", "0.1 m"), ("web.window", "20 mm")]).spec;
     let blocked = Defect { from: Some(0.05), ..Defect::USUAL };
     let check = |spec: &WebSpec, lay: &dyn Fn(&WebSpec, usize) -> LaidWeb| {

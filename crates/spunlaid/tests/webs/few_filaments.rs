@@ -1,9 +1,9 @@
 //! How many filaments of a web in one air are flown for all of them.
 
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
-use spunlaid::web::{FewDoubt, LayControl, LayerFew};
+use spunlaid::web::{FewDoubt, LayerFew};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A row on so short a way that neighbours hardly know of each other.
@@ -43,7 +43,7 @@ fn told(flown: &str) -> LayerFew {
     let text = format!("{WEB}flown = {flown}\n");
     let spec: WebSpec = read_web((&text, "web.toml"), &[]).unwrap_or_else(|_| panic!("it is read")).spec;
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = web.find(by).unwrap();
     findings.laid.flown[0].few.clone().unwrap()

@@ -3,10 +3,9 @@
 use crate::advice::cases;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{advise, are_tried};
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::Flyer;
-use spunlaid::web::LayControl;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
@@ -119,7 +118,7 @@ guessed = \"line.filaments_per_metre\"
     let (spec, changes) = (read_web((text, &cases()), &[]).unwrap().spec, read(text, &[]));
     assert_eq!(factors(&changes), [("line.filaments_per_metre", 0.5), ("line.filaments_per_metre", 2.0)]);
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid };
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = flown.find(by).unwrap();
     assert!(are_tried(&spec, &findings, &changes));

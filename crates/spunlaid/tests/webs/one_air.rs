@@ -3,9 +3,9 @@
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Case;
 use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Error, Isa};
+use spunlaid::ground::{Control, Error, Isa};
 use spunlaid::input::read_case;
-use spunlaid::simulation::{Beam, BeamControl, BeamFindings};
+use spunlaid::simulation::{Beam, BeamFindings};
 use spunlaid::web::map::uniformity::unevenness;
 use spunlaid::web::{LaidWeb, Map, Sheet, Window};
 use std::path::Path;
@@ -50,7 +50,7 @@ pub(super) fn lay_by(
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam::new(case, places);
-    let laid = beam.lay(sheet, window, BeamControl { threads, isa, stop: &stop, steps: &steps }).unwrap();
+    let laid = beam.lay(sheet, window, Control { threads, isa, stop: &stop, done: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
 }
@@ -193,7 +193,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam::new(&case, &places);
-    let by = BeamControl { threads: 2, isa: Isa::detect(), stop: &stop, steps: &steps };
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");
 

@@ -1,11 +1,11 @@
 //! The web: nothing is lost, and its unevenness is that of the laws.
 
 use proptest::prelude::*;
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::web::map::uniformity::unevenness;
 use spunlaid::web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
 use spunlaid::web::{
-    Edges, Fibres, LaidWeb, LayControl, Layer, Map, OneFibre, Row, Sheet, Strand, Surrogate, Web, Window,
+    Edges, Fibres, LaidWeb, Layer, Map, OneFibre, Row, Sheet, Strand, Surrogate, Web, Window,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -28,7 +28,7 @@ fn layer(fibres: Fibres, per_metre: f64) -> Layer {
 
 fn laid_by(web: &Web, isa: Isa, threads: usize) -> LaidWeb {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    lay(web, LayControl { threads, isa, stop: &stop, laid: &laid }).expect("a web that can be laid")
+    lay(web, Control { threads, isa, stop: &stop, done: &laid }).expect("a web that can be laid")
 }
 
 fn laid(web: &Web) -> LaidWeb {
@@ -64,7 +64,7 @@ fn one_fibre_says_how_uneven_the_web_is() {
     let tau = web.basis_weight() / LINEAR_DENSITY;
     let sides = [1, 2, 5, 10, 20, 50];
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
     let of = OneFibre { cell: 1e-3, fibres: 64, seed: 1 };
     let alone = one_fibre(&by_surrogate, &sides, of, by).expect("single fibres");
     for (side, alone) in sides.into_iter().zip(alone.into_iter().map(|alone| alone.at_random)) {
@@ -86,7 +86,7 @@ fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
         let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..Sheet::new(0.5, 1.0, 1e-3) };
         let web = Web { sheet, layers: vec![layer], seed: 4 };
         let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+        let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
         for patch in find(&web, by).expect("findings").patches {
             let (wanted, own) = patch.single_fibres.expect("known numbers");
             let error = patch.map.standard_error.expect("an error");
@@ -123,7 +123,7 @@ fn inside(web: &Web, off: usize) -> Window {
 
 fn fibres(web: &Web, window: Window) -> Vec<Strand> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    strands(web, window, LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid })
+    strands(web, window, Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid })
         .expect("fibres")
 }
 
@@ -215,7 +215,7 @@ fn half_of_the_mass_lies_along_the_machine_direction() {
         let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
         let web = Web { sheet: Sheet::new(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
         let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = LayControl { threads: 1, isa: Isa::detect(), stop: &stop, laid: &laid };
+        let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
         let found = orientation(&web, by).expect("an orientation");
         let error = found.cos_squared.standard_error.expect("an error");
         assert!(
@@ -233,7 +233,7 @@ fn the_whole_error_of_a_surrogate_alone_is_not_known() {
     let sheet = Sheet { patches: vec![5e-3], ..Sheet::new(0.2, 0.2, 1e-3) };
     let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &pieces };
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
     let found = find(&web, by).expect("findings");
     let patch = found.patches[0];
     let error = patch.whole_error();

@@ -1,10 +1,10 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
 use spunlaid::ground::statistics::difference_of_deviations;
-use spunlaid::ground::{Error, Isa};
+use spunlaid::ground::{Control, Error, Isa};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::map::{Filaments, Findings, find, lay};
-use spunlaid::web::{Clouds, Edges, Fibres, LayControl, Layer, Row, Sheet, Surrogate, Web};
+use spunlaid::web::{Clouds, Edges, Fibres, Layer, Row, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const WEBS: u64 = 80;
@@ -34,9 +34,9 @@ fn rows(pitch: f64, filaments: u64) -> Filaments {
     Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, filaments)])
 }
 
-fn with<T>(run: impl FnOnce(LayControl<'_>) -> T) -> T {
+fn with<T>(run: impl FnOnce(Control<'_>) -> T) -> T {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    run(LayControl { threads: 2, isa: Isa::detect(), stop: &stop, laid: &laid })
+    run(Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid })
 }
 
 /// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those

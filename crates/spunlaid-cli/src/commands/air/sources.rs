@@ -2,7 +2,7 @@
 
 use crate::args::{Air, Invocation, is_standard, overrides};
 use crate::commands::{counted, stem};
-use crate::control::run_control;
+use crate::control::control;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::settled::settled;
@@ -36,7 +36,7 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     let done = AtomicU64::new(0);
     let (steps, replicates) = (case.run.steps * case.run.replicates, case.run.replicates);
     let label = format!("flying {}", counted(replicates, "fibre"));
-    let fly = || Sources::fly(case, &curtain, run_control(air.threads, &done));
+    let fly = || Sources::fly(case, &curtain, control(air.threads, &done));
     let sources = progress::follow(&done, steps, &label, quiet, fly)?;
     let contents = SourcesFolder::new(name, (input, case, notes), sources);
     delivery.deliver(&contents, air.threads, &[])?;

@@ -4,7 +4,7 @@ mod told;
 
 use super::{counted, stem};
 use crate::args::{Invocation, Sweep, overrides};
-use crate::control::{run_control, stop_on_ctrl_c};
+use crate::control::{control, stop_on_ctrl_c};
 use crate::delivery::{begin, making, tell};
 use crate::failure::Failure;
 use crate::settled::settled;
@@ -39,7 +39,7 @@ pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failur
 
     let (before, journal) = (journal.total(), Mutex::new(journal));
     let (fibre_steps, progress) = (AtomicU64::new(0), Progress::default());
-    let work = || run(&file.study, &journal, run_control(sweep.threads, &fibre_steps), &progress);
+    let work = || run(&file.study, &journal, control(sweep.threads, &fibre_steps), &progress);
     let outcome = progress::follow_state(state(&file.study, &fibre_steps, &progress), output.quiet, work);
     let mut journal = unlock(journal);
     let (done, total) = (journal.total(), Some(file.study.most_fibres()));

@@ -5,7 +5,7 @@ mod tried;
 
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
-use crate::control::lay_control;
+use crate::control::control;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::file::check_file;
@@ -36,7 +36,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let trials = Trials::read(arguments, &web.spec)?;
 
     let (started, laid, follow) = (Instant::now(), AtomicU64::new(0), flying(output.quiet));
-    let by = lay_control(threads, &laid);
+    let by = control(threads, &laid);
     let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&web.spec)?;
     let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
     let findings = progress::follow(&laid, flown.pieces()?, &label, output.quiet, || flown.find(by))?;

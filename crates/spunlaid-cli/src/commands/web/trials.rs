@@ -7,8 +7,8 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use spunlaid::experiment::advice::{are_tried, steps};
 use spunlaid::experiment::{Change, MOST_STEPS};
+use spunlaid::ground::Control;
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes};
-use spunlaid::web::LayControl;
 use spunlaid::web::map::Findings;
 use spunlaid_results::products::web::WebFolder;
 use std::fs;
@@ -53,7 +53,7 @@ impl Trials {
     pub(super) fn run(
         self,
         (mut web, judged_by): (WebFolder, Option<f64>),
-        by: LayControl<'_>,
+        by: Control<'_>,
         quiet: bool,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {

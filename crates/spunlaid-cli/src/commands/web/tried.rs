@@ -6,8 +6,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, steps};
 use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES};
-use spunlaid::ground::{Error, Log};
-use spunlaid::web::LayControl;
+use spunlaid::ground::{Control, Error, Log};
 use spunlaid_results::products::web::WebFolder;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -35,12 +34,12 @@ pub(super) fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
     (web, judged_by): (&mut WebFolder, Option<f64>),
-    (kept, by): (Option<&Log>, LayControl<'_>),
+    (kept, by): (Option<&Log>, Control<'_>),
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
-    let (all, by) = (steps(spec, &changes), LayControl { laid: &done, ..by });
+    let (all, by) = (steps(spec, &changes), Control { done: &done, ..by });
     let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (kept, by));
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {

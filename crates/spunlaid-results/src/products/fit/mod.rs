@@ -21,10 +21,10 @@ use spunlaid::experiment::{
     Fit, Header, Journal, JournalState, MOST_TRIALS, Question, Target, WebInProgress,
 };
 use spunlaid::fibre::Remark;
-use spunlaid::ground::{Error, Fault};
+use spunlaid::ground::{Control, Error, Fault};
 use spunlaid::input::{FitFile, WebFile, WebSpec};
 use spunlaid::simulation::{Flights, Flyer};
-use spunlaid::web::LayControl;
+
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -58,7 +58,7 @@ impl FitInput<'_> {
     pub fn find(
         &self,
         web: &(dyn Fn(&[f64]) -> Result<WebFile, Error> + Sync),
-        by: LayControl<'_>,
+        by: Control<'_>,
         journal: &mut Journal,
         watch: &dyn Fn(WebInProgress<'_>),
     ) -> Result<FoundFit<'_>, Error> {

@@ -6,6 +6,7 @@ use crate::products::study::shown;
 use spunlaid::experiment::study::{results_of_point, run};
 use spunlaid::experiment::{Claim, Journal, PointResults, Progress, Replicates, Study};
 use spunlaid::fibre::Case;
+use spunlaid::ground::Control;
 use spunlaid::ground::error::counted;
 use spunlaid::ground::threads::unlock;
 use spunlaid::input::paper::{
@@ -13,7 +14,7 @@ use spunlaid::input::paper::{
     in_scheme, time_steps,
 };
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
-use spunlaid::simulation::{CurveValue, Keep, KeepShapes, Number, Results, RunControl, SpectrumPoint};
+use spunlaid::simulation::{CurveValue, Keep, KeepShapes, Number, Results, SpectrumPoint};
 use spunlaid_charts::Figure;
 use std::sync::Mutex;
 
@@ -100,7 +101,7 @@ impl PaperFlights {
     ///
     /// # Errors
     /// If a flight fails or is stopped.
-    pub fn fly(self, computing: RunControl<'_>) -> Result<PaperResults, Failure> {
+    pub fn fly(self, computing: Control<'_>) -> Result<PaperResults, Failure> {
         let journal = Mutex::new(Journal::in_memory());
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = unlock(journal);

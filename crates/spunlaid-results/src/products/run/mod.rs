@@ -29,10 +29,10 @@ use figures::run_figures;
 use flown::Tables;
 use report::run_report;
 use spunlaid::fibre::{Case, Note, Remark};
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::ground::{Control, Isa, WIDTH};
 use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
 use spunlaid::simulation::{
-    FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunControl, RunPaths,
+    FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunPaths,
 };
 use spunlaid_charts::Figure;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -76,7 +76,7 @@ pub struct Flown {
 pub fn fly(
     case: &Case,
     plans: &FinerPlans,
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     staging: Option<&Staging<'_>>,
     with_shapes: bool,
     found: impl FnOnce(u64),
@@ -90,12 +90,12 @@ pub fn fly(
     let tables = staging.zip(flights.as_ref()).map(|(staging, flights)| Tables::create(staging, flights));
     let mut tables = tables.transpose()?;
     let recorder = flights.as_ref().map(|flights| flights as &dyn Recorder);
-    let computing = RunControl { recorder, ..computing };
+    let recorded = Keep { recorder, ..keep };
     let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
     let flown = fly_for_checks(
         case,
         plans,
-        keep,
+        recorded,
         computing,
         |some, paths| flights.as_ref().map_or(Ok(None), |flights| flights.recall(some, paths)),
         |landed| {
@@ -161,7 +161,7 @@ impl RunFolder {
         (mut case, notes): (Arc<Case>, &[Note]),
         (results, replicates, is_whole): (Results, u64, bool),
         plans: &FinerPlans,
-        (started, by): (Instant, RunControl<'_>),
+        (started, by): (Instant, Control<'_>),
     ) -> Self {
         let mut notes = Remark::notes_of_results(notes);
         let checks = if is_whole { plans.before_flight() } else { plans.stopped() };
@@ -200,7 +200,7 @@ impl Contents for RunFolder {
         let input = maker.keep(Input::Case(case))?;
         if self.drawn.get().is_none() {
             let (Making { threads, stop, .. }, fibre_steps) = (maker.making, &AtomicU64::new(0));
-            let computing = RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None };
+            let computing = Control { threads, isa: Isa::detect(), stop, done: fibre_steps };
             let drawn = run_figures(case, results, &turbulence_spectrum(case, computing)?);
             let _ = self.drawn.set(drawn);
         }
@@ -288,7 +288,7 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
 /// What the flights cost, without those of the checks.
 ///
 /// * `wall_s` – time that they took [s]
-pub fn performance(case: &Case, results: &Results, computing: RunControl<'_>, wall_s: f64) -> Performance {
+pub fn performance(case: &Case, results: &Results, computing: Control<'_>, wall_s: f64) -> Performance {
     let threads = computing.threads.min(case.flights() as usize);
     // Of a fed fibre, as many as there are in the air on average.
     let elements =

@@ -26,11 +26,11 @@ use report::spinlines::LayerSpinline;
 use report::web_report;
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::{Case, Load, Remark, Solution};
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Control, Isa};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::FlownWeb;
 use spunlaid::web::map::{Findings, strands};
-use spunlaid::web::{Fabric, FlownFibres, LayControl, Web};
+use spunlaid::web::{Fabric, FlownFibres, Web};
 use spunlaid_charts::Figure;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
@@ -70,7 +70,7 @@ impl WebFolder {
         (name, beside): (String, String),
         file: WebFile,
         (flown, findings): (FlownWeb, Findings),
-        (started, by): (Instant, LayControl<'_>),
+        (started, by): (Instant, Control<'_>),
     ) -> Self {
         let fabric = file.spec.fabric(&flown.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
@@ -128,7 +128,7 @@ impl Contents for WebFolder {
         let Self { flown: FlownWeb { web, .. }, findings, .. } = self;
         let (spec, advice, guesses) = (&self.file.spec, self.advice.as_ref(), self.guesses.as_ref());
         let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
-        let by = LayControl { threads, isa: Isa::detect(), stop, laid: &AtomicU64::new(0) };
+        let by = Control { threads, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
         let strands = match findings.laid.flown.is_empty() {
             true => strands(web, spec.window(), by)?,
             false => findings.laid.strands(),

@@ -18,11 +18,11 @@ use self::web_of_few::WebOfFew;
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;
-use crate::ground::{Dimension, Effect, Error, Fault, Log, Outcome, RACING, Trials, effects};
+use crate::ground::{Control, Dimension, Effect, Error, Fault, Log, Outcome, RACING, Trials, effects};
 use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
-use crate::web::{ExpectedCv, LayControl, Web};
+use crate::web::{ExpectedCv, Web};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A change of a web.
@@ -105,7 +105,7 @@ pub fn advise(
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
     judged_by: Option<f64>,
-    (kept, by): (Option<&Log>, LayControl<'_>),
+    (kept, by): (Option<&Log>, Control<'_>),
 ) -> Result<Advice, Error> {
     let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
         few_of_changes((spec, findings), (changes, of_each), (kept, by))
@@ -150,17 +150,17 @@ type Outcomes = Vec<Outcome<f64>>;
 fn few_of_changes(
     (spec, findings): (&WebSpec, &Findings),
     (changes, of_each): (&[Change], Compared),
-    (kept, by): (Option<&Log>, LayControl<'_>),
+    (kept, by): (Option<&Log>, Control<'_>),
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them.
     let tell = |webs: &[&WebSpec], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
         let key = [u64::from(checksum(spec, webs, of_each)), 0];
         if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
-            by.laid.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
+            by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
             return Ok(Some(found));
         }
-        let Some(told) = flyer.few_in_same_air((webs, of_each), by.laid)? else { return Ok(None) };
+        let Some(told) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
         let found = effects(told)?;
         // What cannot be kept is flown again.
         kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
@@ -228,21 +228,21 @@ fn try_alone(
     spec: &WebSpec,
     (web, findings): (&Web, &Findings),
     changes: &[Change],
-    by: LayControl<'_>,
+    by: Control<'_>,
 ) -> Result<Outcomes, Error> {
     let is_shared = spec.flies();
     let aside = AtomicU64::new(0);
     let base = match is_shared {
         true => of_maps(&findings.patches),
-        false => expected_cv(web, LayControl { laid: &aside, ..by })?,
+        false => expected_cv(web, Control { done: &aside, ..by })?,
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in
     // one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
     try_each(abreast, changes.len(), |i| {
         let changed = &changes[i..=i];
-        let found = cvs(&changed[0].experiment.spec, LayControl { threads, laid: &aside, ..by });
-        by.laid.fetch_add(steps(spec, changed), Ordering::Relaxed);
+        let found = cvs(&changed[0].experiment.spec, Control { threads, done: &aside, ..by });
+        by.done.fetch_add(steps(spec, changed), Ordering::Relaxed);
         match found {
             Ok(found) => Ok(Ok(effects_between(&base, &found))),
             Err(Error::Interrupted) => Err(Error::Interrupted),
@@ -266,7 +266,7 @@ fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
 
 /// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of
 /// independent ones.
-fn cvs(spec: &WebSpec, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
+fn cvs(spec: &WebSpec, by: Control<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let mut flown = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
     if spec.flies() { Ok(of_maps(&flown.find(by)?.patches)) } else { expected_cv(&flown.web, by) }
 }

@@ -47,9 +47,9 @@ pub use texture::Texture;
 pub use webs::{MOST_TRIALS, WebInProgress};
 
 use crate::experiment::study::{Experiment, Journal};
-use crate::ground::{Error, Fault};
+use crate::ground::{Control, Error, Fault};
 use crate::simulation::{Flyer, WebSpec};
-use crate::web::LayControl;
+
 use simulator::{Simulator, WebSimulator};
 use webs::Webs;
 
@@ -115,7 +115,7 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
 pub fn fit<'a>(
     question: Question<'a>,
     flyer: Flyer<'a>,
-    by: LayControl<'a>,
+    by: Control<'a>,
     journal: &'a mut Journal,
     watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
@@ -135,7 +135,7 @@ pub fn fit<'a>(
 pub fn errors_of_model(
     question: Question<'_>,
     flyer: Flyer<'_>,
-    by: LayControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<Vec<f64>>, Error> {
     let start: Vec<f64> = question.parameters.iter().map(|sought| sought.start).collect();
     WebSimulator::new((question.make, question.target), flyer, by, &start)?.errors_of_model()

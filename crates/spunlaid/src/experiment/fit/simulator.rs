@@ -4,9 +4,8 @@ use super::target::Target;
 use super::texture::Texture;
 use super::weights::Matrix;
 use crate::experiment::study::seed_of_web;
-use crate::ground::{Error, Fault};
+use crate::ground::{Control, Error, Fault};
 use crate::simulation::{Flown, Flyer, WebSpec};
-use crate::web::LayControl;
 use crate::web::map::{PatchFindings, inner_columns};
 
 /// Webs of a few filaments that are compared with those of all in the same air.
@@ -42,7 +41,7 @@ pub(super) struct WebSimulator<'a> {
     make: MakeWeb<'a>,
     target: &'a Target,
     flyer: Flyer<'a>,
-    by: LayControl<'a>,
+    by: Control<'a>,
     /// The web of the values that were set last.
     spec: WebSpec,
 }
@@ -55,7 +54,7 @@ impl<'a> WebSimulator<'a> {
     pub(super) fn new(
         (make, target): (MakeWeb<'a>, &'a Target),
         flyer: Flyer<'a>,
-        by: LayControl<'a>,
+        by: Control<'a>,
         start: &[f64],
     ) -> Result<Self, Error> {
         Ok(Self { make, target, flyer, by, spec: make(start)? })

@@ -4,9 +4,9 @@
 use super::{Experiment, Point};
 use crate::fibre::Common;
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Error, WIDTH};
+use crate::ground::{Control, Error, WIDTH};
 use crate::simulation::ensemble::{fly_each, in_order};
-use crate::simulation::{Job, Keep, RunControl, Trajectory};
+use crate::simulation::{Job, Keep, Trajectory};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -148,8 +148,8 @@ fn length(batch: &Batch) -> u64 {
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
     mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     let flown =
@@ -168,8 +168,8 @@ pub fn fly_batches<E: From<Error>>(
 pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
     land: impl Fn(Vec<(usize, Trajectory)>, Vec<LostReplicate>) -> Result<T, Error> + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {

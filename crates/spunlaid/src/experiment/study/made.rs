@@ -3,10 +3,9 @@
 use super::batch::Batch;
 use super::measures::{Record, ReplicateOutcome, measured_of_spinline, measured_of_web};
 use super::{Point, seed_of_point};
-use crate::ground::Error;
+use crate::ground::{Control, Error};
 use crate::simulation::ensemble::in_order;
-use crate::simulation::{Flights, Flyer, RunControl, WebSpec};
-use crate::web::LayControl;
+use crate::simulation::{Flights, Flyer, WebSpec};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments
@@ -21,17 +20,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub(super) fn lay_webs(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     steps: &AtomicU64,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let RunControl { threads, isa, stop, fibre_steps, .. } = computing;
     let follow = |Flights { done, steps: all, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
         steps.fetch_add(all, Ordering::Relaxed);
         work();
-        fibre_steps.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
+        computing.done.fetch_add(done.load(Ordering::Relaxed), Ordering::Relaxed);
     };
-    let flyer = Flyer::new(threads, stop, &follow);
+    let flyer = Flyer::new(computing.threads, computing.stop, &follow);
     for Batch { point, replicates } in batches {
         let Some(spec) = points[*point].experiment.web() else { continue };
         for replicate in replicates.clone() {
@@ -39,8 +37,8 @@ pub(super) fn lay_webs(
             let spec = WebSpec { seed, ..spec.clone() };
             let mut flown = flyer.web(&spec)?;
             steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
-            let found = flown.find(LayControl { threads, isa, stop, laid: fibre_steps })?;
-            let fabric = spec.fabric(&flown.web, &found, threads);
+            let found = flown.find(computing)?;
+            let fabric = spec.fabric(&flown.web, &found, computing.threads);
             let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found, &fabric));
             take(Record { point: *point as u64, replicate, outcome })?;
         }
@@ -63,7 +61,7 @@ pub(crate) fn seed_of_web(spec: &WebSpec, replicate: u64) -> u64 {
 pub(super) fn solve_spinlines(
     points: &[Point],
     batches: &[Batch],
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let of_spinlines = |batch: &&Batch| points[batch.point].experiment.spinline().is_some();

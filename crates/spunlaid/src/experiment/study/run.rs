@@ -6,9 +6,9 @@ use super::made::{lay_webs, solve_spinlines};
 use super::measures::{Record, ReplicateOutcome, measured};
 use super::rounds::Rounds;
 use super::{Point, Study};
-use crate::ground::Error;
 use crate::ground::threads::{lock, look_while, unlock};
-use crate::simulation::{Keep, RunControl, Trajectory};
+use crate::ground::{Control, Error};
+use crate::simulation::{Keep, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -25,7 +25,7 @@ pub struct Progress {
     pub fibres_done: AtomicU64,
     /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`RunControl::fibre_steps`] counts up
+    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`Control::done`] counts up
     /// to this number.
     pub steps: AtomicU64,
 }
@@ -41,7 +41,7 @@ pub struct Progress {
 pub fn run(
     study: &Study,
     journal: &Mutex<Journal>,
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let mut rounds = Rounds::new(study);
@@ -63,7 +63,7 @@ pub fn run(
 pub fn fly_bundle(
     (points, sides): (&[Point], &[f64]),
     bundle: &[Batch],
-    computing: RunControl<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Record>, Error> {
     let (all, steps) = (Mutex::new(Vec::new()), AtomicU64::new(0));
     make((points, sides), bundle, computing, &steps, &|records: Vec<Record>| {
@@ -82,7 +82,7 @@ pub fn fly_bundle(
 fn make(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     steps: &AtomicU64,
     keep: &(impl Fn(Vec<Record>) -> Result<(), Error> + Sync),
 ) -> Result<(), Error> {
@@ -98,7 +98,7 @@ fn fly_missing(
     study: &Study,
     journal: &Mutex<Journal>,
     rounds: &Rounds,
-    computing: RunControl<'_>,
+    computing: Control<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let batches = rounds.missing(&lock(journal));

@@ -11,7 +11,7 @@ mod turbulence;
 pub use crate::fibre::Job;
 use crate::fibre::{Case, LaidPoint};
 use crate::ground::threads::lock;
-use crate::ground::{Error, EvenSample, Isa, Vec3, WIDTH};
+use crate::ground::{Control, Error, EvenSample, Vec3, WIDTH};
 pub use crate::simulation::observe::Sample;
 pub use finer::{
     Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Statistic,
@@ -23,26 +23,11 @@ pub use shapes::{Shape, Shapes};
 pub use sources::{CellSource, HeatSums, LineFilaments, Sources};
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard};
 pub(crate) use trajectory::fly_each;
 pub use trajectory::{Keep, KeepShapes, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
-
-/// How an ensemble is computed. None of it changes a bit of the results.
-#[derive(Clone, Copy, Debug)]
-pub struct RunControl<'a> {
-    /// Number of threads.
-    pub threads: usize,
-    /// Instruction set.
-    pub isa: Isa,
-    /// Set from elsewhere to stop early.
-    pub stop: &'a AtomicBool,
-    /// Counts fibre steps done, for a progress display.
-    pub fibre_steps: &'a AtomicU64,
-    /// Takes what is recorded of the fibres. Flights of several cases take none.
-    pub recorder: Option<&'a dyn Recorder>,
-}
 
 /// Computes the replicates of a case and passes on each trajectory, in the order of the replicates.
 ///
@@ -53,8 +38,8 @@ pub struct RunControl<'a> {
 /// A fibre is lost, another thread stops the ensemble, or `take` returns an error.
 pub fn fly<E: From<Error>>(
     case: &Case,
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     in_order(
@@ -78,13 +63,13 @@ pub fn fly<E: From<Error>>(
 pub fn fly_for_checks<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
     recall: impl Fn(Range<u64>, &dyn Recorder) -> Result<Option<Vec<Trajectory>>, Error> + Sync,
     mut take: impl FnMut(Result<Trajectory, LostFibre>) -> Result<(), E>,
 ) -> Result<RunPaths, E> {
-    let paths = finer::Paths::from_run(plans.step.as_ref().ok(), computing.recorder);
-    let watched = RunControl { recorder: Some(&paths), ..computing };
+    let paths = finer::Paths::from_run(plans.step.as_ref().ok(), keep.recorder);
+    let watched = Keep { recorder: Some(&paths), ..keep };
     let (mut replicate, mut left, mut first_lost) = (0, 0, None);
     in_order(
         case.flights() as usize,
@@ -94,10 +79,10 @@ pub fn fly_for_checks<E: From<Error>>(
             let steps = case.run.steps * (replicates.end - replicates.start);
             match recall(replicates, &paths)? {
                 Some(flown) => {
-                    computing.fibre_steps.fetch_add(steps, Ordering::Relaxed);
+                    computing.done.fetch_add(steps, Ordering::Relaxed);
                     Ok(flown.into_iter().map(Ok).collect())
                 }
-                None => fly_one(case, index, keep, watched),
+                None => fly_one(case, index, watched, computing),
             }
         },
         |landed: Result<Vec<_>, Error>| {
@@ -134,8 +119,8 @@ fn replicates(case: &Case, index: usize) -> Range<u64> {
 fn fly_one(
     case: &Case,
     index: usize,
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     let jobs: Vec<Job<'_>> = replicates(case, index).map(|replicate| Job::new(case, replicate)).collect();
     fly_each(&jobs, keep, computing)

@@ -1,10 +1,10 @@
 //! The trajectory of one replicate.
 
-use super::{EndPath, RunControl, Shapes};
+use super::{EndPath, Recorder, Shapes};
 use crate::air::Flow;
 use crate::fibre::{Case, Flight, Job, LaidPoint, SurroundingRun};
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Error, Isa, Value, WIDTH};
+use crate::ground::{Control, Error, Isa, Value, WIDTH};
 use crate::simulation::observe::{FibreMeasure, Observation, Observers, Sample};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -43,19 +43,22 @@ impl Trajectory {
 }
 
 /// What to store of an ensemble besides the numbers of each fibre.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Keep {
+#[derive(Clone, Copy, Debug)]
+pub struct Keep<'a> {
     /// Whether curves are measured too: profiles, series, spectra, and the path of a free end.
     pub curves: bool,
-    /// Whether the recorded instants are kept in memory. A [`Recorder`](super::Recorder) receives them without.
+    /// Whether the recorded instants are kept in memory.
     pub samples: bool,
     /// The whole shapes that are stored.
     pub shapes: KeepShapes,
+    /// Takes what is recorded of the fibres. Flights of several cases take none.
+    pub recorder: Option<&'a dyn Recorder>,
 }
 
-impl Keep {
+impl Keep<'_> {
     /// Numbers only.
-    pub const NUMBERS: Self = Self { curves: false, samples: false, shapes: KeepShapes::NONE };
+    pub const NUMBERS: Self =
+        Self { curves: false, samples: false, shapes: KeepShapes::NONE, recorder: None };
     /// Numbers and the recorded instants.
     pub const SAMPLES: Self = Self { samples: true, ..Self::NUMBERS };
     /// Curves, but no recorded instants and no shapes.
@@ -102,8 +105,8 @@ impl KeepShapes {
 /// The jobs cannot fly together ([`Flight::new`]), a fibre is lost, or another thread stops it.
 pub fn fly_together(
     jobs: &[Job<'_>],
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     let first = jobs.first().ok_or_else(Error::no_fibre)?;
     fly_in_air(jobs, keep, SurroundingRun::run(first.case), computing)
@@ -121,8 +124,8 @@ fn first_counted(case: &Case) -> f64 {
 /// The jobs cannot fly together ([`Flight::new`]), or another thread stops the flight.
 pub(crate) fn fly_each(
     jobs: &[Job<'_>],
-    keep: Keep,
-    computing: RunControl<'_>,
+    keep: Keep<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     each_or_lost(jobs, |together| {
         let first = together.first().ok_or_else(Error::no_fibre)?;
@@ -161,9 +164,9 @@ pub(super) fn each_or_lost<T>(
 /// [`fly_together`], in the air of another run.
 pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
-    keep: Keep,
+    keep: Keep<'_>,
     air: SurroundingRun<'_>,
-    computing: RunControl<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
         FlightEnd::Lost { error, .. } | FlightEnd::Otherwise(error) => error,
@@ -188,19 +191,19 @@ impl From<Error> for FlightEnd {
 
 fn fly_until_lost(
     jobs: &[Job<'_>],
-    keep: Keep,
+    keep: Keep<'_>,
     air: SurroundingRun<'_>,
-    computing: RunControl<'_>,
+    computing: Control<'_>,
 ) -> Result<Vec<Trajectory>, FlightEnd> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
-    if let Some(recorder) = computing.recorder {
+    if let Some(recorder) = keep.recorder {
         jobs.iter().for_each(|job| recorder.begin(job.replicate));
     }
     let clock = flight.clock().clone();
     let mut observers = Observers::new(&flight, keep.curves);
     let keeps_shapes = |lane: usize| jobs[lane].replicate < keep.shapes.replicates;
     let begin = |(lane, job): (usize, &Job<'_>)| {
-        let place = computing.recorder.filter(|_| keeps_shapes(lane));
+        let place = keep.recorder.filter(|_| keeps_shapes(lane));
         let shapes = place.map_or_else(|| Ok(Shapes::default()), |place| place.shapes(job.replicate))?;
         Ok(Trajectory { replicate: job.replicate, shapes, ..Trajectory::default() })
     };
@@ -212,7 +215,7 @@ fn fly_until_lost(
         let snapshot = if step < clock.steps { flight.observe() } else { flight.snapshot() };
         if let Some((lane, error)) = flight.lost() {
             // The fibres that are left fly again.
-            computing.fibre_steps.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
+            computing.done.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
             let good_steps = step - clock.output_steps.min(step);
             return Err(match error {
                 Error::Diverged { .. } => divergence(jobs, computing.isa, air, good_steps)?,
@@ -240,7 +243,7 @@ fn fly_until_lost(
                 let counted = laid[lane].iter().filter(|point| point.fed >= first_counted);
                 trajectory.laid.extend(counted.take(room));
             }
-            if let Some(recorder) = computing.recorder {
+            if let Some(recorder) = keep.recorder {
                 recorded[lane].push(samples[lane]);
                 if recorded[lane].len() == TOGETHER || step >= clock.steps {
                     recorder.samples(trajectory.replicate, &recorded[lane])?;
@@ -257,7 +260,7 @@ fn fly_until_lost(
         let steps = clock.output_steps.min(clock.steps - step);
         flight.advance(steps - 1);
         step += steps;
-        computing.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
+        computing.done.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
         if computing.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }

@@ -9,10 +9,10 @@
 use super::layer_beam::{LayerBeam, beam_on};
 use super::sampled::Compared;
 use super::shared_air::{fly_abreast, memory_abreast};
-use super::{Beam, BeamControl, BeamFindings, Flyer};
+use super::{Beam, BeamFindings, Flyer};
 use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::each;
-use crate::ground::{Dimension, Error, Fault, Isa};
+use crate::ground::{Control, Dimension, Error, Fault, Isa};
 use crate::simulation::WebSpec;
 use crate::web::map::blocks_on;
 use crate::web::{Arrangement, LayerFew, Sheet};
@@ -62,7 +62,7 @@ impl Flyer<'_> {
         layer: &Comparison<'_>,
         steps: &AtomicU64,
     ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
-        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps };
+        let by = Control { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: steps };
         layer.check_memory()?;
         let flown = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
         let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();

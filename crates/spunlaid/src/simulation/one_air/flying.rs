@@ -3,11 +3,11 @@
 use super::charge::BeamField;
 use super::lane_group::{BeltStretch, Pack, Reach, side_by_side};
 use super::neighbours::Neighbours;
-use super::{Beam, BeamControl, BeamFindings};
+use super::{Beam, BeamFindings};
 use crate::air::EddyField;
 use crate::fibre::Line;
 use crate::ground::threads::{lock, unlock};
-use crate::ground::{Error, Fault};
+use crate::ground::{Control, Error, Fault};
 use crate::simulation::observe::StretchedBalance;
 use crate::web::{Brush, LayerFlown, Sheet, TimeSpent, Window};
 use std::ops::Range;
@@ -69,7 +69,7 @@ impl<'a> Flying<'a> {
         pack: usize,
         steps: u64,
         field: Option<&Arc<EddyField>>,
-        by: BeamControl<'_>,
+        by: Control<'_>,
     ) -> Result<Reach, Error> {
         if by.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
@@ -84,7 +84,7 @@ impl<'a> Flying<'a> {
             pack.charge(field);
         }
         let reach = pack.advance(steps, field, &self.stretch, on);
-        by.steps.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
+        by.done.fetch_add(steps * pack.filaments().len() as u64, Ordering::Relaxed);
         Ok(reach)
     }
 

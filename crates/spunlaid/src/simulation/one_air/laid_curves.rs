@@ -5,13 +5,13 @@
 //!             → of a few filaments: what they say of all, and all filaments that follow from them
 //! ```
 
+use super::BeamFindings;
 use super::layer_beam::{LayerBeam, beam_on};
 use super::sampled::FlownSheet;
-use super::{BeamControl, BeamFindings};
-use crate::ground::{Error, Isa};
+use crate::ground::{Control, Error, Isa};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
 use crate::web::map::{Doubt, Findings, blocks_on, find_laid, lay, pieces};
-use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, LayControl, Map, TRIED, TimeSpent, Web};
+use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
 use std::mem::take;
 use std::path::Path;
 use std::sync::Arc;
@@ -151,7 +151,7 @@ impl<'a> Flyer<'a> {
         on: Option<&Brush<'_>>,
     ) -> Result<BeamFindings, Error> {
         let (beam, done) = (layer.beam(), AtomicU64::new(0));
-        let by = BeamControl { threads: self.threads, isa: Isa::detect(), stop: self.stop, steps: &done };
+        let by = Control { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: &done };
         let flights = Flights {
             path: layer.path,
             fibres: layer.places.len() as u64,
@@ -183,7 +183,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn map(&mut self, by: LayControl<'_>) -> Result<Map, Error> {
+    pub fn map(&mut self, by: Control<'_>) -> Result<Map, Error> {
         let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         Ok(laid.map)
     }
@@ -192,7 +192,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn find(&mut self, by: LayControl<'_>) -> Result<Findings, Error> {
+    pub fn find(&mut self, by: Control<'_>) -> Result<Findings, Error> {
         let laid = self.laid.take();
         find_laid(&self.web, laid, by)
     }

@@ -30,7 +30,7 @@ mod shared_air;
 use crate::fibre::{Case, LaidPoint, WayPlace};
 use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Error, Isa};
+use crate::ground::{Control, Error};
 use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
 pub use charge::BeamCharge;
 pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
@@ -40,7 +40,6 @@ pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
 pub use sampled::Compared;
 use shared_air::SharedAir;
-use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Filaments whose whole curves are kept, spread over the beam: some hundred kilobytes each.
 const KEPT: usize = 64;
@@ -62,19 +61,6 @@ pub struct Beam<'a> {
     pub depth: f64,
     /// The charge that they carry; None without one.
     pub charge: Option<&'a BeamCharge>,
-}
-
-/// Threads and instruction set of the computation, its progress and its stop flag.
-#[derive(Clone, Copy, Debug)]
-pub struct BeamControl<'a> {
-    /// Number of threads. What is laid does not depend on it.
-    pub threads: usize,
-    /// Instruction set. What is laid does not depend on it.
-    pub isa: Isa,
-    /// Ends the flights when it is set.
-    pub stop: &'a AtomicBool,
-    /// Grows by the steps of each filament; `Beam::steps` says about how many there are.
-    pub steps: &'a AtomicU64,
 }
 
 /// What the filaments of a beam have done besides laying the sheet.
@@ -124,7 +110,7 @@ impl Beam<'_> {
         &self,
         sheet: &Sheet,
         window: Window,
-        by: BeamControl<'_>,
+        by: Control<'_>,
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
         let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
@@ -162,7 +148,7 @@ impl Beam<'_> {
         &self,
         (sheet, window): (&Sheet, Window),
         on: Option<&Brush<'_>>,
-        by: BeamControl<'_>,
+        by: Control<'_>,
     ) -> Result<BeamFindings, Error> {
         let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
         let flown = SharedAir::of_one(self, sheet).fly(vec![sink], by)?;

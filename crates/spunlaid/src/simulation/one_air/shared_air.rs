@@ -8,10 +8,10 @@
 
 use super::flying::{Flying, Sink};
 use super::lane_group::Reach;
-use super::{BLOCK, Beam, BeamControl, BeamFindings};
+use super::{BLOCK, Beam, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
-use crate::ground::{Error, Vec3};
+use crate::ground::{Control, Error, Vec3};
 use crate::web::{Edges, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
 use std::slice::from_ref;
@@ -59,7 +59,7 @@ impl BeamAir {
 pub(super) fn fly_abreast(
     beams: &[Beam<'_>],
     (sheet, memory): (&Sheet, f64),
-    by: BeamControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
@@ -139,7 +139,7 @@ impl<'a> SharedAir<'a> {
     pub(super) fn fly(
         &self,
         sinks: Vec<Sink<'_>>,
-        by: BeamControl<'_>,
+        by: Control<'_>,
     ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
         let (started, mut spent) = (Instant::now(), TimeSpent::default());
         let beside = self.beams.iter().zip(sinks);
@@ -237,7 +237,7 @@ impl SharedAir<'_> {
         &self,
         groups: &[Group],
         flying: &mut [Result<Flying<'_>, Error>],
-        by: BeamControl<'_>,
+        by: Control<'_>,
     ) -> Result<(), Error> {
         let members = groups.iter().flat_map(|group| {
             group.members.iter().zip(&group.steps).map(move |(beam, step)| (group, *beam, *step))

@@ -1,11 +1,10 @@
 //! The unevenness that is expected of webs of independent filaments, from single fibres.
 
-use super::laid_web::LayControl;
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
 use crate::ground::threads::try_each;
-use crate::ground::{Difference, Effect, Error, Estimate, Fault};
+use crate::ground::{Control, Difference, Effect, Error, Estimate, Fault};
 use std::ops::Range;
 
 /// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre
@@ -115,7 +114,7 @@ pub(super) const ALONE: u64 = 16;
 ///
 /// # Errors
 /// If the filaments cannot be laid, if a layer has no surrogate, or if it is stopped.
-pub(crate) fn expected_cv(web: &Web, by: LayControl<'_>) -> Result<Vec<ExpectedCv>, Error> {
+pub(crate) fn expected_cv(web: &Web, by: Control<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let layers = paths(web).ok_or_else(|| Fault::plain("a layer has no surrogate".to_owned()))?;
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);
@@ -160,7 +159,7 @@ pub(super) fn expected(
     layers: Vec<Layer>,
     sides: &[usize],
     (sample, columns): (OneFibre, Range<usize>),
-    by: LayControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<PatchExpectation>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;

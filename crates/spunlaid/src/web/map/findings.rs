@@ -5,7 +5,7 @@ use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{FewDoubt, FewFilamentsCv};
-use super::laid_web::{Evidence, LaidWeb, LayControl, LayerFlown};
+use super::laid_web::{Evidence, LaidWeb, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
@@ -14,7 +14,7 @@ use super::waves::Places;
 use super::{Layer, Web};
 use crate::fibre::STRONG;
 use crate::ground::threads::try_each;
-use crate::ground::{Dimension, Error, Fault};
+use crate::ground::{Control, Dimension, Error, Fault};
 use crate::web::surrogate::Surrogate;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
@@ -138,7 +138,7 @@ const LAGS: usize = 257;
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
+pub fn find(web: &Web, by: Control<'_>) -> Result<Findings, Error> {
     find_laid(web, None, by)
 }
 
@@ -146,7 +146,7 @@ pub fn find(web: &Web, by: LayControl<'_>) -> Result<Findings, Error> {
 ///
 /// # Errors
 /// As [`find`].
-pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) -> Result<Findings, Error> {
+pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);
@@ -165,7 +165,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: LayControl<'_>) ->
     let evidence = laid.evidence();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
-    let by = LayControl { laid: &aside, ..by };
+    let by = Control { done: &aside, ..by };
     let map = laid.map.between(columns.clone());
     let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
     let alone = match paths(web) {

@@ -5,26 +5,12 @@ use super::few_findings::LayerFew;
 use super::window::Strand;
 use crate::fibre::{SheetHeight, WayPlace};
 use crate::ground::statistics::student_t_95_at;
-use crate::ground::{Estimate, Fault, Isa};
+use crate::ground::{Estimate, Fault};
 use crate::web::surrogate::{Residual, Surrogate};
-use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Duration;
 
 /// Highest number of a cell, by which the quantum is chosen, over the mean one and over that of a single trace.
 pub(super) const HIGHEST: f64 = 4.0;
-
-/// Threads and instruction set of the computation, its progress and its stop flag.
-#[derive(Clone, Copy, Debug)]
-pub struct LayControl<'a> {
-    /// Number of threads. The map does not depend on it.
-    pub threads: usize,
-    /// Instruction set. The map does not depend on it.
-    pub isa: Isa,
-    /// Ends the laying when it is set.
-    pub stop: &'a AtomicBool,
-    /// Grows by the pieces of filaments that have been laid; [`pieces`](super::pieces) says how many there are.
-    pub laid: &'a AtomicU64,
-}
 
 /// Time that a computation took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -2,11 +2,11 @@
 
 use super::Web;
 use super::canvas::{Canvas, CanvasPart};
-use super::laid_web::{LaidWeb, LayControl};
+use super::laid_web::LaidWeb;
 use super::plan::{Plan, plans};
 use super::window::{Strand, Strands, Window, WindowOnSheet};
 use crate::ground::threads::{lock, try_each};
-use crate::ground::{Error, Lanes, WIDTH};
+use crate::ground::{Control, Error, Lanes, WIDTH};
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -30,7 +30,7 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
+pub fn lay(web: &Web, by: Control<'_>) -> Result<LaidWeb, Error> {
     let plans = plans(web)?;
     let pieces: Vec<f64> = plans.iter().map(Plan::mass_of_piece).collect();
     // No cell of a trace alone has more than four times its mean; a canvas reckons with ropes of 64 times.
@@ -60,7 +60,7 @@ pub fn lay(web: &Web, by: LayControl<'_>) -> Result<LaidWeb, Error> {
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn strands(web: &Web, window: Window, by: LayControl<'_>) -> Result<Vec<Strand>, Error> {
+pub fn strands(web: &Web, window: Window, by: Control<'_>) -> Result<Vec<Strand>, Error> {
     let plans = plans(web)?;
     let sets = |(layer, plan): (usize, &Plan<'_>)| {
         (0..plan.places.len()).step_by(WIDTH).map(move |first| (layer, first)).collect::<Vec<_>>()
@@ -85,7 +85,7 @@ fn strands_of(
     on: &WindowOnSheet,
     (layer, plan): (usize, &Plan<'_>),
     first: usize,
-    by: LayControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<Strand>, Error> {
     let count = WIDTH.min(plan.places.len() - first);
     let [places, mut along] = plan.start(web, first, count);

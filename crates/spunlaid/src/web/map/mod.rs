@@ -53,8 +53,8 @@ pub(crate) use findings::find_laid;
 pub use findings::{Findings, PatchFindings, WholeError, find};
 pub(crate) use laid_web::OneAir;
 pub use laid_web::{
-    ChargedCurtain, Correlation, Curves, Evidence, FlownFibres, LaidWeb, LayControl, LayerFlown,
-    NeighbourCorrelation, TimeSpent,
+    ChargedCurtain, Correlation, Curves, Evidence, FlownFibres, LaidWeb, LayerFlown, NeighbourCorrelation,
+    TimeSpent,
 };
 pub use lay::{lay, pieces, strands};
 pub use measures::{OF_PATCHES, OF_WEBS};

@@ -1,11 +1,10 @@
 //! What one fibre alone says about the unevenness of a web of many.
 
-use super::laid_web::LayControl;
 use super::lay::lay;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, FlownFibres, Layer, Row, Sheet, Web};
 use crate::ground::threads::try_each;
-use crate::ground::{Error, Estimate};
+use crate::ground::{Control, Error, Estimate};
 use crate::web::surrogate::Surrogate;
 
 /// How the unevenness is found from single fibres.
@@ -58,7 +57,7 @@ pub fn one_fibre(
     layer: &Layer,
     sides: &[usize],
     sample: OneFibre,
-    by: LayControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<SingleFibres>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
@@ -85,7 +84,7 @@ fn add(
     sides: &[usize],
     sample: OneFibre,
     [apart, trace, rows]: [usize; 3],
-    by: LayControl<'_>,
+    by: Control<'_>,
     found: &mut [FibreSums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * sample.cell;

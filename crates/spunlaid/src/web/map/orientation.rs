@@ -1,10 +1,9 @@
 //! The directions of the fibres in a web.
 
-use super::laid_web::LayControl;
 use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};
-use crate::ground::{Error, Estimate, WIDTH};
+use crate::ground::{Control, Error, Estimate, WIDTH};
 use std::f64::consts::PI;
 
 /// Directions of the pieces of some filaments on the belt, each piece with its mass: of curves that were flown,
@@ -92,7 +91,7 @@ impl Sample {
     }
 
     /// Filaments of a surrogate, spread over the width.
-    fn of_surrogate(weight: f64, plan: &Plan<'_>, web: &Web, by: LayControl<'_>) -> Result<Self, Error> {
+    fn of_surrogate(weight: f64, plan: &Plan<'_>, web: &Web, by: Control<'_>) -> Result<Self, Error> {
         let groups = plan.places.len().div_ceil(WIDTH);
         let advance = plan.layer.belt_ratio() * plan.piece;
         let mut sample = Self::new(weight);
@@ -202,7 +201,7 @@ impl Orientation {
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn orientation(web: &Web, by: LayControl<'_>) -> Result<Orientation, Error> {
+pub fn orientation(web: &Web, by: Control<'_>) -> Result<Orientation, Error> {
     let (mut samples, mut piece) = (Vec::new(), 0.0_f64);
     for (number, layer) in web.layers.iter().enumerate() {
         let weight = layer.basis_weight(&web.sheet) / web.basis_weight();

@@ -2,10 +2,9 @@
 
 use super::canvas::{CanvasPart, OUTSIDE, Pens};
 use super::defects::{PLACES, Titres, inlets};
-use super::laid_web::LayControl;
 use super::{Fibres, Layer, Sheet, Web};
 use crate::ground::random::{stream, uniform};
-use crate::ground::{Error, Fault, Isa, Lanes, WIDTH};
+use crate::ground::{Control, Error, Fault, Isa, Lanes, WIDTH};
 use crate::web::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
@@ -113,7 +112,7 @@ impl<'a> Plan<'a> {
         web: &Web,
         (which, quanta): (Range<usize>, u32),
         part: &mut CanvasPart<'_>,
-        by: LayControl<'_>,
+        by: Control<'_>,
     ) -> Result<(), Error> {
         let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
             return Ok(());
@@ -167,7 +166,7 @@ impl<'a> Plan<'a> {
         &self,
         web: &Web,
         sets: &[(usize, usize)],
-        by: LayControl<'_>,
+        by: Control<'_>,
         mut take: impl FnMut(usize, &[[Lanes; 2]]),
     ) -> Result<(), Error> {
         let paths = sets.iter().map(|set| self.paths(web, by.isa, *set));
@@ -180,7 +179,7 @@ impl<'a> Plan<'a> {
             Paths::go_on(&mut paths);
             let pieces = PATH_POINTS.min(self.pieces - first);
             paths.iter().enumerate().for_each(|(set, paths)| take(set, &paths.block()[..=pieces]));
-            by.laid.fetch_add((pieces * filaments) as u64, Ordering::Relaxed);
+            by.done.fetch_add((pieces * filaments) as u64, Ordering::Relaxed);
         }
         Ok(())
     }

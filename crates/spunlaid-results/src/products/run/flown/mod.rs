@@ -55,7 +55,7 @@ pub struct Flights {
     /// The final path of the first table, and of the shapes, for messages.
     later: [PathBuf; 2],
     fed: bool,
-    keep: Keep,
+    keep: Keep<'static>,
     /// Replicates that an earlier process has flown.
     earlier: BTreeSet<u64>,
     /// What has been recorded of the others and is not in the file.
@@ -74,7 +74,7 @@ impl Flights {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn open(staging: &Staging<'_>, case: &Case, keep: Option<Keep>) -> Result<Self, Failure> {
+    pub fn open(staging: &Staging<'_>, case: &Case, keep: Option<Keep<'static>>) -> Result<Self, Failure> {
         let (results, scratch) = (staging.folder(), staging.scratch());
         let name = results.file_name().unwrap_or_default().to_string_lossy();
         let places = [scratch.join("flown"), results.with_file_name(format!(".{name}.flown"))];

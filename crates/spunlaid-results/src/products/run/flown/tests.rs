@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::files::folder::ENTRIES;
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid::ground::{Control, Isa, WIDTH};
 use spunlaid::input::read_case;
+use spunlaid::simulation::KeepShapes;
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{KeepShapes, RunControl};
 use std::path::Path;
 
 const FIXED: &str = "version = 1
@@ -83,14 +83,8 @@ fn process(desk: &Path, case: &Case, until: u64) -> Process {
         Some(all) => all.into_iter().flatten().try_for_each(&mut take).unwrap(),
         None => {
             let steps = AtomicU64::new(0);
-            let computing = RunControl {
-                threads: 1,
-                isa: Isa::detect(),
-                stop: &STOP,
-                fibre_steps: &steps,
-                recorder: Some(&flown),
-            };
-            fly(case, keep, computing, take).unwrap();
+            let computing = Control { threads: 1, isa: Isa::detect(), stop: &STOP, done: &steps };
+            fly(case, Keep { recorder: Some(&flown), ..keep }, computing, take).unwrap();
         }
     }
     flown.interrupted.store(true, Ordering::Relaxed);

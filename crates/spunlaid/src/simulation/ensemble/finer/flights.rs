@@ -3,10 +3,10 @@
 use super::plan::case_of_air;
 use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
 use crate::fibre::{Case, Job, LaidPoint, SurroundingRun};
-use crate::ground::Error;
 use crate::ground::threads::{each, lock, unlock};
+use crate::ground::{Control, Error};
 use crate::simulation::ensemble::trajectory::fly_in_air;
-use crate::simulation::ensemble::{Keep, Recorder, RunControl, Sample, Shapes, Trajectory};
+use crate::simulation::ensemble::{Keep, Recorder, Sample, Shapes, Trajectory};
 use std::sync::{Mutex, MutexGuard};
 
 /// The position across the flow at the recorded instants after the start [m].
@@ -26,7 +26,7 @@ pub struct RunPaths(pub(in crate::simulation::ensemble) Vec<Option<Path>>);
 impl FinerPlans {
     /// Flies the checks of a run that has been flown. A check that is stopped, or whose own fibres are lost,
     /// says so in its place.
-    pub fn check(&self, paths: &RunPaths, computing: RunControl<'_>) -> FinerChecks {
+    pub fn check(&self, paths: &RunPaths, computing: Control<'_>) -> FinerChecks {
         let flights: Vec<_> =
             self.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
         let flown = each(computing.threads, flights.len(), |index| {
@@ -58,13 +58,13 @@ impl FinerPlans {
 
 impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
-    fn fly(&self, case: &Case, computing: RunControl<'_>) -> Result<Flight, Error> {
+    fn fly(&self, case: &Case, computing: Control<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         let finest = self.finest.as_ref().unwrap_or(&self.fine);
         let air = SurroundingRun { case: case_of_air(case, finest), horizon: self.horizon, field: None };
         let paths = Paths { stride: 1, ..Paths::from_run(Some(self), None) };
-        let computing = RunControl { recorder: Some(&paths), ..computing };
-        let trajectories = fly_in_air(&jobs, Keep::NUMBERS, air, computing)?;
+        let keep = Keep { recorder: Some(&paths), ..Keep::NUMBERS };
+        let trajectories = fly_in_air(&jobs, keep, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
     }
 }

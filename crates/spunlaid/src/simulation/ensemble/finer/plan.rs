@@ -69,7 +69,7 @@ impl FinerPlans {
     }
 
     /// Number of fibre steps of all checks, as in
-    /// [`RunControl::fibre_steps`](crate::simulation::ensemble::RunControl::fibre_steps).
+    /// [`Control::done`](crate::ground::Control::done).
     pub fn fibre_steps(&self) -> u64 {
         self.all().map(FinerPlan::fibre_steps).sum()
     }
@@ -321,7 +321,7 @@ impl FinerPlan {
         self.coarse.iter().chain([&self.fine]).chain(&self.finest)
     }
 
-    /// Number of fibre steps, as in [`RunControl::fibre_steps`](crate::simulation::ensemble::RunControl::fibre_steps).
+    /// Number of fibre steps, as in [`Control::done`](crate::ground::Control::done).
     pub fn fibre_steps(&self) -> u64 {
         self.flights().map(|case| case.run.steps).sum::<u64>() * self.replicates
     }

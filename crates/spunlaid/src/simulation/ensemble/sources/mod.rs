@@ -13,13 +13,13 @@ mod merged;
 mod tests;
 mod watch;
 
-use super::{Job, LostFibre, RunControl, in_order};
+use super::{Job, LostFibre, in_order};
 use crate::air::motion::temperature_of;
 use crate::air::{FieldCells, Flow, PlacedField};
 use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, SolidFilament};
 use crate::ground::place::Inlet;
-use crate::ground::{Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};
+use crate::ground::{Control, Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};
 use merged::Merged;
 use watch::{CellSums, fly_each};
 
@@ -128,7 +128,7 @@ impl Sources {
     /// # Errors
     /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason
     /// of the first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
-    pub fn fly(case: &Case, curtain: &LineFilaments, by: RunControl<'_>) -> Result<Self, Error> {
+    pub fn fly(case: &Case, curtain: &LineFilaments, by: Control<'_>) -> Result<Self, Error> {
         let fitting = fitting(case).map_err(Error::Flight)?;
         let mut merged = Merged::new(case, &fitting);
         let each = WIDTH as u64;

@@ -100,8 +100,8 @@ fn line(placed: PlacedField, replicates: u64) -> Case {
     case
 }
 
-fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunControl<'a> {
-    RunControl { threads, isa: Isa::detect(), stop, fibre_steps, recorder: None }
+fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Control<'a> {
+    Control { threads, isa: Isa::detect(), stop, done: fibre_steps }
 }
 
 fn fly(case: &Case, inlets: &[f64], threads: usize) -> Sources {

@@ -4,9 +4,9 @@ use super::Fitting;
 use crate::air::Hint;
 use crate::fibre::{Cooled, Flight, Snapshot, SolidFilament};
 use crate::ground::place::Inlet;
-use crate::ground::{Error, Lanes, Vec3};
+use crate::ground::{Control, Error, Lanes, Vec3};
+use crate::simulation::ensemble::Job;
 use crate::simulation::ensemble::trajectory::{FlightEnd, each_or_lost};
-use crate::simulation::ensemble::{Job, RunControl};
 use crate::simulation::observe::{MomentumBalance, NodeStates};
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;
@@ -45,7 +45,7 @@ struct Watch {
 pub(super) fn fly_each(
     jobs: &[Job<'_>],
     fitting: &Fitting<'_>,
-    by: RunControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<Result<CellSums, Error>>, Error> {
     each_or_lost(jobs, |together| fly_until_lost(together, fitting, by))
 }
@@ -53,7 +53,7 @@ pub(super) fn fly_each(
 fn fly_until_lost(
     jobs: &[Job<'_>],
     fitting: &Fitting<'_>,
-    by: RunControl<'_>,
+    by: Control<'_>,
 ) -> Result<Vec<CellSums>, FlightEnd> {
     let mut flight = Flight::new(jobs, by.isa)?;
     let clock = flight.clock().clone();
@@ -75,12 +75,12 @@ fn fly_until_lost(
         }
         if let Some((lane, error)) = flight.lost() {
             // The fibres that are left fly again.
-            by.fibre_steps.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
+            by.done.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
             return Err(FlightEnd::Lost { lane, error });
         }
         step += steps;
         (0..jobs.len()).for_each(|lane| drop(flight.take_laid(lane)));
-        by.fibre_steps.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
+        by.done.fetch_add(steps * jobs.len() as u64, Ordering::Relaxed);
         if by.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }
