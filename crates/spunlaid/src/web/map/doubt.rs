@@ -41,7 +41,7 @@ pub enum Doubt {
         /// The CV of the map over the told one, less one, where they differ most.
         apart: f64,
     },
-    /// The sheet that was flown is too small for these patches.
+    /// The sheet that was flown is too small for these patches, or all filaments of another layer were flown.
     SmallSheet {
         /// Sides of the patches [m].
         sides: Vec<f64>,
@@ -112,8 +112,9 @@ impl Display for Doubt {
             ),
             Self::SmallSheet { sides } => write!(
                 f,
-                "the sheet that was flown is too small for patches of {}: their CV is that of the map, which \
-                is made of pieces of that sheet, and it has no error",
+                "the few filaments that were flown do not tell the CV over patches of {}: their sheet is too \
+                small for such patches, or all filaments of another layer were flown. It is that of the map, \
+                which is made of pieces of that sheet, and it has no error",
                 millimetres(sides)
             ),
             Self::NothingFlown => write!(

@@ -340,7 +340,10 @@ fn few_filaments(findings: &Findings) -> Vec<Doubt> {
         let sides = off.iter().map(|(side, _)| *side).collect();
         doubts.push(Doubt::FilledIn { missing, sides, apart: most.unwrap_or(0.0) });
     }
-    let larger = findings.patches.iter().filter(|patch| patch.few.is_none() && few().next().is_some());
-    doubts.extend(of_sides(larger.map(|patch| patch.map.patch), |sides| Doubt::SmallSheet { sides }));
+    let is_of_map = |patch: &&PatchFindings| {
+        matches!((patch.evidence, patch.few, patch.doubt), (Evidence::FewInOneAir, None, None))
+    };
+    let of_map = findings.patches.iter().filter(is_of_map).map(|patch| patch.map.patch);
+    doubts.extend(of_sides(of_map, |sides| Doubt::SmallSheet { sides }));
     doubts
 }
