@@ -2,7 +2,7 @@
 //! Python reads them from there, but for what no file holds as it is computed.
 
 use crate::failure::raised;
-use crate::measures::described;
+use crate::keys::described;
 use crate::save::{Figures, figure_files};
 use crate::source::Source;
 use crate::table::{column, locked};

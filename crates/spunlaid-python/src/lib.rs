@@ -21,7 +21,6 @@ mod watched;
 
 mod case;
 mod keys;
-mod measures;
 mod record;
 
 mod fit;
@@ -49,8 +48,7 @@ mod _spunlaid {
         computed::{Computed, compare_folders, solve_spinline},
         fit::find_fit,
         flight::Flight,
-        keys::{keys, program, removed},
-        measures::{column_unit, measures},
+        keys::{column_unit, keys, measures, program, removed},
         record::analyse,
         run::fly,
         save::check_figures,
