@@ -166,6 +166,13 @@ fn say_lines(text: &str, contents: &impl Contents, lines: &[String], folder: Opt
     folder.iter().for_each(|folder| say::line(&format!("open {}", folder.join("report.html").display())));
 }
 
+/// Says beside the results how the work goes, unless nothing shall be said.
+pub(crate) fn aside(output: &Output, text: &str) {
+    if !output.quiet {
+        say::aside(text);
+    }
+}
+
 /// Says that the earlier results of the same command are replaced.
 fn say_replaced(folder: &Path, output: &Output) {
     if !output.quiet {
@@ -188,9 +195,7 @@ pub(crate) fn begin(folder: &mut JournalFolder<'_>, figures: FigureFiles, output
 /// * `done` – how much of it
 /// * `noun` – of which a record of the journal is
 pub(crate) fn say_continued(found: &JournalState, done: &str, noun: &str, output: &Output) {
-    if !output.quiet {
-        say::aside(&format!("continuing: {done}"));
-    }
+    aside(output, &format!("continuing: {done}"));
     if found.damaged > 0 {
         let records = counted(found.damaged, "record");
         say::warning(&format!(

@@ -9,7 +9,6 @@ mod failure;
 mod file;
 mod progress;
 mod say;
-mod settled;
 
 use args::{Arguments, Command, Invocation};
 use clap::{CommandFactory, FromArgMatches};

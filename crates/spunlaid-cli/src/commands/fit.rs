@@ -2,10 +2,9 @@
 
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
-use crate::control::{control, stop_on_ctrl_c};
+use crate::control::{control, settled, stop_on_ctrl_c};
 use crate::delivery::{begin, making, say_continued, tell};
 use crate::failure::Failure;
-use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::experiment::{Journal, WebInProgress};
 use spunlaid::ground::Error;

@@ -2,10 +2,9 @@
 
 use super::{counted, name_of};
 use crate::args::{Invocation, Run};
-use crate::control::control;
-use crate::delivery::Delivery;
+use crate::control::{control, settled};
+use crate::delivery::{Delivery, aside};
 use crate::failure::Failure;
-use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::FinerPlans;
@@ -27,12 +26,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let by = control(run.threads, &fibre_steps);
     let (started, plans, asked) = (Instant::now(), FinerPlans::for_case(&case), case.run.replicates);
     let fibres = counted(asked, "fibre");
-    let going_on = |left| {
-        if !quiet {
-            say::aside(&format!("going on: {left} of {fibres} were flown before"));
-        }
-    };
-    let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), going_on);
+    let before = |left| aside(&run.output, &format!("going on: {left} of {fibres} were flown before"));
+    let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), before);
     let (steps, label) = (case.run.steps * asked, format!("flying {fibres}"));
     let flown = progress::follow(&fibre_steps, steps, &label, quiet, work)?;
     let Flown { results, paths, replicates, kept } = flown;

@@ -2,10 +2,10 @@
 
 use super::name_of;
 use crate::args::{Invocation, Spin, Threads, overrides};
+use crate::control::settled;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::say;
-use crate::settled::settled;
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Resources, read_spinline};
 use spunlaid_results::products::spinline::SpinFolder;

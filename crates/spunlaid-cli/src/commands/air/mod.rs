@@ -5,10 +5,9 @@ mod sources;
 
 use super::stem;
 use crate::args::{Air, Invocation};
-use crate::control::stop_on_ctrl_c;
+use crate::control::{settled_with, stop_on_ctrl_c};
 use crate::delivery::Delivery;
 use crate::failure::Failure;
-use crate::settled::settled_with;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Remark;

@@ -2,10 +2,9 @@
 
 use crate::args::{Air, Invocation, is_standard, overrides};
 use crate::commands::{counted, stem};
-use crate::control::control;
+use crate::control::{control, settled};
 use crate::delivery::Delivery;
 use crate::failure::Failure;
-use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::fibre::Case;
 use spunlaid::ground::{Error, Fault, FileKind, Problem};

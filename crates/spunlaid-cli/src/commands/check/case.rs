@@ -1,12 +1,13 @@
-//! A case with all defaults, its mesh, limits and expected cost; a spinline alone.
+//! A case with all defaults, its mesh, limits and expected cost; a spinline alone; a web, and the numbers of its line.
 
 use super::{looked_at, show};
 use crate::args::{Check, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::input::{read_spinline, write_case, write_spinline};
+use spunlaid::input::{read_spinline, read_web, write_case, write_spinline};
 use spunlaid_results::products::run::about_case;
 use spunlaid_results::products::spinline::{SpinResults, spinline_text};
+use spunlaid_results::products::web::about_web;
 use std::time::Instant;
 
 /// Checks a case.
@@ -27,5 +28,14 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     let results = SpinResults::new(&file)?;
     let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
     show("spinline", (&write_spinline(&file.spec), &[]), &comments, "spin", &check.source);
+    Ok(())
+}
+
+/// Checks the file of a web.
+pub(super) fn web(check: &Check) -> Result<(), Failure> {
+    let set = overrides(&check.source.set);
+    let file = looked_at(|resources| read_web(&check.source.case, set.with(resources)))?;
+    file.notes.iter().for_each(say::note);
+    show("web", (&file.text, &file.notes), &about_web(&file.spec), "web", &check.source);
     Ok(())
 }

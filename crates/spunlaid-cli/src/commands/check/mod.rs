@@ -3,20 +3,19 @@
 
 mod case;
 mod study;
-mod web;
 
 use crate::args::{CaseSource, Check, Threads};
 use crate::commands::stem;
+use crate::control::settled_with;
 use crate::failure::Failure;
 use crate::say;
-use crate::settled::settled_with;
 use spunlaid::fibre::Note;
 use spunlaid::ground::{Error, FileKind};
 use spunlaid::input::{Resources, kind_of};
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
     match kind_of(&check.source.case) {
-        FileKind::Web => web::web(check),
+        FileKind::Web => case::web(check),
         FileKind::Study => study::study(check),
         FileKind::Spinline => case::spinline_alone(check),
         _ => case::case(check),

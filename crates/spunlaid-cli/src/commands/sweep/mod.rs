@@ -4,10 +4,9 @@ mod told;
 
 use super::{counted, stem};
 use crate::args::{Invocation, Sweep, overrides};
-use crate::control::{control, stop_on_ctrl_c};
+use crate::control::{control, settled, stop_on_ctrl_c};
 use crate::delivery::{begin, making, tell};
 use crate::failure::Failure;
-use crate::settled::settled;
 use crate::{progress, say};
 use spunlaid::experiment::study::run;
 use spunlaid::experiment::{Journal, Progress};
@@ -55,8 +54,8 @@ fn write(
     journal: &mut Journal,
     before: u64,
 ) -> Result<(), Failure> {
-    let name = stem(&sweep.study, "study");
-    let (found, text) = study::write(folder, &name, file, journal, making(sweep.threads))?;
+    let (name, by) = (stem(&sweep.study, "study"), making(sweep.threads));
+    let (found, text) = study::write(folder, &name, file, journal, by)?;
     let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
     let noun = file.study.noun();
     let done = if noun == "web" { "laid" } else { "flown" };

@@ -2,7 +2,7 @@
 
 use super::counted;
 use crate::args::Output;
-use crate::delivery::say_continued;
+use crate::delivery::{aside, say_continued};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::{JournalState, Progress, Study};
@@ -37,10 +37,8 @@ pub(super) fn say_begun(study: &Study, found: Option<JournalState>, output: &Out
         (_, true) => ", common phases",
         (_, false) => ", independent phases",
     };
-    if !output.quiet {
-        let points = counted(study.points.len() as u64, "point");
-        say::aside(&format!("{points}, each with {}{phases}", times(study)));
-    }
+    let points = counted(study.points.len() as u64, "point");
+    aside(output, &format!("{points}, each with {}{phases}", times(study)));
 }
 
 /// `10 replicates`, `8 to 100 replicates`.

@@ -5,11 +5,10 @@ mod tried;
 
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
-use crate::control::control;
+use crate::control::{control, settled, settled_with};
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::file::check_file;
-use crate::settled::{settled, settled_with};
 use crate::{progress, say};
 use spunlaid::experiment::advice::judged_by;
 use spunlaid::ground::Error;

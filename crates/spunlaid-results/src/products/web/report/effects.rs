@@ -39,7 +39,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
         let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to \
-            fly             (laydown.case).";
+            fly (laydown.case).";
         return card(Vec::new(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {

@@ -182,6 +182,13 @@ mod tests {
                 let Relations { alternative_to, remedy, read_after, .. } = key.relations;
                 assert!([alternative_to, read_after].concat().iter().all(is_known), "{}", key.name);
                 assert_eq!(alternative_to.is_empty(), remedy.is_empty(), "{}", key.name);
+                // Two keys that give the same one are refused beside each other, or the last would win.
+                let shares = |other: &&Key<T>| {
+                    other.relations.alternative_to.iter().any(|name| alternative_to.contains(name))
+                };
+                let others = self.rows.iter().filter(|other| other.name != key.name).filter(shares);
+                others
+                    .for_each(|other| assert!(self.are_alternatives(key.name, other.name), "{}", other.name));
                 assert_eq!(
                     matches!(key.kind, Kind::File(_)),
                     !key.relations.gives.is_empty(),
