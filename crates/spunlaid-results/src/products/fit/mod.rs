@@ -24,7 +24,6 @@ use spunlaid::fibre::Remark;
 use spunlaid::ground::{Control, Error, Fault};
 use spunlaid::input::{FitFile, WebFile, WebSpec};
 use spunlaid::simulation::{Flights, Flyer};
-
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
