@@ -102,7 +102,7 @@ pub(crate) enum Need {
 pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
     (&["polymer"], Needed, "Polymer: pp, pet, pa6 or pla", "pp"),
     (&["throughput"], Needed, "Throughput of a hole", "0.5 g/min"),
-    (&["dtex", "diameter"], Needed, "Titre of a filament", "2 dtex"),
+    (&["dtex", "diameter"], Needed, "Titre or diameter of a filament", "2 dtex"),
     (&["basis-weight", "belt-speed"], Needed, "Basis weight of the web, or speed of its belt", "20 g/m²"),
     (&["width"], Usual, "Width of the web", "1 m"),
     (&["holes-per-metre", "holes"], Needed, "Holes of a beam per metre of width", "5000"),
