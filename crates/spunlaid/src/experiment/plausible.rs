@@ -129,8 +129,19 @@ fn shown(number: f64) -> String {
     format!("{number:.2e}").parse::<f64>().unwrap_or(number).to_string()
 }
 
-/// The numbers of a web that are outside the ranges of spunbond lines, each once.
+/// The numbers of a web that are outside the ranges of spunbond lines, each once: its layers share some.
 pub fn implausible(web: &WebSpec) -> Vec<Implausible> {
+    let mut all: Vec<Implausible> = Vec::new();
+    for found in of_layers(web) {
+        if !all.iter().any(|other| std::ptr::eq(other.limit, found.limit) && other.value == found.value) {
+            all.push(found);
+        }
+    }
+    all
+}
+
+/// The numbers of each layer that are outside.
+fn of_layers(web: &WebSpec) -> Vec<Implausible> {
     let of_layer = |(number, layer)| {
         let of = move |limit: &'static Limit| {
             Some(Implausible { layer: number, limit, value: (limit.of)(web, layer)? })
@@ -146,7 +157,7 @@ const ROUNDING: f64 = 1e-6;
 /// Whether a changed web has a number outside the ranges of spunbond lines that the web itself has not, or a filament
 /// that is even faster than its air.
 pub(crate) fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
-    let before = implausible(before);
+    let before = of_layers(before);
     let most = |found: &Implausible| {
         let same = |old: &&Implausible| old.layer == found.layer && std::ptr::eq(old.limit, found.limit);
         match before.iter().find(same) {
@@ -155,5 +166,5 @@ pub(crate) fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
             None => 1.0,
         }
     };
-    implausible(after).iter().any(|found| found.excess() > most(found) * (1.0 + ROUNDING))
+    of_layers(after).iter().any(|found| found.excess() > most(found) * (1.0 + ROUNDING))
 }

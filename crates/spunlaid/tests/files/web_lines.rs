@@ -189,6 +189,19 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     assert!(!file.notes.iter().any(|note| note.to_string().contains("in place of")), "{:?}", file.notes);
 }
 
+/// A note tells which number of the named case is replaced, and by what: 19 µm stand in this file, and are no case's.
+#[test]
+fn a_note_names_the_layer_that_replaces_a_number_of_its_case() {
+    let text = "[fibre]\ndiameter = \"19 µm\"\n[[layer]]\nlaydown.case = \"spunbond.toml\"\n\
+        fibre.diameter = \"17 µm\"\nline.filaments_per_metre = 5000\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
+    let file = read_web((text, "../../cases/line.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let said = file.notes.iter().map(ToString::to_string).filter(|note| note.contains("in place of the"));
+    let said: Vec<String> = said.collect();
+    let wanted =
+        "layer.1.fibre.diameter = \"17 µm\" is laid with fibre.diameter = 17 µm in place of the 18 µm of ";
+    assert!(matches!(&said[..], [said] if said.contains(wanted)), "{said:?}");
+}
+
 fn assert_reads_back_beside_cases(file: &WebFile) {
     let again = read_web((&file.text, "web.toml"), &[]).unwrap();
     assert_eq!(bits(&again.spec), bits(&file.spec), "{}", file.text);
@@ -222,6 +235,19 @@ fn numbers_that_no_spunbond_line_has_are_doubted() {
         doubts.sort_unstable();
         assert_eq!(found, doubts, "{key} = {value}");
     }
+    // Two beams have one belt and lay one weight, and each has a speed of its own.
+    let beam = |speed: u32, belt: &str| {
+        let known = "laydown = {sigma_md = \"18 mm\", sigma_cd = \"18 mm\", noise = \"12 m^-0.5\"}";
+        let line = format!("line = {{feed_speed = \"{speed} m/s\", filaments_per_metre = 5000{belt}}}");
+        format!(
+            "[[layer]]\n{known}\n{line}\nfibre = {{linear_density = \"2 dtex\", density = \"900 kg/m³\"}}\n"
+        )
+    };
+    let web = "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
+    let text = [&beam(160, ", belt_speed = \"30 m/s\""), &beam(180, ""), web].concat();
+    let mut found = doubted(&read_web((&text, "beams.toml"), &[]).unwrap());
+    found.sort_unstable();
+    assert_eq!(found, [belt, speed, speed]);
     let note = |file: &WebFile| file.notes.iter().find(|note| note.what.is_doubt()).unwrap().to_string();
     let said = note(&read_line(&[("line.throughput", "2 g/min")]));
     assert!(

@@ -43,9 +43,13 @@ impl Filament {
         let is_kept = |name: &str| upper.get(name).is_none() && merged.get(name).is_some();
         for (name, lower) in self.values.all().filter(|(name, _)| !is_kept(name)) {
             let gives = |by: &&str| *by == name || OF_CASE.are_alternatives(by, name);
-            let by = upper.all().map(|(by, _)| by).find(gives).unwrap_or(name);
-            if let Some(number) = lower.value.as_ref().and_then(Value::number) {
-                self.replaced.push(Replaced { by: format!("{prefix}{by}"), name: name.to_owned(), number });
+            let by = format!("{prefix}{}", upper.all().map(|(by, _)| by).find(gives).unwrap_or(name));
+            if upper.holds(&lower.place) {
+                // A layer says something else than all have in common, and so it is what replaces the case's own.
+                let common = self.replaced.iter_mut().filter(|replaced| replaced.by == name);
+                common.for_each(|replaced| replaced.by.clone_from(&by));
+            } else if let Some(number) = lower.value.as_ref().and_then(Value::number) {
+                self.replaced.push(Replaced { by, name: name.to_owned(), number });
             }
         }
         self.values = merged;
