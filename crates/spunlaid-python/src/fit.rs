@@ -59,14 +59,13 @@ pub(crate) fn find_fit(
         };
         // Progress is counted in webs.
         let aside = AtomicU64::new(0);
-        let flying = Control { done: &aside, ..watch.control(threads) };
+        let by = Control { done: &aside, ..watch.control(threads) };
         let web = |values: &[f64]| {
             let read = |resources: &Resources| file.web(values, resources);
-            Resources::default().settle(read, |resources| resources.fly(flying))
+            Resources::default().settle(read, |resources| resources.fly(by))
         };
-        let laying = Control { done: &aside, ..watch.control(threads) };
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
-        let found = input.find(&web, laying, &mut journal, &tell)?;
+        let found = input.find(&web, by, &mut journal, &tell)?;
         if let Some(mut place) = place {
             place.figures = figures;
             place.write(&found, watch.making())?;
