@@ -228,7 +228,10 @@ fn air_sentence(findings: &Findings) -> String {
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
-        (_, None) => "All filaments were flown in one air.".to_owned(),
+        (Evidence::AllInOneAir, None) => "All filaments were flown in one air.".to_owned(),
+        (Evidence::FewInOneAir, None) => {
+            "All filaments hang in one air, in which a few were flown.".to_owned()
+        }
     }
 }
 
