@@ -40,15 +40,24 @@ def alone(study: dict[str, object], tmp_path_factory: pytest.TempPathFactory) ->
     return out
 
 
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[Any]:
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """The client of a cluster of two workers."""
+    place = tmp_path_factory.mktemp("cluster")
     with (
         distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
+            n_workers=2, threads_per_worker=3, processes=True, dashboard_address=None, local_directory=place
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
         yield client
+
+
+@pytest.fixture
+def cluster(client: Any) -> Any:
+    """The same, once a worker that was killed is there again."""
+    client.wait_for_workers(2)
+    return client
 
 
 def assert_same(one: Path, other: Path) -> None:
@@ -105,7 +114,7 @@ def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
         assert found.noun == "web" and (found.mean["cv_10_mm"] > 0.0).all()
 
 
-def test_each_worker_has_one_web_in_one_air(tmp_path: Path) -> None:
+def test_each_worker_has_one_web_in_one_air(cluster: Any, tmp_path: Path) -> None:
     cases = Path(__file__).parents[3] / "cases"
     short = {"belt.distance": "0.1 m", "run.duration": "0.1 s", "run.spin_up": "10 ms", "fibre.element_length": "5 mm"}
     eddies = {"air.lateral": "von-karman", "air.lateral_cutoff": 6}
@@ -120,17 +129,11 @@ def test_each_worker_has_one_web_in_one_air(tmp_path: Path) -> None:
     )
     study = {"web": tmp_path / "web.toml", "replicates": 2, "vary": {"line.depth": ["0 mm", "5 mm"]}}
     most: list[int] = []
-    with (
-        distributed.LocalCluster(
-            n_workers=2, threads_per_worker=3, processes=True, dashboard_address=None, local_directory=tmp_path
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
 
-        def look(done: int, of: int) -> None:
-            most.append(max(len(tasks) for tasks in client.processing().values()))
+    def look(done: int, of: int) -> None:
+        most.append(max(len(tasks) for tasks in cluster.processing().values()))
 
-        found = spunlaid.sweep(study, client=client, out=tmp_path / "there", progress=look)
+    found = spunlaid.sweep(study, client=cluster, out=tmp_path / "there", progress=look)
     # A web is a bundle, though six threads could have taken all of them.
     assert len(most) == 4 and max(most) <= 1
     spunlaid.sweep(study, out=tmp_path / "here")
@@ -146,37 +149,34 @@ def test_rounds_are_those_of_one_machine(cluster: Any) -> None:
     assert here.to_pandas().equals(there.to_pandas()) and here.n.max() > 6
 
 
-def test_what_a_killed_client_left_goes_on(study: dict[str, object], alone: Path, program: Path, tmp_path: Path) -> None:
+def test_what_a_killed_client_left_goes_on(
+    study: dict[str, object], alone: Path, cluster: Any, program: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "s"
     # The text of the study stands in the folder of the first one.
     path = alone / "study.toml"
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
-    ) as cluster:
-        command = [sys.executable, "-c", "import sys; from spunlaid._cluster import main; sys.exit(main())"]
-        command += [str(path), "--scheduler", cluster.scheduler_address, "--out", str(out)]
-        # Small bundles, so that there is something to lose.
-        code = "import sys; from spunlaid import _cluster, _dask; _dask._MOST_FLIGHTS = 1; sys.exit(_cluster.main())"
-        command[2] = code
-        client = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-        journal = out / "journal"
-        header = 200
-        while not (journal.exists() and journal.stat().st_size > header + 8 * 200):
-            assert client.poll() is None, "the client is still at work"
-            time.sleep(0.01)
-        client.kill()
-        client.wait()
-        assert not (out / "results.csv").exists()
-        left = journal.stat().st_size
-        # The program goes on with what the cluster has begun; and is stopped, too.
-        sweep = subprocess.Popen([program, "sweep", path, "--out", out, "--threads", "1"], stderr=subprocess.DEVNULL)
-        while journal.stat().st_size <= left:
-            assert sweep.poll() is None, "the sweep is still at work"
-            time.sleep(0.005)
-        sweep.send_signal(signal.SIGINT)
-        assert sweep.wait() == 130
-        # And the cluster with what the program has left.
-        finished = subprocess.run(command, capture_output=True, text=True, check=True)
+    # Small bundles, so that there is something to lose.
+    code = "import sys; from spunlaid import _cluster, _dask; _dask._MOST_FLIGHTS = 1; sys.exit(_cluster.main())"
+    command = [sys.executable, "-c", code, str(path), "--scheduler", cluster.scheduler.address, "--out", str(out)]
+    client = subprocess.Popen(command, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    journal = out / "journal"
+    header = 200
+    while not (journal.exists() and journal.stat().st_size > header + 8 * 200):
+        assert client.poll() is None, "the client is still at work"
+        time.sleep(0.01)
+    client.kill()
+    client.wait()
+    assert not (out / "results.csv").exists()
+    left = journal.stat().st_size
+    # The program goes on with what the cluster has begun; and is stopped, too.
+    sweep = subprocess.Popen([program, "sweep", path, "--out", out, "--threads", "1"], stderr=subprocess.DEVNULL)
+    while journal.stat().st_size <= left:
+        assert sweep.poll() is None, "the sweep is still at work"
+        time.sleep(0.005)
+    sweep.send_signal(signal.SIGINT)
+    assert sweep.wait() == 130
+    # And the cluster with what the program has left.
+    finished = subprocess.run(command, capture_output=True, text=True, check=True)
     assert "276 fibres at 12 points" in finished.stdout
     assert_same(alone, out)
 
