@@ -65,9 +65,11 @@ fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
             // The allocator gives back at once what is free, so that the peak is what is in use.
             peak(run.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536"))
         };
-        // It wanders by some MB with the pictures that happen to be drawn side by side.
-        let taken = [few, many].map(|change| once(change).min(once(change)));
-        println!("{name}: {:.0} MB for {few}, {:.0} MB for {many}", taken[0] / 1e6, taken[1] / 1e6);
-        assert!(taken[1] < taken[0] + 8e6, "{name}: {taken:?} bytes for {few} and {many}");
+        // It wanders by some MB with the pictures that happen to be drawn side by side: the smaller of two counts, but
+        // the long run is repeated only if it needs to be.
+        let most = once(few).min(once(few)) + 8e6;
+        let taken = once(many);
+        println!("{name}: {:.0} MB for {many}, at most {:.0} MB", taken / 1e6, most / 1e6);
+        assert!(taken < most || once(many) < most, "{name}: {taken} bytes for {many}, at most {most}");
     }
 }

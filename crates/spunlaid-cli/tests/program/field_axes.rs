@@ -101,7 +101,7 @@ fn invariant_one_diffuser_in_all_orientations_lays_the_same_fibre_and_the_same_w
     let mut first: Option<[Vec<f64>; 3]> = None;
     for (axis, axes) in ORIENTATIONS {
         let desk = desk(axis, &table(axes, 1, velocity));
-        let web = WEB.replace("0.1 m", "0.08 m");
+        let web = WEB.replace("0.1 m", "0.08 m") + "flown = 250\n";
         fs::write(desk.path("web.toml"), desk_case(&desk) + &web).unwrap();
         fs::write(desk.path("places.csv"), "x [mm],y [mm],z [mm]\n10,5,0\n100,-20,3\n150,40,-7\n").unwrap();
         let run = json(&success(&mut desk.spunlaid("run brief.toml --json --threads 1 --checks none")));

@@ -1,7 +1,7 @@
 //! Every command that the program prints or writes works as it stands, where it was printed, and a second time too.
 
 use crate::desk::{Desk, FED, success};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -22,7 +22,7 @@ filaments_per_metre = 2000
 [web]
 width = \"40 mm\"
 length = \"40 mm\"
-cell = \"1 mm\"
+cell = \"0.5 mm\"
 patches = [\"2 mm\", \"10 mm\"]
 guessed = \"line.filaments_per_metre\"
 ";
@@ -52,13 +52,18 @@ fn paste(desk: &Desk, line: &str) {
     assert!(output.status.success(), "{line}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Runs all commands of some texts, twice.
+/// The verb of a command and the names of its options.
+fn kind(line: &str) -> Vec<&str> {
+    let words = line.split_whitespace().enumerate();
+    words.filter(|(i, word)| *i == 1 || word.starts_with("--")).map(|(_, word)| word).collect()
+}
+
+/// Runs all commands of some texts, and one of each kind a second time.
 fn paste_all(desk: &Desk, texts: &[String], least: usize) {
     let all: BTreeSet<String> = texts.iter().flat_map(|text| commands(text)).collect();
     assert!(all.len() >= least, "{all:#?}");
-    for _ in 0..2 {
-        all.iter().for_each(|line| paste(desk, line));
-    }
+    let kinds: BTreeMap<Vec<&str>, &String> = all.iter().map(|line| (kind(line), line)).collect();
+    all.iter().chain(kinds.into_values()).for_each(|line| paste(desk, line));
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn interrupted_old_results_stay() {
 /// Ends a run of many flights when some are kept, and compares what the same command then makes with a run in one go.
 #[test]
 fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
-    const ALL: u64 = 1200;
+    const ALL: u64 = 800;
     let desk = Desk::new();
     let run = |folder: &str| {
         let many = ["run.duration=1 s", "run.output_interval=4 ms", "run.scheme=leapfrog", "run.checks=none"];
@@ -79,52 +79,50 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
         desk.with(&command, &many)
     };
     success(&mut run("whole"));
-    for (folder, signals) in [("stopped", &["INT"][..]), ("killed", &["KILL", "KILL"])] {
-        let kept = desk.path(&format!(".{folder}.flown"));
-        for (process, signal) in (1..).zip(signals) {
-            let mut child = run(folder).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-            let size = || fs::metadata(&kept).map_or(0, |file| file.len());
-            let mut wait_until = |is_so: &dyn Fn() -> bool| {
-                while !is_so() {
-                    assert!(child.try_wait().unwrap().is_none(), "the run ends before it is signalled");
-                    std::thread::sleep(Duration::from_millis(1));
-                }
-            };
-            // Fibres have 251 rows of 16 numbers; so much as 130 of them have, with what was measured of some.
-            wait_until(&|| size() > process * 130 * 251 * 16 * 8);
-            let output = end(child, signal);
-            if *signal == "INT" {
-                assert_eq!(output.status.code(), Some(130));
-                let summary = desk.summary(folder);
-                let replicates = summary["replicates"].as_u64().unwrap();
-                assert!((8..ALL).contains(&replicates) && replicates.is_multiple_of(8));
-                let told = format!("{replicates} of {ALL} replicates");
-                let notes = summary["notes"].as_array().unwrap();
-                assert!(notes.iter().any(|note| note.as_str().unwrap().starts_with(&told)), "{notes:?}");
-            } else {
-                assert_eq!(output.status.code(), None);
-                // As if it had been killed in the middle of writing.
-                let landed = File::options().write(true).open(&kept).unwrap();
-                landed.set_len(landed.metadata().unwrap().len() - 5).unwrap();
+    let kept = desk.path(".stopped.flown");
+    for (process, signal) in (1..).zip(["KILL", "INT", "KILL"]) {
+        let mut child = run("stopped").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let size = || fs::metadata(&kept).map_or(0, |file| file.len());
+        let mut wait_until = |is_so: &dyn Fn() -> bool| {
+            while !is_so() {
+                assert!(child.try_wait().unwrap().is_none(), "the run ends before it is signalled");
+                std::thread::sleep(Duration::from_millis(1));
             }
+        };
+        // Fibres have 251 rows of 16 numbers; so much as 90 of them have, with what was measured of some.
+        wait_until(&|| size() > process * 90 * 251 * 16 * 8);
+        let output = end(child, signal);
+        if signal == "INT" {
+            assert_eq!(output.status.code(), Some(130));
+            let summary = desk.summary("stopped");
+            let replicates = summary["replicates"].as_u64().unwrap();
+            assert!((8..ALL).contains(&replicates) && replicates.is_multiple_of(8));
+            let told = format!("{replicates} of {ALL} replicates");
+            let notes = summary["notes"].as_array().unwrap();
+            assert!(notes.iter().any(|note| note.as_str().unwrap().starts_with(&told)), "{notes:?}");
+        } else {
+            assert_eq!(output.status.code(), None);
+            // As if it had been killed in the middle of writing.
+            let landed = File::options().write(true).open(&kept).unwrap();
+            landed.set_len(landed.metadata().unwrap().len() - 5).unwrap();
         }
-        let again = run(folder).output().unwrap();
-        let said = String::from_utf8(again.stderr).unwrap();
-        let left = said.split_once("going on: ").and_then(|(_, said)| said.split_once(" of "));
-        let left: u64 = left.and_then(|(left, _)| left.parse().ok()).unwrap_or_else(|| panic!("{said}"));
-        assert!(again.status.success() && (64..ALL).contains(&left), "{said}");
-        assert!(!kept.exists());
-        for file in ["case.toml", "end_node.parquet", "energy.parquet", "shape.pvd"] {
-            let [one, other] = [folder, "whole"].map(|folder| desk.read(&format!("{folder}/{file}")));
-            assert!(one == other, "{folder}: {file}");
-        }
-        let [one, other] = [folder, "whole"].map(|folder| {
-            let mut summary = desk.summary(folder);
-            summary["performance"] = serde_json::Value::Null;
-            summary
-        });
-        assert!(one == other, "{folder}");
     }
+    let again = run("stopped").output().unwrap();
+    let said = String::from_utf8(again.stderr).unwrap();
+    let left = said.split_once("going on: ").and_then(|(_, said)| said.split_once(" of "));
+    let left: u64 = left.and_then(|(left, _)| left.parse().ok()).unwrap_or_else(|| panic!("{said}"));
+    assert!(again.status.success() && (64..ALL).contains(&left), "{said}");
+    assert!(!kept.exists());
+    for file in ["case.toml", "end_node.parquet", "energy.parquet", "shape.pvd"] {
+        let [one, other] = ["stopped", "whole"].map(|folder| desk.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+    let [one, other] = ["stopped", "whole"].map(|folder| {
+        let mut summary = desk.summary(folder);
+        summary["performance"] = serde_json::Value::Null;
+        summary
+    });
+    assert!(one == other);
 }
 
 #[test]
@@ -268,9 +266,9 @@ fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
     let desk = Desk::new();
     fs::write(desk.path("web.toml"), WEB).unwrap();
     let there = names(&["brief.toml", "web.toml"]);
-    // It would take minutes.
+    // It would take far longer than the test.
     let laying = || {
-        let mut command = desk.spunlaid("web web.toml --out w --set line.filaments_per_metre=10000000");
+        let mut command = desk.spunlaid("web web.toml --out w --set line.filaments_per_metre=1000000");
         let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         while !hidden(&desk.path("")).iter().any(|name| desk.path(name).join("new").exists()) {
             std::thread::sleep(Duration::from_millis(5));
