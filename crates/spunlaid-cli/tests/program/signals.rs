@@ -83,14 +83,11 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
     for (process, signal) in (1..).zip(["KILL", "INT", "KILL"]) {
         let mut child = run("stopped").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let size = || fs::metadata(&kept).map_or(0, |file| file.len());
-        let mut wait_until = |is_so: &dyn Fn() -> bool| {
-            while !is_so() {
-                assert!(child.try_wait().unwrap().is_none(), "the run ends before it is signalled");
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        };
         // Fibres have 251 rows of 16 numbers; so much as 90 of them have, with what was measured of some.
-        wait_until(&|| size() > process * 90 * 251 * 16 * 8);
+        while size() <= process * 90 * 251 * 16 * 8 {
+            assert!(child.try_wait().unwrap().is_none(), "the run ends before it is signalled");
+            std::thread::sleep(Duration::from_millis(1));
+        }
         let output = end(child, signal);
         if signal == "INT" {
             assert_eq!(output.status.code(), Some(130));
