@@ -93,7 +93,7 @@ def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
         "set": {"web.width": "0.2 m", "web.length": "0.2 m"},
         "vary": {"line.belt_speed": [3.0, 4.0]},
     }
-    short = {"run.duration": "0.3 s", "run.replicates": 3, "belt.distance": "0.1 m", "fibre.element_length": "4 mm"}
+    short = {"belt.distance": "0.1 m", "run.duration": "0.1 s", "run.spin_up": "10 ms", "run.replicates": 3}
     (tmp_path / "short.toml").write_text(Case.read(cases / "spunbond.toml").with_(short).to_toml())
     web = tmp_path / "web.toml"
     web.write_text(
