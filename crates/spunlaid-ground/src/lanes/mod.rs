@@ -46,6 +46,7 @@ impl Lanes {
     }
 
     /// A value for each lane from its index `0..8`.
+    #[inline]
     pub fn from_fn(mut value: impl FnMut(usize) -> f64) -> Self {
         let mut lanes = Self::ZERO;
         // A loop is compiled faster than `array::from_fn`, of which each closure makes five functions.

@@ -93,8 +93,8 @@ impl Register for Avx2 {
     #[inline(always)]
     fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
         unsafe {
-            let masks = [_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0), _mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1)];
-            let [low, high] = masks.map(|mask| _mm256_movemask_pd(mask) as usize);
+            let low = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.0, b.0)) as usize;
+            let high = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a.1, b.1)) as usize;
             let count = low.count_ones() as usize;
             let start = into.as_mut_ptr();
             // The second half begins within the first four, so it ends within the eight.

@@ -114,7 +114,7 @@ pub trait Register: Simd {
     /// their number. What follows them there is left undefined.
     #[inline(always)]
     fn store_less(self, a: Self, b: Self, into: &mut [u64; WIDTH]) -> usize {
-        let [bits, a, b] = [self, a, b].map(Self::store);
+        let [bits, a, b] = [self.store(), a.store(), b.store()];
         let mut count = 0;
         for i in 0..WIDTH {
             // An entry that is not wanted is written over by the next.

@@ -71,14 +71,14 @@ impl Supports {
         i: usize,
         free: Wide<S>,
         force: Vec3<Wide<S>>,
-        velocities: [Vec3<Wide<S>>; 2],
+        [before, after]: [Vec3<Wide<S>>; 2],
         c: &Constants,
     ) -> Vec3<Wide<S>> {
         let zero = Wide::zero();
         let held = |force: Wide<S>| Wide::select_less(zero, free, zero, force);
         let force = Vec3::new(held(force.x), held(force.y), held(force.z));
         let frame = Wide::load(&c.frame);
-        let [before, after] = velocities.map(|v| v.less_y(frame));
+        let (before, after) = (before.less_y(frame), after.less_y(frame));
         let sum = if i == 0 { &mut self.feed } else { &mut self.belt };
         sum.both = force.dot_add(before + after, Wide::load(&sum.both)).store();
         // The belt's force is a blow at the touch-down, which counts from the end of its step on.

@@ -77,7 +77,7 @@ impl<'t, 'a> Stepper<'t, 'a> {
         let s = s.max(libm::sqrt(LEAST_DISTANCE * self.thread.line.length));
         let rates = self.rates(s, state);
         self.is_elastic_wave |= rates.is_elastic_wave;
-        rates.slopes.map(|slope| 2.0 * s * slope)
+        std::array::from_fn(|i| 2.0 * s * rates.slopes[i])
     }
 
     /// Tries a step.
@@ -111,7 +111,7 @@ impl<'t, 'a> Stepper<'t, 'a> {
         });
         let error = libm::sqrt(error.sum::<f64>() / sizes.len() as f64);
         let bend = std::array::from_fn(|i| sum(&DENSE, i));
-        let slopes = [k[0], k[6]].map(|slope| slope.map(|one| length * one));
+        let slopes = [0, 6].map(|stage| std::array::from_fn(|i| length * k[stage][i]));
         Step { start, length, phase: self.phase, from: *from, to, error, slopes, bend }
     }
 }

@@ -351,8 +351,8 @@ fn product_of_rows(a: &[u32], b: &[u32], mean: f64) -> f64 {
     // Eight sums, so that none waits for the product before.
     let mut sums = [0.0; 8];
     for (a, b) in a.iter().zip(b) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += product(*a, *b);
+        for (i, sum) in sums.iter_mut().enumerate() {
+            *sum += product(a[i], b[i]);
         }
     }
     let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| product(*a, *b)).sum();

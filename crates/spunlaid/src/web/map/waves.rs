@@ -107,9 +107,8 @@ impl Powers {
 
     /// Power by wave number in cross and in machine direction, of either sign.
     pub(super) fn at(&self, across: i64, along: i64) -> f64 {
-        let [column, row] = [(across, self.columns), (along, self.rows)]
-            .map(|(number, count)| number.rem_euclid(count as i64) as usize);
-        self.values[row * self.columns + column]
+        let turned = |number: i64, count: usize| number.rem_euclid(count as i64) as usize;
+        self.values[turned(along, self.rows) * self.columns + turned(across, self.columns)]
     }
 
     /// All wave numbers but the mean's, in cross and in machine direction.

@@ -216,7 +216,7 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
         for pair in 0..BLOCK / 2 {
             for i in [2 * pair, 2 * pair + 1] {
                 for k in 0..SETS {
-                    sets[k].points[i] = at[k].map(Wide::store);
+                    sets[k].points[i] = [at[k][0].store(), at[k][1].store()];
                     (at[k], along[k]) = corners[k].pass(at[k], along[k], &sets[k].turns[i]);
                 }
             }
@@ -228,9 +228,9 @@ impl<const SETS: usize> Task for Next<'_, SETS> {
             }
         }
         for k in 0..SETS {
-            sets[k].position = at[k].map(Wide::store);
+            sets[k].position = [at[k][0].store(), at[k][1].store()];
             sets[k].points[BLOCK] = sets[k].position;
-            sets[k].direction = along[k].map(Wide::store);
+            sets[k].direction = [along[k][0].store(), along[k][1].store()];
             sets[k].taken = 0;
         }
     }
@@ -274,7 +274,7 @@ impl<S: Register> Corner<S> {
         let (u, v) = (x * self.pull[0], y * self.pull[1]);
         let squared = u.mul_add(u, v * v);
         // tanh(w/2)/w in w²; w is below 1 within eight standard deviations.
-        let [c0, c1, c2] = [0.5, -1.0 / 24.0, 1.0 / 240.0].map(Wide::<S>::splat);
+        let (c0, c1, c2) = (Wide::splat(0.5), Wide::splat(-1.0 / 24.0), Wide::splat(1.0 / 240.0));
         let ratio = c2.mul_add(squared, c1).mul_add(squared, c0);
         let (p, q) = (u * ratio, v * ratio);
         let square = p.mul_add(p, q * q);

@@ -3,6 +3,7 @@
 use super::lattice::{Extent, Lattice, left, samples};
 use super::way::{EddyPath, Stage};
 use crate::air::motion::{Air, Spectrum};
+use std::array::from_fn;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::Arc;
 
@@ -171,11 +172,11 @@ impl Shape {
             let harmonics = shapes.map(|g| g.harmonics.get(n).map(|harmonic| (harmonic, left_in_time(g, n))));
             for mode in &self.modes {
                 // The three parts of each component, one for each of the random amplitudes.
-                let parts = harmonics.map(|harmonic| {
-                    harmonic.map_or([[0.0; 3]; 3], |(harmonic, left_in_time)| {
+                let parts: [[[f64; 3]; 3]; 2] = from_fn(|of| {
+                    harmonics[of].map_or([[0.0; 3]; 3], |(harmonic, left_in_time)| {
                         let amplitude = f64::from(harmonic.amplitudes[mode.index]) * mode.left * left_in_time;
                         let projection = mode.projection(harmonic.wave_number);
-                        [0, 1, 2].map(|i| projection[i].map(|p| p * amplitude * f64::from(harmonic.scale[i])))
+                        from_fn(|i| from_fn(|m| projection[i][m] * amplitude * f64::from(harmonic.scale[i])))
                     })
                 });
                 let entries = parts[0].as_flattened().iter().zip(parts[1].as_flattened());
@@ -228,5 +229,5 @@ impl Mode {
 pub(super) fn projection(k: [f64; 3], is_alone: bool) -> [[f64; 3]; 3] {
     let square = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     let per_square = if is_alone { 0.0 } else { 1.0 / square };
-    [0, 1, 2].map(|i| [0, 1, 2].map(|m| (if i == m { 1.0 } else { 0.0 }) - k[i] * k[m] * per_square))
+    from_fn(|i| from_fn(|m| (if i == m { 1.0 } else { 0.0 }) - k[i] * k[m] * per_square))
 }

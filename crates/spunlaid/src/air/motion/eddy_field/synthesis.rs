@@ -16,6 +16,7 @@ use crate::ground::random::stream;
 use crate::ground::threads::each;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
+use std::array::from_fn;
 use std::f64::consts::TAU;
 
 /// Number of different random phases.
@@ -144,9 +145,9 @@ impl Synthesis {
                 let white = random.next(&self.phases, &self.turns);
                 let at = place(waves_z, points_z) * columns + (waves_y + most_y) as usize;
                 for (i, modes) in modes.iter_mut().enumerate() {
-                    let factors = projection[i].map(|part| part as f32);
+                    let factors: [f32; 3] = from_fn(|m| projection[i][m] as f32);
                     for (part, modes) in modes.iter_mut().enumerate() {
-                        let [a, b, c] = [0, 1, 2].map(|m| factors[m] * white[m][part]);
+                        let [a, b, c] = from_fn(|m| factors[m] * white[m][part]);
                         modes[at] = (a + b + c) * (harmonic.scale[i] * amplitude);
                     }
                 }
@@ -251,8 +252,8 @@ impl Random {
     #[inline(always)]
     fn next(&mut self, phases: &[[f32; 2]], turns: &[[f32; 2]]) -> [[f32; 2]; 3] {
         let start = self.stream.next_u32();
-        [0, 10, 20].map(|shift| {
-            let phase = phases[(start >> shift) as usize % PHASES];
+        from_fn(|i| {
+            let phase = phases[(start >> (10 * i)) as usize % PHASES];
             let (mut forward, mut left) = (0, self.generation as u32);
             for _ in 0..self.words {
                 let bits = left.min(32);
