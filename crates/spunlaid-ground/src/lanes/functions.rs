@@ -160,7 +160,8 @@ pub fn bend_ratio<S: Register>(turn_squared: Wide<S>) -> Wide<S> {
 /// `θ/sin θ = (θ/4)/sin(θ/4) / (cos(θ/2) cos(θ/4))`, for bends of more than some degrees.
 #[inline(always)]
 fn bend_ratio_by_quarter<S: Simd>(turn_squared: Wide<S>) -> Wide<S> {
-    let [quarter, half, one, two] = [0.25, 0.5, 1.0, 2.0].map(Wide::splat);
+    let (quarter, half) = (Wide::splat(0.25), Wide::splat(0.5));
+    let (one, two) = (Wide::splat(1.0), Wide::splat(2.0));
     // δ² may exceed 4 by rounding; the bound keeps the moment of a folded fibre finite.
     let cos_half = turn_squared.neg_mul_add(quarter, one).max(Wide::splat(f64::EPSILON)).sqrt();
     let cos_quarter = cos_half.mul_add(half, half).sqrt();
