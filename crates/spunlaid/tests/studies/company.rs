@@ -181,8 +181,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
         let (mut refused, mut flown) = (Vec::new(), BTreeSet::new());
         let text = if key.name == "air.lateral" { &in_coarse_air } else { text };
         for (how, values) in pairs(key, &case) {
-            // What follows from a spinline has values far from each other where a fibre is fed.
-            if flown.contains(&how) || how == FAR && case.spinline.is_some() && flown.contains(&CLOSE) {
+            if flown.contains(&how) {
                 continue;
             }
             let points = match points(text, key.name, &values) {
@@ -192,18 +191,12 @@ fn vary_every_key(name: &str, text: &str) -> Found {
                     continue;
                 }
             };
-            let is_shared = Bundles::from_batches(&points, &batches(&points), 1).count() == 1;
-            let has_flown = !flown.is_empty() && key.kind.words().is_empty();
             flown.insert(how);
-            // Numbers that do not share a flight fly as they do alone, which one pair of each key shows.
-            if has_flown && !is_shared {
-                continue;
-            }
             let differ = differing(&points, &mut known);
             if !differ.is_empty() {
                 found.wrong.push(format!("{name}: {} = {values:?}: {}", key.name, differ.join(", ")));
             }
-            if how == CLOSE && is_shared {
+            if how == CLOSE && Bundles::from_batches(&points, &batches(&points), 1).count() == 1 {
                 found.shared.insert(key.name);
             }
         }
@@ -213,7 +206,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
         if is_there && !excluded && key.kind.words().is_empty() && !flown.contains(&CLOSE) {
             found.wrong.push(format!("{name}: no two close values of {}: {refused:?}", key.name));
         }
-        if !flown.is_empty() {
+        if flown.iter().any(|how| *how >= FAR) {
             found.varied.insert(key.name);
         }
     }

@@ -188,7 +188,7 @@ cutoff_frequency = '400 Hz'
 [drag]
 across = 'marheineke-wegener'
 [run]
-duration = '6.6 ms'
+duration = '8 ms'
 spin_up = '3 ms'
 output_interval = '0.2 ms'
 time_step = '20 µs'
@@ -217,7 +217,7 @@ profile = '../../cases/tables/diffuser.csv'
 eddies = 'convected'
 decay_time = '20 ms'
 [run]
-duration = '7 ms'
+duration = '8 ms'
 spin_up = '3 ms'
 output_interval = '0.2 ms'
 time_step = '20 µs'
@@ -228,7 +228,7 @@ DROP
 [air]
 field = 'FIELD'
 [run]
-duration = '6.6 ms'
+duration = '8 ms'
 spin_up = '3 ms'
 output_interval = '0.4 ms'
 time_step = '40 µs'
@@ -299,6 +299,7 @@ cross_velocity = '0.3 m/s'
 temperature = '20 °C'
 end = 'take-up'
 take_up_speed = '25 m/s'
+law = 'ptt'
 crystallisation = true
 BELOW";
 
