@@ -2,7 +2,7 @@
 
 use crate::picture::{Picture, PictureError};
 use crate::pixels::drawn;
-use png::{BitDepth, ColorType, Encoder, PixelDimensions, Unit};
+use png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter, PixelDimensions, Unit};
 
 const METRES_PER_INCH: f64 = 0.0254;
 
@@ -20,6 +20,10 @@ pub fn png(picture: &Picture, dpi: u32, texts: &[(&str, &str)]) -> Result<Vec<u8
     let mut encoder = Encoder::new(&mut file, pixels.width(), pixels.height());
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
+    // An eighth of the time of the default, for files of one and a half times the size: a short run spent half its
+    // time here.
+    encoder.set_deflate_compression(DeflateCompression::Level(1));
+    encoder.set_filter(Filter::Up);
     let per_metre = (f64::from(dpi) / METRES_PER_INCH).round() as u32;
     encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter }));
     for (keyword, text) in texts {
