@@ -7,6 +7,7 @@ use crate::map::Map;
 use crate::palette::{BLUE, Colour, GREY, INK, Marker, VERMILION};
 use crate::scale::Axis;
 use std::borrow::Borrow;
+use std::sync::Arc;
 
 /// How one quantity is drawn throughout a chart.
 #[derive(Clone, Debug)]
@@ -15,8 +16,8 @@ pub struct Series {
     pub label: Option<String>,
     /// What the figure's table calls it; nothing: not in the table.
     pub name: Option<String>,
-    /// All points, x, y, ± error, where only some of them are drawn.
-    pub full: Option<Vec<(f64, f64, Option<f64>)>>,
+    /// All points, x, y, ± error, where only some of them are drawn; an error that is not known is NaN. They are many.
+    pub full: Option<Arc<[[f64; 3]]>>,
     /// Colour.
     pub colour: Colour,
     /// Sign of its points.
@@ -76,8 +77,9 @@ impl Series {
     }
 
     /// With all points for the figure's table, where only some of them are drawn: x, y, ± error.
-    pub fn thinned_from(self, full: Vec<(f64, f64, Option<f64>)>) -> Self {
-        Self { full: Some(full), ..self }
+    pub fn thinned_from(self, full: impl IntoIterator<Item = Spot>) -> Self {
+        let row = |(x, y, error): Spot| [x, y, error.unwrap_or(f64::NAN)];
+        Self { full: Some(full.into_iter().map(row).collect()), ..self }
     }
 
     /// With dashes and gaps, as many of one as of the other [px].
@@ -97,7 +99,7 @@ impl Series {
 }
 
 /// A point with its error: x, y, ± error.
-type Spot = (f64, f64, Option<f64>);
+pub(crate) type Spot = (f64, f64, Option<f64>);
 
 fn owned<T: Copy>(points: impl IntoIterator<Item: Borrow<T>>) -> Vec<T> {
     points.into_iter().map(|point| *point.borrow()).collect()

@@ -1,6 +1,6 @@
 //! A figure: a picture, what it shows, and the numbers in it.
 
-use crate::chart::{Chart, Mark, Series};
+use crate::chart::{Chart, Mark, Series, Spot};
 use crate::draw;
 use crate::picture::Picture;
 use crate::svg::svg;
@@ -149,11 +149,13 @@ fn content<'a>(
 ) -> Option<(Vec<String>, Box<dyn Iterator<Item = PointRow> + 'a>)> {
     let (x, y) = (chart.x.column(), chart.y.column());
     let [error, lower, upper] = [ERROR, LOWER, UPPER].map(str::to_owned);
-    Some(match (series.full.as_ref(), mark) {
-        (Some(points), _) | (None, Mark::Scatter(points)) => {
-            let mut columns = vec![x, y];
-            columns.extend(points.iter().any(|point| point.2.is_some()).then_some(error));
-            (columns, Box::new(points.iter().map(|&(x, y, error)| [x, y, error.unwrap_or(f64::NAN)])))
+    let spots =
+        |has_errors: bool| [x.clone(), y.clone()].into_iter().chain(has_errors.then_some(error)).collect();
+    Some(match (series.full.as_deref(), mark) {
+        (Some(rows), _) => (spots(rows.iter().any(|row| !row[2].is_nan())), Box::new(rows.iter().copied())),
+        (None, Mark::Scatter(points)) => {
+            let row = |&(x, y, error): &Spot| [x, y, error.unwrap_or(f64::NAN)];
+            (spots(points.iter().any(|point| point.2.is_some())), Box::new(points.iter().map(row)))
         }
         (None, Mark::Line(points) | Mark::Path(points)) => {
             (vec![x, y], Box::new(points.iter().map(|&(x, y)| [x, y, f64::NAN])))

@@ -139,7 +139,7 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
                 (patch.side * MM, patch.cv * PER_CENT, error.map(|error| error * PER_CENT))
             })
         };
-        let spots = Series::spots(name, colour).thinned_from(points(true, true).collect());
+        let spots = Series::spots(name, colour).thinned_from(points(true, true));
         chart = chart
             .line(Series::new("", colour).adorning().width(1.0), line)
             .scatter(spots, points(true, false))

@@ -89,7 +89,7 @@ pub fn step_errors(runs: &[(f64, Vec<CurveValue>)]) -> Figure {
             let known: Vec<f64> = some.iter().map(|e| e.mean).filter(|e| e.is_finite()).collect();
             (some[some.len() / 2].at, known.iter().sum::<f64>() / known.len() as f64)
         });
-        let all = errors.iter().map(|e| (e.at, e.mean, None)).collect();
+        let all = errors.iter().map(|e| (e.at, e.mean, None));
         let series = Series::new(&format!("{:.0} µs", step * 1e6), colour).width(1.2);
         chart = chart.line(series.thinned_from(all), means);
     }

@@ -45,8 +45,7 @@ fn history(record: &Record, analysis: &Analysis) -> Figure {
                 return chart.line(series, &line);
             }
             let all = values.iter().enumerate();
-            let all =
-                all.map(|(k, value)| ((range.start + k) as f64 * analysis.interval, *value, None)).collect();
+            let all = all.map(|(k, value)| ((range.start + k) as f64 * analysis.interval, *value, None));
             chart.line(series.named(&format!("{} close-up", component.name)).thinned_from(all), &line)
         })
     };
@@ -118,7 +117,7 @@ fn histogram(record: &Record, analysis: &Analysis) -> Figure {
             .flat_map(|(k, n)| [(edge(k), height(*n)), (edge(k + 1), height(*n))]);
         let middles =
             classes.iter().enumerate().map(|(k, n)| (0.5 * (edge(k) + edge(k + 1)), height(*n), None));
-        let line = series(&component.name, i).width(1.4).thinned_from(middles.collect());
+        let line = series(&component.name, i).width(1.4).thinned_from(middles);
         chart = chart.path(line, steps);
         if i == 0 {
             let bell = |z: f64| (-0.5 * z * z).exp() / ((2.0 * std::f64::consts::PI).sqrt() * unit);
@@ -201,7 +200,7 @@ fn density(analysis: &Analysis) -> Figure {
         }
         let line = points.iter().map(|&(f, p, _)| (f, p));
         let density = component.spectrum.density.iter().enumerate();
-        let all = density.map(|(k, p)| (component.spectrum.frequency(k), *p, None)).collect();
+        let all = density.map(|(k, p)| (component.spectrum.frequency(k), *p, None));
         chart = chart.line(series(&component.name, i).width(1.5).thinned_from(all), line);
     }
     let (level, cutoff) = (flat.density.value, flat.cutoff.value);

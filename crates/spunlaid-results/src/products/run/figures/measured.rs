@@ -116,7 +116,7 @@ fn profile(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue], marked:
     let point = |place: &CurveValue| (place.at, place.mean, place.standard_error);
     let line = even(places.len(), LINED).into_iter().map(|k| (places[k].at, places[k].mean));
     let marked = even(places.len(), marked).into_iter().map(|k| point(&places[k]));
-    let all = places.iter().map(point).collect();
+    let all = places.iter().map(point);
     let named = curve.measure.series;
     let series = styled(i, named).thinned_from(all);
     // The only curve of a figure has no name of its own.
@@ -128,7 +128,7 @@ fn profile(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue], marked:
 fn correlation(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue]) -> Chart {
     let colour = if i.is_multiple_of(2) { BLUE } else { VERMILION };
     let points = places.iter().map(|place| (place.at, place.mean));
-    let full = places.iter().map(|place| (place.at, place.mean, place.standard_error)).collect();
+    let full = places.iter().map(|place| (place.at, place.mean, place.standard_error));
     let series = Series::new(curve.measure.series, colour).thinned_from(full);
     if i >= MEASURED {
         return chart.line(series.dashed(&[7.0, 4.0]).width(1.4), points);
@@ -175,8 +175,7 @@ fn series(chart: Chart, i: usize, curve: &Curve, places: &[CurveValue], replicat
         (some[some.len() / 2].at, mean, largest)
     };
     let band: Vec<_> = places.chunks(each).map(together).collect();
-    let all =
-        |value: fn(&CurveValue) -> f64| places.iter().map(|place| (place.at, value(place), None)).collect();
+    let all = |value: fn(&CurveValue) -> f64| places.iter().map(move |place| (place.at, value(place), None));
     let name = curve.measure.series;
     let several = replicates > 1 || each > 1;
     let label = if several { format!("{name}, mean") } else { name.to_owned() };
