@@ -32,8 +32,8 @@ rows = [{ offset = "10 mm", pitch = "5 mm", filaments = 30 }, { offset = "20 mm"
 defects = [{ from = "20 mm", to = "60 mm", row = 1, share = 0.5, titre = 0.5, after = "1 ms" }]
 [web]
 width = "200 mm"
-length = "200 mm"
-cell = "2 mm"
+length = "150 mm"
+cell = "1 mm"
 patches = ["20 mm"]
 edges = "cut"
 seed = 3
@@ -53,7 +53,7 @@ opacity_weight = "15 g/m²"
 [web]
 width = "200 mm"
 length = "200 mm"
-cell = "2 mm"
+cell = "1 mm"
 patches = ["20 mm"]
 [[layer]]
 name = "S1"
