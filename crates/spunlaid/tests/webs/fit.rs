@@ -100,7 +100,7 @@ fn few_filaments_of_a_trial_are_held_against_all_in_the_same_air() {
 [laydown]
 case = \"spunbond_slot.toml\"
 [line]
-filaments_per_metre = 8000
+filaments_per_metre = 2000
 depth = \"5 mm\"
 [belt]
 distance = \"0.1 m\"
@@ -114,7 +114,7 @@ length_factor = 0.25
 width = \"40 mm\"
 length = \"30 mm\"
 cell = \"0.5 mm\"
-flown = 1000
+flown = 250
 ";
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web_shared.toml");
     let read = |set: &[(String, String)]| {
