@@ -1,6 +1,6 @@
 //! Fourier transform of eight signals side by side.
 
-use crate::lanes::{Isa, Lanes, Plain, Register, Task, Wide, cos_sin_turn};
+use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,10 +41,20 @@ impl<S: Register> WideComplex<S> {
     }
 }
 
-/// `e^{2πi·turns}` as (cosine, sine).
-pub fn unit(turns: f64) -> (f64, f64) {
-    let (cos, sin) = cos_sin_turn(Wide::<Plain>::splat(turns));
-    (cos.store().0[0], sin.store().0[0])
+/// `e^{2πi·k·turns}` as (cosine, sine), `k < count`.
+#[inline(always)]
+pub fn roots<S: Register>(count: usize, turns: f64) -> Vec<(f64, f64)> {
+    let mut roots = Vec::with_capacity(count.next_multiple_of(WIDTH));
+    for first in (0..count).step_by(WIDTH) {
+        let mut angles = Lanes::ZERO;
+        for (i, angle) in angles.0.iter_mut().enumerate() {
+            *angle = (first + i) as f64 * turns;
+        }
+        let (cos, sin) = cos_sin_turn(Wide::<S>::load(&angles));
+        roots.extend(cos.store().0.into_iter().zip(sin.store().0));
+    }
+    roots.truncate(count);
+    roots
 }
 
 /// Unscaled inverse Fourier transform `y_m = Σ_n x_n e^{2πi nm/M}`, `M` a power of two.
@@ -60,7 +70,7 @@ impl InverseTransform {
     /// For signals of `size` samples, a power of two.
     pub fn new(size: usize) -> Self {
         debug_assert!(size.is_power_of_two());
-        Self { roots: (0..size / 2).map(|k| unit(k as f64 / size as f64)).collect() }
+        Self { roots: Isa::detect().run(RootsTask { size }) }
     }
 
     /// Transforms `data` in place.
@@ -91,6 +101,19 @@ impl InverseTransform {
             stride *= 2;
             half /= 2;
         }
+    }
+}
+
+struct RootsTask {
+    size: usize,
+}
+
+impl Task for RootsTask {
+    type Output = Vec<(f64, f64)>;
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> Vec<(f64, f64)> {
+        roots::<S>(self.size / 2, 1.0 / self.size as f64)
     }
 }
 

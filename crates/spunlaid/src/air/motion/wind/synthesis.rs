@@ -1,7 +1,7 @@
 //! A window of turbulence by random-phase synthesis.
 
 use super::sampling::{Sampling, Stream};
-use crate::ground::fft::unit;
+use crate::ground::fft::roots;
 use crate::ground::lanes::cos_sin_turn;
 use crate::ground::random::uniform;
 use crate::ground::{Complex, InverseTransform, Lanes, PerLane, Register, Task, WIDTH, Wide, WideComplex};
@@ -31,7 +31,7 @@ impl Task for Synthesis<'_> {
         let period = self.grid.period;
         let half = period / 2;
         let transform = InverseTransform::new(half);
-        let turn_back: Vec<(f64, f64)> = (0..half).map(|m| unit(-0.25 * m as f64 / half as f64)).collect();
+        let turn_back = roots::<S>(half, -0.25 / half as f64);
         let mut harmonics = Harmonics::new(self.sampling, self.streams, self.window, period);
 
         let columns = 3 * eddies;
