@@ -3,8 +3,8 @@
 use super::basis_weight::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
-use crate::ground::Estimate;
 use crate::ground::threads::each;
+use crate::ground::{Estimate, Isa, Lanes, Register, Task, WIDTH, Wide};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -325,6 +325,7 @@ impl Split {
 /// * `threads` – that find them; they do not change them
 pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] {
     let mean = map.total() as f64 / map.cells.len() as f64;
+    let isa = Isa::detect();
     // About a million products for each lag say enough.
     let stride = (map.cells.len() >> 20).max(1);
     let product = |lag: usize, step: [usize; 2]| {
@@ -332,7 +333,8 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
         let (mut sum, mut count) = (0.0, 0u64);
         for row in (0..last[1]).step_by(stride) {
             let (one, other) = (map.row(row), map.row(row + lag * step[1]));
-            sum += product_of_rows(&one[..last[0]], &other[lag * step[0]..][..last[0]], mean);
+            let rows = [&one[..last[0]], &other[lag * step[0]..][..last[0]]];
+            sum += isa.run(ProductOfRows { rows, mean });
             count += last[0] as u64;
         }
         sum / count as f64
@@ -345,16 +347,30 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
 }
 
 /// `Σ (a − mean)(b − mean)` of two rows that are equally long.
-fn product_of_rows(a: &[u32], b: &[u32], mean: f64) -> f64 {
-    let product = |a: u32, b: u32| (f64::from(a) - mean) * (f64::from(b) - mean);
-    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
-    // Eight sums, so that none waits for the product before.
-    let mut sums = [0.0; 8];
-    for (a, b) in a.iter().zip(b) {
-        for (i, sum) in sums.iter_mut().enumerate() {
-            *sum += product(a[i], b[i]);
+struct ProductOfRows<'a> {
+    rows: [&'a [u32]; 2],
+    mean: f64,
+}
+
+impl Task for ProductOfRows<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call<S: Register>(self) -> f64 {
+        let [(a, rest_a), (b, rest_b)] = self.rows.map(<[u32]>::as_chunks::<WIDTH>);
+        let mean = Wide::<S>::splat(self.mean);
+        let mut sums = Wide::<S>::zero();
+        for (a, b) in a.iter().zip(b) {
+            let (mut wide_a, mut wide_b) = (Lanes::ZERO, Lanes::ZERO);
+            for i in 0..WIDTH {
+                (wide_a.0[i], wide_b.0[i]) = (f64::from(a[i]), f64::from(b[i]));
+            }
+            sums += (Wide::load(&wide_a) - mean) * (Wide::load(&wide_b) - mean);
         }
+        let mut rest = 0.0;
+        for (a, b) in rest_a.iter().zip(rest_b) {
+            rest += (f64::from(*a) - self.mean) * (f64::from(*b) - self.mean);
+        }
+        sums.store().0.iter().sum::<f64>() + rest
     }
-    let rest: f64 = rest_a.iter().zip(rest_b).map(|(a, b)| product(*a, *b)).sum();
-    sums.iter().sum::<f64>() + rest
 }

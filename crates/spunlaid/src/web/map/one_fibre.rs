@@ -102,12 +102,15 @@ fn add(
         let mut fibres = vec![Alone { squares: 0.0, profile: vec![0.0; apart] }; sample.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
             for (Alone { squares, profile }, cells) in fibres.iter_mut().zip(boxes.chunks_exact(apart)) {
+                // In memory it would wait for itself at each patch.
+                let mut sum = *squares;
                 // Most patches hold nothing.
                 for (mean, quanta) in profile.iter_mut().zip(cells).filter(|(_, quanta)| **quanta > 0) {
                     let quanta = *quanta as f64;
-                    *squares += quanta * quanta;
+                    sum += quanta * quanta;
                     *mean += quanta * share;
                 }
+                *squares = sum;
             }
         });
         Ok(fibres)
