@@ -7,6 +7,8 @@ mod trace;
 
 pub use trace::{LaidCurve, Trace, TraceSettings};
 
+use crate::ground::{Isa, Register, Task};
+
 /// Cells along each side of a footprint.
 const CELLS: usize = 96;
 
@@ -78,6 +80,7 @@ impl Footprint {
 /// interleaved series; each keeps its last `lags` samples.
 #[derive(Clone, Debug)]
 struct LaggedProducts {
+    isa: Isa,
     stride: usize,
     /// Number of lags, lag zero included.
     lags: usize,
@@ -116,11 +119,30 @@ impl Recent {
     }
 }
 
+/// Adds the products of a sample with those before it.
+struct AddProducts<'a> {
+    x: f64,
+    recent: &'a [f64],
+    products: &'a mut [f64],
+}
+
+impl Task for AddProducts<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call<S: Register>(self) {
+        for (product, before) in self.products.iter_mut().zip(self.recent) {
+            *product += self.x * before;
+        }
+    }
+}
+
 impl LaggedProducts {
     /// * `stride` – samples from one lag to the next, one or more
     /// * `lags` – number of lags, lag zero included, one or more
     fn new(stride: usize, lags: usize) -> Self {
         Self {
+            isa: Isa::detect(),
             stride,
             lags,
             reference: 0.0,
@@ -139,9 +161,7 @@ impl LaggedProducts {
         let x = value - self.reference;
         // Places that no sample has taken yet are zero and add nothing.
         let recent = self.recent[(self.count % self.stride as u64) as usize].push(x);
-        for (product, before) in self.products.iter_mut().zip(recent) {
-            *product += x * before;
-        }
+        self.isa.run(AddProducts { x, recent, products: &mut self.products });
         self.sum += x;
         self.count += 1;
         if self.count.is_multiple_of(self.stride as u64) && self.first.len() < self.lags {
