@@ -10,7 +10,7 @@ use std::fs::File;
 /// A laid web of 100 by 150 mm in cells of 0.5 mm, and the scan of a piece of it, 60 by 80 mm, in pixels of 0.25 mm.
 fn laid_and_scanned() -> Desk {
     let desk = desk();
-    success(&mut desk.spunlaid("web web.toml --out laid --quiet"));
+    success(&mut desk.spunlaid("web web.toml --no-advice --out laid --quiet"));
     let laid = map(&desk, "laid");
     let piece: Vec<f64> = (0..320)
         .flat_map(|row| (0..240).map(move |column| row / 2 * 200 + column / 2))
@@ -101,7 +101,7 @@ fn two_scans_and_two_webs_are_seen_beside_each_other() {
     success(&mut desk.spunlaid("analyse laid/map.png --patches 2mm,4mm,10mm --out gauge --quiet"));
     let web = fs::read_to_string(desk.path("web.toml")).unwrap();
     fs::write(desk.path("other.toml"), web.replace("noise = \"20", "noise = \"40")).unwrap();
-    success(&mut desk.spunlaid("web other.toml --out other --quiet"));
+    success(&mut desk.spunlaid("web other.toml --no-advice --out other --quiet"));
     for (order, size, count) in
         [("scan gauge", (120, 160), 2), ("laid other", (200, 300), 2), ("laid other scan", (120, 160), 3)]
     {

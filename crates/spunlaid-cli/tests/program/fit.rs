@@ -27,7 +27,8 @@ length = \"120 mm\"
 pub(super) fn desk() -> Desk {
     let desk = Desk::new();
     fs::write(desk.path("web.toml"), WEB).unwrap();
-    let truth = "web web.toml --set line.filaments_per_metre=900 --set web.seed=5 --out truth --quiet";
+    let truth =
+        "web web.toml --set line.filaments_per_metre=900 --set web.seed=5 --no-advice --out truth --quiet";
     success(&mut desk.spunlaid(truth));
     desk
 }
@@ -66,7 +67,7 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
         .map(|number| number["patch_m"].as_f64().unwrap())
         .collect();
     assert!(sides.iter().all(|side| (0.0005..=0.03).contains(side)) && sides.len() >= 5, "{sides:?}");
-    success(&mut desk.spunlaid("web fit/web.toml --out again --quiet"));
+    success(&mut desk.spunlaid("web fit/web.toml --no-advice --out again --quiet"));
     let page = String::from_utf8(desk.read("fit/report.html")).unwrap();
     assert!(page.contains("can look like the scan") && page.contains("Misfit over line.filaments_per_metre"));
 }
@@ -171,7 +172,10 @@ fn what_is_compared_is_the_web_without_edges_and_noise() {
             patches.iter().find(|patch| (patch["patch_m"].as_f64().unwrap() / side - 1.0).abs() < 0.01);
         patch.unwrap()["cv"].as_f64().unwrap()
     };
-    success(&mut desk.spunlaid("web web.toml --set web.edges=cut --set web.width=0.18m --out cut --quiet"));
+    success(
+        &mut desk
+            .spunlaid("web web.toml --set web.edges=cut --set web.width=0.18m --no-advice --out cut --quiet"),
+    );
     // The scan of the middle has as many patches within its edges as the summary counts.
     for (side, cv) in numbers("cut") {
         let told = cv_of_summary("cut", side);

@@ -61,7 +61,7 @@ pub(crate) fn number(value: &Value) -> f64 {
 #[test]
 fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let desk = desk();
-    success(&mut desk.spunlaid("web web.toml --out laid"));
+    success(&mut desk.spunlaid("web web.toml --no-advice --out laid"));
     let laid = map(&desk, "laid");
     scan(&desk, "scan.png", 200, &laid);
     let command = "analyse scan.png --pixel 0.5mm --white 60000 --keep-shading --patches 2mm,4mm,10mm";
@@ -193,7 +193,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
 #[test]
 fn a_map_is_read_as_basis_weights() {
     let desk = desk();
-    success(&mut desk.spunlaid("web web.toml --out laid"));
+    success(&mut desk.spunlaid("web web.toml --no-advice --out laid"));
     let said = success(&mut desk.spunlaid("analyse laid/map.npy --pixel 0.5mm --out again --quiet"));
     assert_eq!(said, "");
     let [web, found] = ["laid", "again"].map(|folder| desk.summary(folder)["web"].take());
@@ -331,7 +331,7 @@ fn rejects_scans_with_the_option_that_helps() {
 #[test]
 fn rejects_webs_that_cannot_be_compared() {
     let desk = desk();
-    success(&mut desk.spunlaid("web web.toml --out laid --quiet"));
+    success(&mut desk.spunlaid("web web.toml --no-advice --out laid --quiet"));
     success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
     success(&mut desk.spunlaid("analyse laid/map.npy --pixel 0.5mm --patches 3mm --out other --quiet"));
     for (arguments, message) in [

@@ -159,7 +159,7 @@ fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
             edges = \"{edges}\"\n"
         );
         fs::write(desk.path("wide.toml"), web).unwrap();
-        success(&mut desk.spunlaid("web wide.toml --out w --force --quiet"));
+        success(&mut desk.spunlaid("web wide.toml --no-advice --out w --force --quiet"));
         let page = String::from_utf8(desk.read("w/report.html")).unwrap();
         assert!(page.contains("The web is 1,200 mm wide and 300 mm long."));
         // Without scripts the picture stands there, and buttons that would do nothing do not.

@@ -46,7 +46,7 @@ fn identical_web_of_a_point_alone() {
     success(&mut desk.spunlaid("sweep study.toml --replicates 1 --out r --quiet"));
     let point = success(&mut desk.spunlaid("sweep study.toml --print-point 3"));
     fs::write(desk.path("point.toml"), point).unwrap();
-    success(&mut desk.spunlaid("web point.toml --out w --quiet"));
+    success(&mut desk.spunlaid("web point.toml --no-advice --out w --quiet"));
     let (study, web) = (results(&desk, "r"), desk.summary("w"));
     let of_point = &study["points"][2];
     assert_eq!(of_point["inputs"]["line.belt_speed_m_s"], 8.0);
