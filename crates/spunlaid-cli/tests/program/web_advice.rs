@@ -92,7 +92,7 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
 #[test]
 fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
     let desk = desk();
-    let small = ["--set", "web.width=0.2 m", "--set", "web.length=0.1 m", "--set", "web.flown=250"];
+    let small = ["--set", "web.width=0.2 m", "--set", "web.length=0.05 m", "--set", "web.flown=250"];
     let of_case =
         ["--set", "belt.distance=0.3 m", "--set", "fibre.linear_density=2 dtex", "--set", "run.replicates=2"];
     let of_case = [&of_case[..], &["--set", "run.duration=0.1 s"]].concat();
