@@ -8,6 +8,7 @@ use spunlaid::experiment::study::fly_batches;
 use spunlaid::experiment::{Batch, Bundles, Point};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
+use spunlaid::ground::threads::each;
 use spunlaid::ground::{Control, Error, Isa, Value as Measured};
 use spunlaid::input::{parse_study, read_case, write_case};
 use spunlaid::simulation::ensemble::{fly, fly_together};
@@ -215,10 +216,8 @@ fn vary_every_key(name: &str, text: &str) -> Found {
 
 #[test]
 fn identical_alone_and_in_company_for_every_key() {
-    let found: Vec<Found> = std::thread::scope(|scope| {
-        let all = CASES.map(|(name, text)| scope.spawn(move || vary_every_key(name, text)));
-        all.into_iter().map(|one| one.join().unwrap()).collect()
-    });
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let found = each(threads, CASES.len(), |i| vary_every_key(CASES[i].0, CASES[i].1));
     let mut wrong: Vec<String> = found.iter().flat_map(|found| found.wrong.clone()).collect();
     for key in keys::all().iter().filter(|key| key.varies) {
         if !found.iter().any(|found| found.varied.contains(key.name)) {

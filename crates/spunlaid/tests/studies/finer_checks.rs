@@ -139,24 +139,23 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     assert!(found.standard_error.unwrap() < 0.01, "{found:?}");
 }
 
-/// Table 1 with elements of this length, its check, and the same fibres with elements of 3.125 mm.
-fn with_elements(number: usize, law: NormalLaw) -> (FinerCheck, [Vec<Trajectory>; 2]) {
+/// Table 1 with so many elements.
+fn with_elements(number: usize, law: NormalLaw) -> Case {
     let mut case = common::table1(Scheme::ImplicitTension, 1e-4, 3.0, 8);
-    case.drag.across = law;
-    let meshed = |elements| {
-        let mut case = case.clone();
-        case.fibre.elements = elements;
-        case
-    };
-    let coarse = meshed(number);
-    (mesh_checked(&coarse), [coarse, meshed(320)].map(|case| flights(&case, 2)))
+    (case.drag.across, case.fibre.elements) = (law, number);
+    case
 }
+
+/// Elements of 3.125 mm.
+const FINE: usize = 320;
 
 /// Elements of 12.5 mm, a quarter of an eddy. The check sees elements of a half and of a quarter of their length; they
 /// show the second order, and it tells the error to elements of no length, of which a quarter leaves a sixteenth.
 #[test]
 fn order_of_the_error_of_the_mesh_is_what_two_halvings_show() {
-    let (check, [coarse, fine]) = with_elements(80, NormalLaw::MarheinekeWegener);
+    let meshed = |elements| with_elements(elements, NormalLaw::MarheinekeWegener);
+    let check = mesh_checked(&meshed(80));
+    let [coarse, fine] = [80, FINE].map(|elements| flights(&meshed(elements), 2));
     assert_eq!((check.element_length, check.duration), (6.25e-3, 3.0));
     let frequency =
         check.changes.iter().find(|change| change.statistic.name == "frequency").expect("compared");
@@ -176,8 +175,10 @@ fn order_of_the_error_of_the_mesh_is_what_two_halvings_show() {
 /// next ones, so that four thirds of the difference are −42 % for −27 %, and −12 % for +7 %.
 #[test]
 fn rejects_an_error_of_the_mesh_where_no_order_is_shown() {
+    let meshed = |elements| with_elements(elements, NormalLaw::JuShambaugh);
+    let fine = flights(&meshed(FINE), 2);
     for (elements, truth) in [(20, -0.27), (40, 0.07)] {
-        let (check, [coarse, fine]) = with_elements(elements, NormalLaw::JuShambaugh);
+        let (check, coarse) = (mesh_checked(&meshed(elements)), flights(&meshed(elements), 2));
         let frequency =
             check.changes.iter().find(|change| change.statistic.name == "frequency").expect("there");
         let error = off(&coarse, &fine, ["frequency_y", "frequency_z"]);
