@@ -254,7 +254,7 @@ fn a_web_that_begins_at_the_die_shows_the_whole_way() {
     let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 500\n[web]\n\
         width = \"0.2 m\"\nlength = \"0.1 m\"\n";
     fs::write(desk.path("web.toml"), web).unwrap();
-    success(&mut desk.spunlaid("web web.toml --no-advice --out w --quiet"));
+    success(&mut desk.spunlaid("web web.toml --out w --quiet"));
     let layer = &desk.summary("w")["layers"][0];
     assert!(layer["spinline"]["freezing"]["distance_m"].as_f64().unwrap() > 0.0, "{layer}");
     // 500 holes per metre × 0.5 g/min / 3 m/s.

@@ -11,7 +11,7 @@ const TAU: f64 = 5e-3;
 /// Samples in an integral time.
 const PER_TIME: f64 = 8.0;
 /// Lengths of the records in integral times.
-const LENGTHS: [f64; 3] = [100.0, 200.0, 400.0];
+const LENGTHS: [f64; 4] = [100.0, 150.0, 250.0, 400.0];
 
 /// Variance 1 and correlation `e^{−t/T_I}`: a first-order autoregression.
 fn exponential(seed: u64, samples: usize) -> Vec<f64> {
