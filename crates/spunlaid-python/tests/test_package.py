@@ -13,16 +13,25 @@ import spunlaid
 PACKAGE = Path(__file__).resolve().parents[1]
 
 
-def test_types_hold() -> None:
-    mypy = pytest.importorskip("mypy.api")
-    out, errors, code = mypy.run(["--config-file", str(PACKAGE / "pyproject.toml"), str(PACKAGE / "python" / "spunlaid")])
-    assert code == 0, out + errors
+# What `mypy` and `python -m mypy.stubtest spunlaid._spunlaid` do, with the types of NumPy read once for both. It ends at once,
+# as letting go of all that was read would take half as long again.
+TYPES = r"""
+import os
+from mypy import build, main, stubtest
+
+sources, options = main.process_options(["--no-incremental", "--config-file", "pyproject.toml", "python/spunlaid"])
+options.pos_only_special_methods = False
+checked = build.build(sources, options)
+stubtest._all_stubs = checked.files
+errors = checked.errors or [error.get_description() for error in stubtest.test_module("spunlaid._spunlaid")]
+print(*errors, sep="\n", flush=True)
+os._exit(bool(errors))
+"""
 
 
-def test_the_stub_has_what_the_module_has() -> None:
+def test_types_hold_and_the_stub_has_what_the_module_has() -> None:
     pytest.importorskip("mypy.stubtest")
-    command = [sys.executable, "-m", "mypy.stubtest", "spunlaid._spunlaid", "--mypy-config-file", "pyproject.toml"]
-    checked = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE)
+    checked = subprocess.run([sys.executable, "-c", TYPES], capture_output=True, text=True, cwd=PACKAGE)
     assert checked.returncode == 0, checked.stdout + checked.stderr
 
 
@@ -39,9 +48,11 @@ def test_everything_has_help() -> None:
 
 
 def test_import_loads_nothing_heavy() -> None:
-    code = "import sys, spunlaid; print(*sorted({'pandas', 'xarray', 'distributed', 'dask', 'scipy', 'matplotlib', 'tqdm'} & set(sys.modules)))"
+    code = "import sys, spunlaid; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
-    assert loaded == []
+    assert "spunlaid" in loaded
+    heavy = {"numpy", "pandas", "xarray", "distributed", "dask", "scipy", "matplotlib", "tqdm"}
+    assert heavy.isdisjoint(loaded), heavy.intersection(loaded)
 
 
 HUNDREDS_OF_RUNS = """

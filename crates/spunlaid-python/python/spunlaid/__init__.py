@@ -27,8 +27,6 @@ from ._errors import (
     Problem,
 )
 from ._keys import Key, keys
-from ._measures import Curve, Measure, Measures, Shapes
-from ._run import Run, load, run
 from ._spunlaid import Case, Flight, __version__
 from ._spunlaid import removed as _removed
 
@@ -37,6 +35,8 @@ if TYPE_CHECKING:
     from ._analysis import Analysis, analyse
     from ._comparison import Comparison, compare
     from ._fit import Fit, fit
+    from ._measures import Curve, Measure, Measures, Shapes
+    from ._run import Run, load, run
     from ._scan import Scan, scan
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
@@ -83,26 +83,25 @@ __all__ = [
 ]
 
 _LATER = {
-    "Air": "_air",
-    "Analysis": "_analysis",
-    "analyse": "_analysis",
-    "Comparison": "_comparison",
-    "compare": "_comparison",
-    "Fit": "_fit",
-    "fit": "_fit",
-    "Scan": "_scan",
-    "scan": "_scan",
-    "Spinline": "_spinline",
-    "spin": "_spinline",
-    "Study": "_study",
-    "sweep": "_study",
-    "Web": "_web",
-    "web": "_web",
+    name: file
+    for file, names in {
+        "_air": ["Air"],
+        "_analysis": ["Analysis", "analyse"],
+        "_comparison": ["Comparison", "compare"],
+        "_fit": ["Fit", "fit"],
+        "_measures": ["Curve", "Measure", "Measures", "Shapes"],
+        "_run": ["Run", "load", "run"],
+        "_scan": ["Scan", "scan"],
+        "_spinline": ["Spinline", "spin"],
+        "_study": ["Study", "sweep"],
+        "_web": ["Web", "web"],
+    }.items()
+    for name in names
 }
 
 
 def __getattr__(name: str) -> Any:
-    """What is needed less often is imported when it is first used."""
+    """What needs NumPy is imported when it is first used: the program `spunlaid` has no use for it."""
     if name in _LATER:
         from importlib import import_module
 
