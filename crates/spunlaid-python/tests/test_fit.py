@@ -12,8 +12,8 @@ from conftest import CASES
 import spunlaid
 
 SMALL = {
-    "web.width": 0.15,
-    "web.length": 0.15,
+    "web.width": 0.1,
+    "web.length": 0.1,
     "laydown.sigma_md": 0.006,
     "laydown.sigma_cd": 0.006,
     "line.belt_speed": 5.0,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from types import ModuleType
 
@@ -12,6 +13,12 @@ from conftest import CASES, ROOT
 pytest.importorskip("scipy")
 matplotlib = pytest.importorskip("matplotlib")
 shells = pytest.importorskip("IPython.core.interactiveshell")
+
+
+def made_quicker(cell: str) -> str:
+    """The same cell with webs of 0.2 m and flights of half a second: the same code in less time."""
+    cell = re.sub(r'("web\.(?:width|length)": )(?:0\.[3-9]|"0\.[3-9] m")', r"\g<1>0.2", cell)
+    return cell.replace('"run.duration": 1.0', '"run.duration": 0.5')
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "notebooks").glob("*.ipynb")), ids=lambda path: path.stem)
@@ -26,7 +33,7 @@ def test_a_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyP
     shell = shells.InteractiveShell(user_module=ModuleType("notebook"))
     for cell in json.loads(path.read_text("utf-8"))["cells"]:
         if cell["cell_type"] == "code":
-            shell.run_cell("".join(cell["source"])).raise_error()
+            shell.run_cell(made_quicker("".join(cell["source"]))).raise_error()
             for number in matplotlib.pyplot.get_fignums():
                 matplotlib.pyplot.figure(number).canvas.draw()
             matplotlib.pyplot.close("all")

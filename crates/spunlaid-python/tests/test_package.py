@@ -13,8 +13,8 @@ import spunlaid
 PACKAGE = Path(__file__).resolve().parents[1]
 
 
-# What `mypy` and `python -m mypy.stubtest spunlaid._spunlaid` do, with the types of NumPy read once for both. It ends at once,
-# as letting go of all that was read would take half as long again.
+# What `mypy` and `python -m mypy.stubtest spunlaid._spunlaid` do, with the types of NumPy read once for both.
+# It ends at once, as letting go of all that was read would take half as long again.
 TYPES = r"""
 import os
 from mypy import build, main, stubtest

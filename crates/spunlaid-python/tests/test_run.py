@@ -271,7 +271,7 @@ def test_ctrl_c_stops_a_run(short: Case) -> None:
 
 
 def test_the_interpreter_is_free_while_fibres_fly(short: Case) -> None:
-    slow = short.with_({"run.duration": 0.2, "run.replicates": 8})
+    slow = short.with_({"run.duration": 0.05, "run.replicates": 8})
     runs: list[spunlaid.Run] = []
     thread = threading.Thread(target=lambda: runs.append(spunlaid.run(slow, threads=1)))
     thread.start()

@@ -14,7 +14,7 @@ from conftest import CASES
 
 import spunlaid
 
-SMALL = {"web.width": 0.2, "web.length": "0.2 m", "laydown.sigma_md": "10 mm", "laydown.sigma_cd": 0.01}
+SMALL = {"web.width": 0.1, "web.length": "0.1 m", "laydown.sigma_md": "10 mm", "laydown.sigma_cd": 0.01}
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def without_folders(summary: dict) -> dict:
 def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Path) -> None:
     command = [program, "web", CASES / "web_known.toml", "--out", tmp_path / "w", "--quiet"]
     # The settings of the advice are written as they were given; numbers of Python are in SI units.
-    for setting in ("web.width=0.2 m", "web.length=0.2 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=0.01 m"):
+    for setting in ("web.width=0.1 m", "web.length=0.1 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=0.01 m"):
         command += ["--set", setting]
     subprocess.run(command, check=True, capture_output=True)
     told = json.loads((tmp_path / "w" / "summary.json").read_text())
@@ -47,7 +47,7 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
 
 def test_what_filaments_do_to_their_air() -> None:
     coarse = {"air.lateral_cutoff": 6, "fibre.element_length": "20 mm", "run.duration": "50 ms", "run.spin_up": "10 ms"}
-    small = {"web.width": 0.2, "web.length": 0.2, "web.flown": 8}
+    small = {"web.width": 0.2, "web.length": 0.2, "web.cell": "1 mm", "web.flown": 100}
     web = spunlaid.web(CASES / "web_shared.toml", set={**coarse, **small}, guesses=False, threads=2)
     [curtain], told = web.curtains, web.summary["layers"][0]["curtain"]
     assert curtain["filaments_per_m"] == 5000 and curtain["mass_loading"] == told["mass_loading"]
@@ -106,8 +106,8 @@ def test_advice_can_be_set(web: spunlaid.Web) -> None:
 def test_keys_of_the_flown_case() -> None:
     web = {
         "laydown": {"case": CASES / "spunbond.toml"},
-        "line": {"filaments_per_metre": 500},
-        "web": {"width": 0.2, "length": 0.2, "cell": "1 mm"},
+        "line": {"filaments_per_metre": 100},
+        "web": {"width": 0.1, "length": 0.05, "cell": "1 mm"},
     }
     short = {"run.duration": "0.1 s", "run.spin_up": "10 ms", "run.replicates": 2, "fibre.element_length": "10 mm"}
     near, far = (spunlaid.web(web, set={**short, "belt.distance": at}, threads=2) for at in ("0.1 m", "0.15 m"))
@@ -122,7 +122,7 @@ def test_analytic_basis_weight(web: spunlaid.Web) -> None:
     # Line density x filaments per width x feed speed / belt speed; the map is counted in quanta of 1e-5 of a fibre.
     np.testing.assert_allclose(web.map.mean(), line_density * 5000 * 50 / 3.8594, rtol=1e-4)
     rows, columns = web.map.shape
-    assert (rows * web.cell, columns * web.cell) == pytest.approx((0.2, 0.2))
+    assert (rows * web.cell, columns * web.cell) == pytest.approx((0.1, 0.1))
     # The CV over patches of a cell is that of the map.
     cv = web.map.std() / web.map.mean()
     first = np.argmin(np.abs(web.patches["patch_m"] - web.cell))
@@ -149,7 +149,7 @@ def test_a_dict_is_a_web(web: spunlaid.Web) -> None:
             "fibre": {"diameter": 18e-6, "density": "910 kg/m^3"},
             "laydown": {"sigma_md": 0.01, "sigma_cd": 0.01, "noise": "12.4 m^-0.5"},
             "line": {"feed_speed": 50, "belt_speed": 3.8594, "filaments_per_metre": 5000},
-            "web": {"width": 0.2, "length": 0.2},
+            "web": {"width": 0.1, "length": 0.1},
         }
     )
     np.testing.assert_array_equal(same.map, web.map)
@@ -168,7 +168,7 @@ def test_a_study_of_webs(program: Path, tmp_path: Path) -> None:
     study = {
         "web": CASES / "web_known.toml",
         "replicates": 2,
-        "set": {"web.width": "0.2 m", "web.length": "0.2 m"},
+        "set": {**SMALL, "web.width": "0.1 m"},
         "vary": {"line.belt_speed": [3.0, 4.0]},
     }
     found = spunlaid.sweep(study, out=tmp_path / "here")
@@ -191,7 +191,7 @@ LAYERS = """
 version = 1
 [web]
 width = "0.2 m"
-length = "0.2 m"
+length = "0.1 m"
 [[layer]]
 [layer.fibre]
 diameter = "18 µm"
