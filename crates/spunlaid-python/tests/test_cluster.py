@@ -120,7 +120,7 @@ def test_each_worker_has_one_web_in_one_air(cluster: Any, tmp_path: Path) -> Non
         """
         version = 1
         laydown.case = "short.toml"
-        line = { filaments_per_metre = 200, depth = "10 mm" }
+        line = { filaments_per_metre = 100, depth = "10 mm" }
         web = { width = "0.1 m", length = "40 mm", patches = ["2 mm", "5 mm"] }
         """
     )

@@ -16,8 +16,8 @@ shells = pytest.importorskip("IPython.core.interactiveshell")
 
 
 def made_quicker(cell: str) -> str:
-    """The same cell with webs of 0.2 m and flights of half a second: the same code in less time."""
-    cell = re.sub(r'("web\.(?:width|length)": )(?:0\.[3-9]|"0\.[3-9] m")', r"\g<1>0.2", cell)
+    """The same cell with webs of 0.15 m and flights of half a second: the same code in less time."""
+    cell = re.sub(r'("web\.(?:width|length)": )(?:0\.[3-9]|"0\.[3-9] m")', r"\g<1>0.15", cell)
     return cell.replace('"run.duration": 1.0', '"run.duration": 0.5')
 
 
