@@ -2,6 +2,7 @@
 
 use crate::label::{plain, upright};
 use crate::numbers::shortest;
+use std::io::{self, Write};
 
 /// The numbers that a figure shows: a row per point, which begins with the name of the point's series.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,20 +45,28 @@ impl Table {
     /// The table as comma-separated values: a line of heads, then a line per row; a missing value is empty, and a
     /// number reads back to the same bits.
     pub fn csv(&self) -> String {
-        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut text = Vec::new();
         // Writing to memory cannot fail.
-        let _ = writer.write_record(std::iter::once("series").chain(self.heads.iter().map(String::as_str)));
+        let _ = self.write_csv(&mut text);
+        String::from_utf8(text).unwrap_or_default()
+    }
+
+    /// Writes [these](Self::csv) line by line: many of them take more memory than their numbers.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn write_csv(&self, to: impl Write) -> io::Result<()> {
+        let mut writer = csv::Writer::from_writer(to);
+        writer.write_record(std::iter::once("series").chain(self.heads.iter().map(String::as_str)))?;
         for (name, values) in &self.series {
             for row in values.chunks(self.heads.len().max(1)) {
                 let cells = row.iter().enumerate().map(|(column, value)| self.cell(column, *value));
-                let _ = writer.write_record(std::iter::once(name.clone()).chain(cells));
+                writer.write_record(std::iter::once(name.clone()).chain(cells))?;
             }
         }
-        writer.into_inner().map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default()
+        writer.flush()
     }
-}
 
-impl Table {
     fn cell(&self, column: usize, value: f64) -> String {
         let words = self.words.iter().find(|(index, _)| *index == column).map(|(_, words)| words);
         match words.and_then(|words| words.get(value.round() as usize)).filter(|_| value.is_finite()) {

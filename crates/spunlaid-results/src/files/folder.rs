@@ -239,7 +239,7 @@ impl<'a> Staging<'a> {
         let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
         let is_new = |figure: &&Figure| !self.is_published || !self.folder.join(name(figure)).exists();
         let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
-        self.figures.write(&new, |name, content| self.write(&format!("figures/{name}"), content))
+        self.figures.write(&new, self)
     }
 
     /// What the results are computed from, as it is kept by the first who asks.

@@ -1,13 +1,13 @@
 //! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are
 //! drawn on all threads.
 
+use super::folder::Staging;
 use super::table::TableFormat;
 use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::ground::Dimension;
 use spunlaid::ground::threads::each;
 use spunlaid_charts::{Figure, Picture, PictureError, pdf, png, svg};
-use std::borrow::Borrow;
 use std::thread::available_parallelism;
 
 /// A format of figures; `spunlaid-charts` has a file for each, which says how a picture is written.
@@ -100,23 +100,20 @@ pub fn width_named(text: &str) -> Result<f64, String> {
 }
 
 impl FigureFiles {
-    /// Passes the name and content of each file of the figures to `write`, in order.
+    /// Writes each file of the figures, in order.
     ///
     /// # Errors
-    /// If a figure cannot be drawn, or `write` fails.
-    pub fn write<F: Borrow<Figure> + Sync>(
-        &self,
-        figures: &[F],
-        mut write: impl FnMut(String, &[u8]) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+    /// If a figure cannot be drawn, or a file cannot be written.
+    pub(super) fn write(&self, figures: &[&Figure], staging: &Staging<'_>) -> Result<(), Failure> {
         let threads = available_parallelism().map_or(1, usize::from);
         // A few at a time: the pictures of many points are large, and only those of these few are held.
         for figures in figures.chunks(threads) {
-            let drawn = each(threads, figures.len(), |i| self.drawn(figures[i].borrow()));
-            for (figure, files) in figures.iter().map(F::borrow).zip(drawn) {
-                write(format!("{}.csv", figure.name), figure.table().csv().as_bytes())?;
+            let drawn = each(threads, figures.len(), |i| self.drawn(figures[i]));
+            for (figure, files) in figures.iter().zip(drawn) {
+                let name = |ending: &str| format!("figures/{}.{ending}", figure.name);
+                staging.write_with(&name("csv"), |to| figure.table().write_csv(to))?;
                 for (format, content) in self.formats.iter().zip(files?) {
-                    write(format!("{}.{}", figure.name, format.name), &content)?;
+                    staging.write(&name(format.name), content)?;
                 }
             }
         }

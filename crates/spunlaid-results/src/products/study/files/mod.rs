@@ -11,27 +11,26 @@ use spunlaid::experiment::{Journal, PointResults, Quantity, Record, ReplicateOut
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///
-/// Rows are written as they are read, so that memory does not grow with the number of replicates.
+/// Rows are written as they are read, so that memory does not grow with the number of replicates. The statistics are
+/// complete before a table gathers rows: what it frees would otherwise lie between them, in pieces of no use.
 pub fn write(
     staging: &Staging<'_>,
     study: &Study,
     journal: &mut Journal,
 ) -> Result<Vec<PointResults>, Failure> {
-    let points = columns_of_points(study);
-    let mut results = staging.table("results", &["csv", "parquet"], &points)?;
-    let columns = columns_of_replicates(study);
-    let mut replicates = staging.table("replicates", &["parquet"], &columns)?;
-    let mut all = Vec::with_capacity(study.points.len());
-    for index in 0..study.points.len() {
-        let point = results_of_point(study, journal, index)?;
-        results.add(&point_row(study, index, &point))?;
+    let points = 0..study.points.len();
+    let all = points.clone().map(|index| results_of_point(study, journal, index));
+    let all = all.collect::<Result<Vec<_>, _>>()?;
+    let mut table = staging.table("results", &["csv", "parquet"], &columns_of_points(study))?;
+    points.clone().try_for_each(|index| table.add(&point_row(study, index, &all[index])))?;
+    table.finish()?;
+    let mut table = staging.table("replicates", &["parquet"], &columns_of_replicates(study))?;
+    for index in points {
         for record in journal.records(index, u64::MAX)? {
-            replicates.add(&replicate_row(study, index, &record))?;
+            table.add(&replicate_row(study, index, &record))?;
         }
-        all.push(point);
     }
-    results.finish()?;
-    replicates.finish()?;
+    table.finish()?;
     Ok(all)
 }
 
