@@ -3,6 +3,7 @@
 
 mod air;
 mod blanks;
+mod evenness;
 mod fields;
 mod files;
 mod foreign;
