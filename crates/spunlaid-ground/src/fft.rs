@@ -79,6 +79,22 @@ impl InverseTransform {
         Isa::detect().run(TransformTask { transform: self, data, scratch: &mut scratch });
     }
 
+    /// Cross spectrum `X Y*` of the real and the imaginary part of eight signals: its transform is `M Σ_n x_n y_{n+m}`.
+    pub fn cross_spectrum(&self, mut signals: Vec<Complex>) -> Vec<Complex> {
+        self.run(&mut signals);
+        let half = Lanes::splat(0.5);
+        let count = signals.len();
+        (0..count)
+            .map(|m| {
+                let (a, b) = (&signals[m], &signals[(count - m) % count]);
+                // X = (a + b*)/2, Y = (a − b*)/2i.
+                let (xr, xi) = (half * (a.re + b.re), half * (a.im - b.im));
+                let (yr, yi) = (half * (a.im + b.im), half * (b.re - a.re));
+                Complex { re: xr * yr + xi * yi, im: xi * yr - xr * yi }
+            })
+            .collect()
+    }
+
     /// Transforms `data` in place, with `scratch` of the same size.
     #[inline(always)]
     pub fn pass<S: Register>(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {

@@ -61,12 +61,9 @@ pub(crate) fn analyse_fluctuation(record: &Record, settings: &Settings) -> Resul
 /// The results without warnings.
 fn statistics(record: &Record, settings: &Settings) -> Result<Analysis, FileError> {
     let (samples, interval) = (record.samples(), record.interval);
-    let lengths: Vec<usize> =
-        record.components.iter().map(|c| lags(&c.values, interval, settings.integral)).collect();
-    let rough: Vec<(f64, Autocorrelation)> = (record.components.iter().zip(&lengths))
-        .map(|(component, lags)| {
-            let whole = Blocks::whole(&component.values, *lags);
-            let autocorrelation = whole.autocorrelation(None, interval, settings.integral);
+    let rough: Vec<(f64, Autocorrelation)> = (record.components.iter())
+        .map(|component| {
+            let autocorrelation = autocorrelation_to_limit(&component.values, interval, settings.integral);
             (autocorrelation.integral_time().max(0.5 * interval), autocorrelation)
         })
         .collect();
@@ -192,21 +189,20 @@ fn longest_lag(samples: usize) -> usize {
     (samples / 4).min(MOST_LAGS)
 }
 
-/// Number of lags that reach the limit of the integral.
-fn lags(values: &[f64], interval: f64, rule: IntegralRule) -> usize {
+/// The autocorrelation of a record, with enough lags for the limit of the integral.
+fn autocorrelation_to_limit(values: &[f64], interval: f64, rule: IntegralRule) -> Autocorrelation {
     let most = longest_lag(values.len());
-    if let IntegralRule::Fixed(lag) = rule {
-        return most.min((lag / interval) as usize + 3);
-    }
-    let mut lags = 1024.min(most);
-    while lags < most {
-        let whole = Blocks::whole(values, lags);
-        if whole.autocorrelation(None, interval, rule).limit_found {
-            break;
+    let mut lags = match rule {
+        IntegralRule::Fixed(lag) => most.min((lag / interval) as usize + 3),
+        _ => most.min(1024),
+    };
+    loop {
+        let found = Blocks::whole(values, lags).autocorrelation(None, interval, rule);
+        if found.limit_found || lags == most {
+            return found;
         }
         lags = most.min(4 * lags);
     }
-    lags
 }
 
 /// Number of samples in a segment of the spectrum.

@@ -109,7 +109,7 @@ pub(super) fn lagged_products(
     for eight in pieces.chunks(WIDTH) {
         let piece: [Range<usize>; WIDTH] =
             std::array::from_fn(|lane| eight.get(lane).map_or(0..0, |(_, range)| range.clone()));
-        let mut data: Vec<Complex> = (0..size)
+        let data: Vec<Complex> = (0..size)
             .map(|t| {
                 let is_sample = |i: usize, most: usize| i < eight.len() && t < most;
                 let at = |i: usize, most: usize| {
@@ -118,8 +118,7 @@ pub(super) fn lagged_products(
                 Complex { re: Lanes::from_fn(|i| at(i, piece[i].len())), im: Lanes::from_fn(|i| at(i, size)) }
             })
             .collect();
-        transform.run(&mut data);
-        let mut product = cross_spectrum(&data);
+        let mut product = transform.cross_spectrum(data);
         transform.run(&mut product);
         for (lane, (block, _)) in eight.iter().enumerate() {
             for (sum, c) in sums[*block].iter_mut().zip(&product) {
@@ -128,20 +127,6 @@ pub(super) fn lagged_products(
         }
     }
     sums
-}
-
-/// Cross spectrum of the real and the imaginary part of eight signals, from the transform of both.
-fn cross_spectrum(data: &[Complex]) -> Vec<Complex> {
-    let half = Lanes::splat(0.5);
-    (0..data.len())
-        .map(|m| {
-            let (a, b) = (&data[m], &data[(data.len() - m) % data.len()]);
-            // X = (a + b*)/2, Y = (a − b*)/2i, and X Y*.
-            let (xr, xi) = (half * (a.re + b.re), half * (a.im - b.im));
-            let (yr, yi) = (half * (a.im + b.im), half * (b.re - a.re));
-            Complex { re: xr * yr + xi * yi, im: xi * yr - xr * yi }
-        })
-        .collect()
 }
 
 /// Number of pairs at a lag whose first sample is in a block; `samples` is the length of the record.

@@ -4,7 +4,7 @@ use super::basis_weight::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
 use crate::ground::threads::each;
-use crate::ground::{Estimate, Isa, Lanes, Register, Task, WIDTH, Wide};
+use crate::ground::{Complex, Estimate, InverseTransform, Lanes, WIDTH};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -84,6 +84,8 @@ const ACROSS: usize = 1024;
 const PARTS: usize = 1 << 21;
 /// Rows of cells whose parts are summed up at once, so that they take little memory.
 const AT_ONCE: usize = 512;
+/// Pieces of lines whose spectra are added on one thread, a multiple of eight.
+const PIECES: usize = 512;
 /// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from
 /// other waves of the lattice, and more of shorter ones.
 const SHORT: f64 = 6.0;
@@ -325,52 +327,46 @@ impl Split {
 /// * `threads` – that find them; they do not change them
 pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] {
     let mean = map.total() as f64 / map.cells.len() as f64;
-    let isa = Isa::detect();
-    // About a million products for each lag say enough.
+    // Lines of about a million cells say enough.
     let stride = (map.cells.len() >> 20).max(1);
-    let product = |lag: usize, step: [usize; 2]| {
-        let last = [map.columns - lag * step[0], map.rows - lag * step[1]];
-        let (mut sum, mut count) = (0.0, 0u64);
-        for row in (0..last[1]).step_by(stride) {
-            let (one, other) = (map.row(row), map.row(row + lag * step[1]));
-            let rows = [&one[..last[0]], &other[lag * step[0]..][..last[0]]];
-            sum += isa.run(ProductOfRows { rows, mean });
-            count += last[0] as u64;
-        }
-        sum / count as f64
-    };
-    [([1, 0], map.columns), ([0, 1], map.rows)].map(|(step, size)| {
-        let products = each(threads, lags.min(size), |lag| product(lag, step));
-        let variance = products.first().copied().unwrap_or(f64::NAN);
-        products.iter().map(|product| product / variance).collect()
-    })
-}
-
-/// `Σ (a − mean)(b − mean)` of two rows that are equally long.
-struct ProductOfRows<'a> {
-    rows: [&'a [u32]; 2],
-    mean: f64,
-}
-
-impl Task for ProductOfRows<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn call<S: Register>(self) -> f64 {
-        let [(a, rest_a), (b, rest_b)] = self.rows.map(<[u32]>::as_chunks::<WIDTH>);
-        let mean = Wide::<S>::splat(self.mean);
-        let mut sums = Wide::<S>::zero();
-        for (a, b) in a.iter().zip(b) {
-            let (mut wide_a, mut wide_b) = (Lanes::ZERO, Lanes::ZERO);
-            for i in 0..WIDTH {
-                (wide_a.0[i], wide_b.0[i]) = (f64::from(a[i]), f64::from(b[i]));
+    let along = |lines: usize, length: usize, cell: &(dyn Fn(usize, usize) -> u32 + Sync)| {
+        let lags = lags.min(length);
+        // A piece of half as many cells, multiplied with all that are up to as much further on.
+        let half = lags.next_power_of_two().max(2);
+        let transform = InverseTransform::new(2 * half);
+        let pieces: Vec<(usize, usize)> = (0..lines)
+            .step_by(stride)
+            .flat_map(|line| (0..length).step_by(half).map(move |start| (line, start)))
+            .collect();
+        let spectra = each(threads, pieces.len().div_ceil(PIECES), |group| {
+            let mut spectrum = vec![Complex::default(); 2 * half];
+            for eight in pieces[group * PIECES..].chunks(WIDTH).take(PIECES / WIDTH) {
+                let deviation = |lane: usize, t: usize| {
+                    let piece = eight.get(lane).filter(|(_, start)| start + t < length);
+                    piece.map_or(0.0, |(line, start)| f64::from(cell(*line, start + t)) - mean)
+                };
+                let signals = (0..2 * half).map(|t| {
+                    let im = Lanes::from_fn(|lane| deviation(lane, t));
+                    Complex { re: if t < half { im } else { Lanes::ZERO }, im }
+                });
+                add(&mut spectrum, &transform.cross_spectrum(signals.collect()));
             }
-            sums += (Wide::load(&wide_a) - mean) * (Wide::load(&wide_b) - mean);
-        }
-        let mut rest = 0.0;
-        for (a, b) in rest_a.iter().zip(rest_b) {
-            rest += (f64::from(*a) - self.mean) * (f64::from(*b) - self.mean);
-        }
-        sums.store().0.iter().sum::<f64>() + rest
+            spectrum
+        });
+        let mut products = vec![Complex::default(); 2 * half];
+        spectra.iter().for_each(|spectrum| add(&mut products, spectrum));
+        transform.run(&mut products);
+        let product = |lag: usize| products[lag].re.0.iter().sum::<f64>() / (length - lag) as f64;
+        (0..lags).map(|lag| product(lag) / product(0)).collect()
+    };
+    [
+        along(map.rows, map.columns, &|row, column| map.row(row)[column]),
+        along(map.columns, map.rows, &|column, row| map.row(row)[column]),
+    ]
+}
+
+fn add(sums: &mut [Complex], of: &[Complex]) {
+    for (sum, z) in sums.iter_mut().zip(of) {
+        *sum = Complex { re: sum.re + z.re, im: sum.im + z.im };
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::ground::threads::each;
 use crate::ground::{Complex, InverseTransform, Lanes, WIDTH};
+use std::array::from_fn;
 
 /// What is known of the places at which the filaments of a sheet come down.
 ///
@@ -54,7 +55,9 @@ impl Streaks {
 pub(super) struct Powers {
     columns: usize,
     rows: usize,
-    values: Vec<f64>,
+    /// Of eight wave numbers across side by side: row by row of those along, for the first eight, the next and so on,
+    /// up to half the columns. The others are those of waves that run the other way.
+    values: Vec<Lanes>,
 }
 
 /// Mean fourth power of a Hann window over the square of its mean square.
@@ -71,44 +74,61 @@ impl Powers {
         threads: usize,
         value: impl Fn(usize, usize) -> f64 + Sync,
     ) -> Self {
-        let mut transform = InverseTransform::new(columns);
-        // Eight rows at a time, then eight columns.
-        let transformed: Vec<Vec<Complex>> = each(threads, rows / WIDTH, |group| {
-            let pair = |column| Complex {
-                re: Lanes::from_fn(|lane| value(group * WIDTH + lane, column)),
-                im: Lanes::ZERO,
+        let transform = InverseTransform::new(columns);
+        // So many groups of eight columns hold the first half of the waves, and the one in the middle.
+        let groups = columns / 2 / WIDTH + 1;
+        // Sixteen rows at a time, eight as real and eight as imaginary part.
+        let pairs: Vec<Vec<Complex>> = each(threads, rows.div_ceil(2 * WIDTH), |pair| {
+            let first = pair * 2 * WIDTH;
+            let numbers = |first: usize, column: usize| {
+                Lanes::from_fn(|lane| if first + lane < rows { value(first + lane, column) } else { 0.0 })
             };
-            let mut data: Vec<Complex> = (0..columns).map(pair).collect();
+            let both = |column| Complex { re: numbers(first, column), im: numbers(first + WIDTH, column) };
+            let mut data: Vec<Complex> = (0..columns).map(both).collect();
             transform.run(&mut data);
-            data
+            let half = Lanes::splat(0.5);
+            let mut rows = Vec::with_capacity(groups * 2 * WIDTH);
+            for group in 0..groups {
+                // Twice the even part is the transform of the real part, twice the odd one that of the imaginary part.
+                let parts: [[Complex; 2]; WIDTH] = from_fn(|i| {
+                    let column = group * WIDTH + i;
+                    let (z, other) = (data[column], data[(columns - column) % columns]);
+                    [
+                        Complex { re: (z.re + other.re) * half, im: (z.im - other.im) * half },
+                        Complex { re: (z.im + other.im) * half, im: (other.re - z.re) * half },
+                    ]
+                });
+                for part in [0, 1] {
+                    rows.extend((0..WIDTH).map(|row| Complex {
+                        re: Lanes::from_fn(|column| parts[column][part].re.0[row]),
+                        im: Lanes::from_fn(|column| parts[column][part].im.0[row]),
+                    }));
+                }
+            }
+            rows
         });
-        transform = InverseTransform::new(rows);
-        let scale = ((columns * rows) as f64).powi(-2);
-        let groups: Vec<Vec<f64>> = each(threads, columns / WIDTH, |group| {
-            let wave = |row: usize| {
-                let part = |component: fn(&Complex) -> &Lanes| {
-                    Lanes::from_fn(|lane| {
-                        component(&transformed[row / WIDTH][group * WIDTH + lane]).0[row % WIDTH]
-                    })
-                };
-                Complex { re: part(|z| &z.re), im: part(|z| &z.im) }
-            };
-            let mut data: Vec<Complex> = (0..rows).map(wave).collect();
+        let transform = InverseTransform::new(rows);
+        let scale = Lanes::splat(((columns * rows) as f64).powi(-2));
+        let powers = each(threads, groups, |group| {
+            let at_once = rows.min(2 * WIDTH);
+            let rows = pairs.iter().flat_map(|pair| &pair[group * 2 * WIDTH..][..at_once]);
+            let mut data: Vec<Complex> = rows.copied().collect();
             transform.run(&mut data);
-            let power = |z: &Complex, lane: usize| z.re.0[lane] * z.re.0[lane] + z.im.0[lane] * z.im.0[lane];
-            data.iter().flat_map(|z| (0..WIDTH).map(move |lane| power(z, lane) * scale)).collect()
+            data.iter().map(|z| (z.re * z.re + z.im * z.im) * scale).collect::<Vec<Lanes>>()
         });
-        let mut values = Vec::with_capacity(columns * rows);
-        for row in 0..rows {
-            groups.iter().for_each(|group| values.extend(&group[row * WIDTH..][..WIDTH]));
-        }
-        Self { columns, rows, values }
+        Self { columns, rows, values: powers.concat() }
     }
 
     /// Power by wave number in cross and in machine direction, of either sign.
     pub(super) fn at(&self, across: i64, along: i64) -> f64 {
         let turned = |number: i64, count: usize| number.rem_euclid(count as i64) as usize;
-        self.values[turned(along, self.rows) * self.columns + turned(across, self.columns)]
+        let (across, along) = (turned(across, self.columns), turned(along, self.rows));
+        let (across, along) = if 2 * across > self.columns {
+            (self.columns - across, (self.rows - along) % self.rows)
+        } else {
+            (across, along)
+        };
+        self.values[across / WIDTH * self.rows + along].0[across % WIDTH]
     }
 
     /// All wave numbers but the mean's, in cross and in machine direction.
@@ -228,5 +248,32 @@ impl Parts {
         let variance =
             across * (self.streaks.variance() + along * self.other_waves.variance() + self.expected_variance);
         if mean > 0.0 { variance / (mean * mean) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the sums of the definition, on the smallest rectangle and on others.
+    #[test]
+    fn analytic_powers_are_those_of_the_sums() {
+        for (columns, rows) in [(8, 8), (16, 8), (8, 32), (32, 16)] {
+            let value = |row: usize, column: usize| (7.3 * row as f64 + 1.9 * (column * column) as f64).sin();
+            let powers = Powers::new(columns, rows, 2, value);
+            let numbers = (columns * rows) as f64;
+            for (across, along) in powers.numbers().chain([(0, 0)]) {
+                let (mut re, mut im) = (0.0, 0.0);
+                for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+                    let turns = across as f64 * column as f64 / columns as f64
+                        + along as f64 * row as f64 / rows as f64;
+                    let (sin, cos) = (2.0 * std::f64::consts::PI * turns).sin_cos();
+                    (re, im) = (re + cos * value(row, column), im + sin * value(row, column));
+                }
+                let expected = (re * re + im * im) / (numbers * numbers);
+                let found = powers.at(across, along);
+                assert!((found - expected).abs() < 1e-14, "{across} {along}: {found} {expected}");
+            }
+        }
     }
 }
