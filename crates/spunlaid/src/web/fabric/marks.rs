@@ -32,36 +32,32 @@ impl Marks {
     pub(super) fn new(map: &Map, corner: f64, size: StripSize) -> Self {
         let side = ((PATCH / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
         let patch = side as f64 * map.cell;
-        let mut patches = patches(map, corner, side);
-        patches.sort_by(|a, b| a.weight.total_cmp(&b.weight));
+        let mut thin = thin_patches(map, corner, side);
+        let thin_of_all = thin.len();
+        thin.sort_by(|a, b| a.weight.total_cmp(&b.weight));
+        thin.truncate(MOST);
         let thinnest = lightest(map, side, THINNEST).into_iter().map(|(at, weight)| {
             let at = at.map(|cells| cells as f64 * map.cell);
             Marked { corner: [corner + at[0], at[1]], sides: [patch; 2], weight }
         });
         let thinnest = thinnest.collect();
-        let thin_of_all = patches.partition_point(|marked| marked.weight < THIN);
-        patches.truncate(thin_of_all.min(MOST));
         let mut strips = strip_places(map, size);
         for place in strips.iter_mut().flatten() {
             place.corner[0] += corner;
             place.weakest.corner[0] += corner;
         }
         strips.iter_mut().for_each(|strips| strips.truncate(MOST));
-        Self { patch, thin: patches, thin_of_all, thinnest, strips }
+        Self { patch, thin, thin_of_all, thinnest, strips }
     }
 }
 
-/// Patches of the map side by side.
-fn patches(map: &Map, corner: f64, side: usize) -> Vec<Marked> {
-    let [columns, rows] = [map.columns / side, map.rows / side];
-    let size = side as f64 * map.cell;
-    weights(map, size)
-        .into_iter()
-        .enumerate()
-        .filter(|(number, _)| number / columns < rows)
-        .map(|(number, weight)| {
-            let at = [number % columns, number / columns].map(|place| place as f64 * size);
-            Marked { corner: [corner + at[0], at[1]], sides: [size; 2], weight }
-        })
-        .collect()
+/// Those of the patches of the map side by side that are thin.
+fn thin_patches(map: &Map, corner: f64, side: usize) -> Vec<Marked> {
+    let (columns, size) = (map.columns / side, side as f64 * map.cell);
+    let thin = weights(map, size).into_iter().enumerate().filter(|(_, weight)| *weight < THIN);
+    thin.map(|(number, weight)| {
+        let at = [number % columns, number / columns].map(|place| place as f64 * size);
+        Marked { corner: [corner + at[0], at[1]], sides: [size; 2], weight }
+    })
+    .collect()
 }

@@ -149,6 +149,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         found
     });
     let air = air.flatten();
+    let bare = local.map(|(local, found)| bare_area(&local, length, diameter, &found));
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     notes.extend(usable.is_some().then(unknown_neck_in));
     notes.extend(laid.orientation.map(directions_of));
@@ -161,7 +162,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         marks: Marks::new(map, corner, keys.strip),
         streaks: streaks(map, corner, &laid.defects),
         stiffness_ratio: laid.orientation.map(|of| Known::Value(of.stiffness_ratio.0, of.stiffness_ratio.1)),
-        bare: local.map(|(local, found)| bare_area(&local, length, diameter, &found)),
+        bare,
         air,
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
