@@ -78,7 +78,6 @@ impl Series {
 
     /// With all points for the figure's table, where only some of them are drawn: x, y, ± error.
     pub fn thinned_from(self, full: impl IntoIterator<Item = Spot>) -> Self {
-        let row = |(x, y, error): Spot| [x, y, error.unwrap_or(f64::NAN)];
         Self { full: Some(full.into_iter().map(row).collect()), ..self }
     }
 
@@ -101,6 +100,11 @@ impl Series {
 /// A point with its error: x, y, ± error.
 pub(crate) type Spot = (f64, f64, Option<f64>);
 
+/// The same in one shape for all points, which are many.
+fn row((x, y, error): Spot) -> [f64; 3] {
+    [x, y, error.unwrap_or(f64::NAN)]
+}
+
 fn owned<T: Copy>(points: impl IntoIterator<Item: Borrow<T>>) -> Vec<T> {
     points.into_iter().map(|point| *point.borrow()).collect()
 }
@@ -112,8 +116,8 @@ pub enum Mark {
     Line(Vec<(f64, f64)>),
     /// A path that goes anywhere.
     Path(Vec<(f64, f64)>),
-    /// Markers, with error bars where an error is known: x, y, ± error.
-    Scatter(Vec<(f64, f64, Option<f64>)>),
+    /// Markers, with error bars where an error is known: x, y, ± error or NaN.
+    Scatter(Vec<[f64; 3]>),
     /// A shaded band: x, lower, upper.
     Band(Vec<(f64, f64, f64)>),
     /// A line across at an x.
@@ -189,7 +193,7 @@ impl Chart {
 
     /// Adds points with error bars: x, y, ± error.
     pub fn scatter(self, series: Series, points: impl IntoIterator<Item: Borrow<Spot>>) -> Self {
-        self.with(series, Mark::Scatter(owned(points)))
+        self.with(series, Mark::Scatter(points.into_iter().map(|spot| row(*spot.borrow())).collect()))
     }
 
     /// Adds a band: x, lower, upper.
@@ -255,9 +259,9 @@ impl Chart {
                     }
                 }
                 Mark::Scatter(points) => {
-                    let shown = points.iter().filter(|(x, y, _)| self.x.shows(*x) && self.y.shows(*y));
-                    for &(x, y, error) in shown {
-                        let error = error.filter(|e| e.is_finite()).unwrap_or(0.0);
+                    let shown = points.iter().filter(|[x, y, _]| self.x.shows(*x) && self.y.shows(*y));
+                    for &[x, y, error] in shown {
+                        let error = if error.is_finite() { error } else { 0.0 };
                         xs.push(x);
                         ys.extend([y, y - error, y + error]);
                     }

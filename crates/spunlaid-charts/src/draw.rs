@@ -187,8 +187,8 @@ fn draw_points(picture: &mut Picture, plot: &Plot, series: &Series, mark: &Mark,
         }
         (Mark::Scatter(points), marker) => {
             let marker = marker.unwrap_or(Marker::Spot);
-            for &(x, y, error) in points.iter().filter(|p| inside(p.0, p.1)) {
-                if let Some(error) = error.filter(|e| e.is_finite()) {
+            for &[x, y, error] in points.iter().filter(|[x, y, _]| inside(*x, *y)) {
+                if error.is_finite() {
                     draw_error(picture, plot, (x, y), error, series.colour);
                 }
                 picture.marker(plot.at((x, y)), marker, series.colour);

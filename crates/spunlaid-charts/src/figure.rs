@@ -1,6 +1,6 @@
 //! A figure: a picture, what it shows, and the numbers in it.
 
-use crate::chart::{Chart, Mark, Series, Spot};
+use crate::chart::{Chart, Mark, Series};
 use crate::draw;
 use crate::picture::Picture;
 use crate::svg::svg;
@@ -149,13 +149,11 @@ fn content<'a>(
 ) -> Option<(Vec<String>, Box<dyn Iterator<Item = PointRow> + 'a>)> {
     let (x, y) = (chart.x.column(), chart.y.column());
     let [error, lower, upper] = [ERROR, LOWER, UPPER].map(str::to_owned);
-    let spots =
-        |has_errors: bool| [x.clone(), y.clone()].into_iter().chain(has_errors.then_some(error)).collect();
-    Some(match (series.full.as_deref(), mark) {
-        (Some(rows), _) => (spots(rows.iter().any(|row| !row[2].is_nan())), Box::new(rows.iter().copied())),
-        (None, Mark::Scatter(points)) => {
-            let row = |&(x, y, error): &Spot| [x, y, error.unwrap_or(f64::NAN)];
-            (spots(points.iter().any(|point| point.2.is_some())), Box::new(points.iter().map(row)))
+    let drawn = if let Mark::Scatter(rows) = mark { Some(&rows[..]) } else { None };
+    Some(match (series.full.as_deref().or(drawn), mark) {
+        (Some(rows), _) => {
+            let error = rows.iter().any(|row| !row[2].is_nan()).then_some(error);
+            ([x, y].into_iter().chain(error).collect(), Box::new(rows.iter().copied()))
         }
         (None, Mark::Line(points) | Mark::Path(points)) => {
             (vec![x, y], Box::new(points.iter().map(|&(x, y)| [x, y, f64::NAN])))
@@ -165,7 +163,7 @@ fn content<'a>(
         }
         (None, Mark::Vertical(at)) => (vec![x], Box::new(std::iter::once([*at, f64::NAN, f64::NAN]))),
         (None, Mark::Map(map)) => (vec![x, y, column(&map.label)], Box::new(map.cells())),
-        (None, Mark::Stretch(..) | Mark::Arrow(..)) => return None,
+        (None, Mark::Scatter(_) | Mark::Stretch(..) | Mark::Arrow(..)) => return None,
     })
 }
 

@@ -75,7 +75,7 @@ fn draw_key(picture: &mut Picture, &Entry { series, mark, .. }: &Entry<'_>, x: f
             picture.polygon(&corners, series.colour, 0.2, None);
         }
         Mark::Scatter(points) => {
-            if points.iter().any(|p| p.2.is_some()) {
+            if points.iter().any(|spot| !spot[2].is_nan()) {
                 let bar = Stroke::solid(series.colour, 1.2);
                 picture.line((middle.0, y - 8.0), (middle.0, y + 8.0), &bar);
             }

@@ -20,8 +20,8 @@ fn peak(points: u64, replicates: u64) -> Peak {
          'air.velocity' = {{ from = '5 m/s', to = '20 m/s' }}\n'fibre.diameter' = {{ from = '30 µm', to = '60 µm' }}\n"
     );
     let place = StudyFolder::new(&case, &study);
-    // Without bitmaps, of which two that are drawn side by side take as much as thousands of points. The allocator gives
-    // back at once what is free, so that the peak is what is in use.
+    // Without bitmaps, of which two that are drawn side by side take as much as thousands of points. The allocator
+    // gives back at once what is free, so that the peak is what is in use.
     let mut sweep = place.sweep("out", &["--threads", "1", "--figures", "svg"]);
     sweep.env("MALLOC_ARENA_MAX", "1").env("MALLOC_MMAP_THRESHOLD_", "65536");
     let mut child = sweep.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -55,8 +55,8 @@ fn peak(points: u64, replicates: u64) -> Peak {
 #[test]
 fn memory_is_flat() {
     let _alone = crate::alone();
-    // A peak wanders by 1 MiB with what happens to be made side by side, and a look may miss the last moments of a short
-    // run. So the largest peak of the small study counts, and the smallest of the large ones.
+    // A peak wanders by 1 MiB with what happens to be made side by side, and a look may miss the last moments of a
+    // short run. So the largest peak of the small study counts, and the smallest of the large ones.
     let few = [(); 3].map(|()| peak(1000, 2));
     let largest = |quantity: fn(&Peak) -> u64| few.iter().map(quantity).max().unwrap_or(0);
     let stays_below = |bound: u64, points, replicates, quantity: fn(&Peak) -> u64| {

@@ -13,7 +13,7 @@ fn cube(velocity: impl Fn(f64, f64, f64) -> Vec3<f64>) -> Field {
     Field::lattice([row.clone(), row.clone(), row], &values).unwrap()
 }
 
-/// A change of less than one hundredth of the largest is none. The change of a flow that is linear in x and in y² is the
+/// A change of less than one hundredth of the largest is none. That of a flow that is linear in x and in y² is the
 /// slope times the standard deviation of the coordinate: of 0, 1/8, .. 1 that is 0.3227, of their squares 0.3354.
 #[test]
 fn analytic_what_changes_by_a_hundredth_is_even() {

@@ -64,22 +64,6 @@ impl Difference {
     }
 }
 
-/// The difference of two independent standard deviations, each with its standard error.
-///
-/// Each error is a share of its deviation, so the logarithms are compared: that of a deviation with
-/// ν degrees of freedom has the variance `½(1/ν + 1/ν²)`, to the second order, and
-/// `ν = ½ (deviation/standard error)²`. The error of the difference itself is made of that of the logarithms
-/// so that it says the same.
-///
-/// Source: R. A. Fisher, Proceedings of the International Congress of Mathematics, Toronto 2 (1924) 805–813.
-pub fn difference_of_deviations(deviations: [(f64, f64); 2]) -> Difference {
-    let log_error = |(deviation, error): (f64, f64)| {
-        let inverse = 2.0 * (error / deviation).powi(2);
-        (0.5 * (inverse + inverse * inverse)).sqrt()
-    };
-    difference_of_logarithms(deviations.map(|(deviation, _)| deviation), deviations.map(log_error))
-}
-
 /// The difference of two positive values, with the standard errors of their logarithms. The error of the difference is
 /// made so that it says the same as that of the logarithms, and the same of the values, of their squares and of any
 /// other powers.

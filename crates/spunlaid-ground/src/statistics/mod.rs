@@ -3,7 +3,7 @@
 mod difference;
 mod spectrum;
 
-pub use difference::{Difference, difference_of_deviations, difference_of_logarithms, student_t_95_at};
+pub use difference::{Difference, difference_of_logarithms, student_t_95_at};
 pub use spectrum::{Spectrum, Welch, Window};
 
 /// A result over the replicates of an ensemble.

@@ -7,12 +7,14 @@ use super::pictures::FigureFiles;
 use super::table::{Column, TABLES, Table};
 use crate::Failure;
 use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
+use spunlaid::ground::threads::each;
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
 use std::{fs, io};
 
 /// The contents of a results folder of `run`, `analyse` or `reproduce`. The last entry marks it as complete.
@@ -234,12 +236,24 @@ impl<'a> Staging<'a> {
             .map_err(Failure::unwritable(&later))
     }
 
-    /// Writes the files of figures; of results that are in their folder, those that they do not have yet.
+    /// Writes the files of figures, which are drawn on all threads, with their numbers as CSV; of results that are in
+    /// their folder, those that they do not have yet.
     pub fn write_figures<F: Borrow<Figure> + Sync>(&self, figures: &[F]) -> Result<(), Failure> {
         let name = |figure: &Figure| format!("figures/{}.csv", figure.name);
         let is_new = |figure: &&Figure| !self.is_published || !self.folder.join(name(figure)).exists();
         let new: Vec<&Figure> = figures.iter().map(F::borrow).filter(is_new).collect();
-        self.figures.write(&new, self)
+        let threads = available_parallelism().map_or(1, usize::from);
+        // A few at a time: the pictures of many points are large, and only those of these few are held.
+        for figures in new.chunks(threads) {
+            let drawn = each(threads, figures.len(), |i| self.figures.drawn(figures[i]));
+            for (figure, files) in figures.iter().zip(drawn) {
+                self.write_with(&name(figure), |to| figure.table().write_csv(to))?;
+                for (ending, content) in files? {
+                    self.write(&format!("figures/{}.{ending}", figure.name), content)?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// What the results are computed from, as it is kept by the first who asks.

@@ -1,14 +1,10 @@
-//! Writes figures in the formats and at the width that are asked for, with their numbers as CSV. They are
-//! drawn on all threads.
+//! Figures in the formats and at the width that are asked for.
 
-use super::folder::Staging;
 use super::table::TableFormat;
 use crate::Failure;
 use crate::failure::undrawable;
 use spunlaid::ground::Dimension;
-use spunlaid::ground::threads::each;
 use spunlaid_charts::{Figure, Picture, PictureError, pdf, png, svg};
-use std::thread::available_parallelism;
 
 /// A format of figures; `spunlaid-charts` has a file for each, which says how a picture is written.
 #[derive(Debug)]
@@ -100,34 +96,18 @@ pub fn width_named(text: &str) -> Result<f64, String> {
 }
 
 impl FigureFiles {
-    /// Writes each file of the figures, in order.
+    /// The figure in each format, with the ending of its file.
     ///
     /// # Errors
-    /// If a figure cannot be drawn, or a file cannot be written.
-    pub(super) fn write(&self, figures: &[&Figure], staging: &Staging<'_>) -> Result<(), Failure> {
-        let threads = available_parallelism().map_or(1, usize::from);
-        // A few at a time: the pictures of many points are large, and only those of these few are held.
-        for figures in figures.chunks(threads) {
-            let drawn = each(threads, figures.len(), |i| self.drawn(figures[i]));
-            for (figure, files) in figures.iter().zip(drawn) {
-                let name = |ending: &str| format!("figures/{}.{ending}", figure.name);
-                staging.write_with(&name("csv"), |to| figure.table().write_csv(to))?;
-                for (format, content) in self.formats.iter().zip(files?) {
-                    staging.write(&name(format.name), content)?;
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The figure in each format.
-    fn drawn(&self, figure: &Figure) -> Result<Vec<Vec<u8>>, Failure> {
+    /// If the figure cannot be drawn.
+    pub(super) fn drawn(&self, figure: &Figure) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
         let (picture, dpi) = match self.width {
             Some(width) => (figure.in_print(width * 1e3), PRINT),
             None => (figure.picture(), SCREEN),
         };
         let undrawable = |reason: PictureError| undrawable(&figure.name, &reason.to_string());
-        self.formats.iter().map(|format| (format.write)(figure, &picture, dpi).map_err(undrawable)).collect()
+        let file = |format: &Format| Ok((format.name, (format.write)(figure, &picture, dpi)?));
+        self.formats.iter().map(|format| file(format).map_err(undrawable)).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Errors of small webs of each kind, against the scatter of many webs.
 
 use crate::title;
-use spunlaid::ground::statistics::{difference_of_deviations, interval_of_deviation};
+use spunlaid::ground::statistics::interval_of_deviation;
 use spunlaid::ground::{Control, Isa};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::map::{Filaments, find, lay};
@@ -144,7 +144,7 @@ fn of_kind(web: &Web) {
             truths.push(all);
         }
     }
-    println!("  patch     CV   scatter   mean s.e.  cover  skew   alarms");
+    println!("  patch     CV   scatter   mean s.e.  cover  skew");
     for (side, found) in SIDES.iter().zip(&found) {
         let count = found.len() as f64;
         let truth = (found.iter().map(|of| of.cv * of.cv).sum::<f64>() / count).sqrt();
@@ -165,15 +165,8 @@ fn of_kind(web: &Web) {
             let (a, b) = (of.cv - mean, error - mean_error);
             correlation = [correlation[0] + a * b, correlation[1] + a * a, correlation[2] + b * b];
         }
-        let (mut alarms, mut pairs) = (0, 0);
-        for pair in found.chunks_exact(2) {
-            let (Some(a), Some(b)) = (pair[0].standard_error, pair[1].standard_error) else { continue };
-            pairs += 1;
-            alarms +=
-                u64::from(difference_of_deviations([(pair[0].cv, a), (pair[1].cv, b)]).is_beyond_chance());
-        }
         println!(
-            "  {side:4}  {:7.3}  {:7.3}  {:7.3}  {held}/{known}  {:5.2}  {alarms}/{pairs}",
+            "  {side:4}  {:7.3}  {:7.3}  {:7.3}  {held}/{known}  {:5.2}",
             100.0 * truth,
             100.0 * scatter,
             100.0 * mean_error,

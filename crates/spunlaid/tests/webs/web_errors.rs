@@ -1,7 +1,7 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
-use spunlaid::ground::statistics::difference_of_deviations;
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::statistics::difference_of_logarithms;
+use spunlaid::ground::{Control, Error, Isa, NORMAL_95};
 use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
 use spunlaid::web::map::{Filaments, Findings, find, lay};
 use spunlaid::web::{Clouds, Edges, Fibres, Layer, Row, Sheet, Surrogate, Web};
@@ -44,12 +44,11 @@ fn with<T>(run: impl FnOnce(Control<'_>) -> T) -> T {
 fn hold(what: &str, found: &[(f64, f64)]) {
     let count = found.len() as f64;
     let truth = (found.iter().map(|of| of.0 * of.0).sum::<f64>() / count).sqrt();
-    let covers = |(value, error): &(f64, f64)| {
-        let of = Unevenness { patch: 1.0, cv: *value, standard_error: Some(*error) };
-        let [low, high] = of.interval().expect("an interval");
-        (low..=high).contains(&truth)
+    let interval = |(cv, error): (f64, f64)| {
+        Unevenness { patch: 1.0, cv, standard_error: Some(error) }.interval().expect("an interval")
     };
-    let held = found.iter().filter(|of| covers(of)).count() as f64;
+    let covers = |[low, high]: [f64; 2]| (low..=high).contains(&truth);
+    let held = found.iter().filter(|of| covers(interval(**of))).count() as f64;
     // 95 % of them, within four standard deviations of a binomial number.
     let least = 0.95 * count - 4.0 * (0.95 * 0.05 * count).sqrt();
     assert!(held >= least, "{what}: {held} of {count} intervals hold");
@@ -61,8 +60,14 @@ fn hold(what: &str, found: &[(f64, f64)]) {
     println!("{what}: {held} of {count} hold, error {error:.5}, scatter {scatter:.5}, truth {truth:.5}");
     let off = (error / scatter).ln().abs();
     assert!(off < 4.0 / (2.0 * count).sqrt(), "{what}: error {error}, scatter {scatter}");
-    let alarms =
-        found.chunks_exact(2).filter(|pair| difference_of_deviations([pair[0], pair[1]]).is_beyond_chance());
+    // As `spunlaid compare` does: the ends of the intervals that face each other make the error of the difference.
+    let differ = |pair: &&[(f64, f64)]| {
+        let (a, b) = (pair[0], pair[1]);
+        let (less, more) = if a.0 < b.0 { (a, b) } else { (b, a) };
+        let ends = [interval(less)[1] / less.0, more.0 / interval(more)[0]];
+        difference_of_logarithms([less.0, more.0], ends.map(|end| end.ln() / NORMAL_95)).is_beyond_chance()
+    };
+    let alarms = found.chunks_exact(2).filter(differ);
     let most = 0.05 * count / 2.0 + 4.0 * (0.05 * 0.95 * count / 2.0).sqrt();
     assert!((alarms.count() as f64) < most, "{what}: equal webs differ");
 }
