@@ -1,6 +1,8 @@
 //! Fourier transform of eight signals side by side.
 
 use crate::lanes::{Isa, Lanes, Register, Task, WIDTH, Wide, cos_sin_turn};
+use std::array::from_fn;
+use std::ops::Range;
 
 /// Complex numbers of eight lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -9,6 +11,19 @@ pub struct Complex {
     pub re: Lanes,
     /// Imaginary part.
     pub im: Lanes,
+}
+
+impl Complex {
+    /// The transforms X and Y of the real and of the imaginary part of a signal, from its own at a place and that at
+    /// the opposite one.
+    pub fn of_both_parts(self, opposite: Self) -> [Self; 2] {
+        let half = Lanes::splat(0.5);
+        // X = (a + b*)/2, Y = (a − b*)/2i.
+        [
+            Self { re: half * (self.re + opposite.re), im: half * (self.im - opposite.im) },
+            Self { re: half * (self.im + opposite.im), im: half * (opposite.re - self.re) },
+        ]
+    }
 }
 
 /// [`Complex`] in registers.
@@ -79,22 +94,6 @@ impl InverseTransform {
         Isa::detect().run(TransformTask { transform: self, data, scratch: &mut scratch });
     }
 
-    /// Cross spectrum `X Y*` of the real and the imaginary part of eight signals: its transform is `M Σ_n x_n y_{n+m}`.
-    pub fn cross_spectrum(&self, mut signals: Vec<Complex>) -> Vec<Complex> {
-        self.run(&mut signals);
-        let half = Lanes::splat(0.5);
-        let count = signals.len();
-        (0..count)
-            .map(|m| {
-                let (a, b) = (&signals[m], &signals[(count - m) % count]);
-                // X = (a + b*)/2, Y = (a − b*)/2i.
-                let (xr, xi) = (half * (a.re + b.re), half * (a.im - b.im));
-                let (yr, yi) = (half * (a.im + b.im), half * (b.re - a.re));
-                Complex { re: xr * yr + xi * yi, im: xi * yr - xr * yi }
-            })
-            .collect()
-    }
-
     /// Transforms `data` in place, with `scratch` of the same size.
     #[inline(always)]
     pub fn pass<S: Register>(&self, data: &mut Vec<Complex>, scratch: &mut Vec<Complex>) {
@@ -146,4 +145,53 @@ impl Task for TransformTask<'_> {
     fn call<S: Register>(self) {
         self.transform.pass::<S>(self.data, self.scratch);
     }
+}
+
+/// Sums of `d_i d_{i+k}` over the samples `i` of each block for lags `k < lags`, `d` the difference from a reference;
+/// `i+k` may be in a later block.
+pub fn lagged_products(
+    values: &[f64],
+    reference: f64,
+    blocks: &[Range<usize>],
+    lags: usize,
+) -> Vec<Vec<f64>> {
+    // Pieces of `half` samples are correlated with twice as many, so that no lag below `half` wraps around.
+    let half = lags.next_power_of_two().max(2);
+    let size = 2 * half;
+    let transform = InverseTransform::new(size);
+    let mut sums = vec![vec![0.0; lags]; blocks.len()];
+    let pieces: Vec<(usize, Range<usize>)> = (blocks.iter().enumerate())
+        .flat_map(|(b, block)| {
+            let end = block.end;
+            block.clone().step_by(half).map(move |start| (b, start..end.min(start + half)))
+        })
+        .collect();
+    let difference = |i: usize| values.get(i).map_or(0.0, |x| x - reference);
+    for eight in pieces.chunks(WIDTH) {
+        let piece: [Range<usize>; WIDTH] =
+            from_fn(|lane| eight.get(lane).map_or(0..0, |(_, range)| range.clone()));
+        let mut data: Vec<Complex> = (0..size)
+            .map(|t| {
+                let is_sample = |i: usize, most: usize| i < eight.len() && t < most;
+                let at = |i: usize, most: usize| {
+                    if is_sample(i, most) { difference(piece[i].start + t) } else { 0.0 }
+                };
+                Complex { re: Lanes::from_fn(|i| at(i, piece[i].len())), im: Lanes::from_fn(|i| at(i, size)) }
+            })
+            .collect();
+        transform.run(&mut data);
+        // X Y*, whose transform is `M Σ_n x_n y_{n+m}`.
+        let cross = |m: usize| {
+            let [x, y] = data[m].of_both_parts(data[(size - m) % size]);
+            Complex { re: x.re * y.re + x.im * y.im, im: x.im * y.re - x.re * y.im }
+        };
+        let mut product: Vec<Complex> = (0..size).map(cross).collect();
+        transform.run(&mut product);
+        for (lane, (block, _)) in eight.iter().enumerate() {
+            for (sum, c) in sums[*block].iter_mut().zip(&product) {
+                *sum += c.re.0[lane] / size as f64;
+            }
+        }
+    }
+    sums
 }

@@ -1,6 +1,6 @@
 //! Computes the autocorrelation of the fluctuation and its integral.
 
-use crate::ground::{Complex, Dimension, Fault, InverseTransform, Lanes, WIDTH};
+use crate::ground::{Dimension, Fault};
 use std::ops::Range;
 
 /// Rule for the largest lag of the integral of the autocorrelation.
@@ -86,49 +86,6 @@ impl Autocorrelation {
     }
 }
 
-/// Sums of `d_i d_{i+k}` over the samples `i` of each block for lags `k < lags`, `d` the difference from a reference;
-/// `i+k` may be in a later block.
-pub(super) fn lagged_products(
-    values: &[f64],
-    reference: f64,
-    blocks: &[Range<usize>],
-    lags: usize,
-) -> Vec<Vec<f64>> {
-    // Pieces of `half` samples are correlated with twice as many, so that no lag below `half` wraps around.
-    let half = lags.next_power_of_two().max(2);
-    let size = 2 * half;
-    let transform = InverseTransform::new(size);
-    let mut sums = vec![vec![0.0; lags]; blocks.len()];
-    let pieces: Vec<(usize, Range<usize>)> = (blocks.iter().enumerate())
-        .flat_map(|(b, block)| {
-            let end = block.end;
-            block.clone().step_by(half).map(move |start| (b, start..end.min(start + half)))
-        })
-        .collect();
-    let difference = |i: usize| values.get(i).map_or(0.0, |x| x - reference);
-    for eight in pieces.chunks(WIDTH) {
-        let piece: [Range<usize>; WIDTH] =
-            std::array::from_fn(|lane| eight.get(lane).map_or(0..0, |(_, range)| range.clone()));
-        let data: Vec<Complex> = (0..size)
-            .map(|t| {
-                let is_sample = |i: usize, most: usize| i < eight.len() && t < most;
-                let at = |i: usize, most: usize| {
-                    if is_sample(i, most) { difference(piece[i].start + t) } else { 0.0 }
-                };
-                Complex { re: Lanes::from_fn(|i| at(i, piece[i].len())), im: Lanes::from_fn(|i| at(i, size)) }
-            })
-            .collect();
-        let mut product = transform.cross_spectrum(data);
-        transform.run(&mut product);
-        for (lane, (block, _)) in eight.iter().enumerate() {
-            for (sum, c) in sums[*block].iter_mut().zip(&product) {
-                *sum += c.re.0[lane] / size as f64;
-            }
-        }
-    }
-    sums
-}
-
 /// Number of pairs at a lag whose first sample is in a block; `samples` is the length of the record.
 pub(super) fn pairs(block: &Range<usize>, lag: usize, samples: usize) -> f64 {
     block.end.min(samples.saturating_sub(lag)).saturating_sub(block.start) as f64
@@ -137,6 +94,7 @@ pub(super) fn pairs(block: &Range<usize>, lag: usize, samples: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::fft::lagged_products;
 
     #[test]
     fn analytic_autocorrelation_of_four_samples() {

@@ -1,9 +1,10 @@
 //! Estimates from a record, with the error that leaving out one block after the other shows.
 
-use super::correlation::{lagged_products, pairs};
+use super::correlation::pairs;
 use super::interval::{error, jackknife};
 use super::{Autocorrelation, IntegralRule};
 use crate::ground::Interval;
+use crate::ground::fft::lagged_products;
 use crate::ground::statistics::student_t_95;
 use std::ops::Range;
 

@@ -3,8 +3,9 @@
 use super::basis_weight::Map;
 use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
+use crate::ground::Estimate;
+use crate::ground::fft::lagged_products;
 use crate::ground::threads::each;
-use crate::ground::{Complex, Estimate, InverseTransform, Lanes, WIDTH};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -84,8 +85,6 @@ const ACROSS: usize = 1024;
 const PARTS: usize = 1 << 21;
 /// Rows of cells whose parts are summed up at once, so that they take little memory.
 const AT_ONCE: usize = 512;
-/// Pieces of lines whose spectra are added on one thread, a multiple of eight.
-const PIECES: usize = 512;
 /// Shortest long wave [parts]: where parts cut across cells, 0.1 % of the power of such a wave comes from
 /// other waves of the lattice, and more of shorter ones.
 const SHORT: f64 = 6.0;
@@ -331,42 +330,18 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
     let stride = (map.cells.len() >> 20).max(1);
     let along = |lines: usize, length: usize, cell: &(dyn Fn(usize, usize) -> u32 + Sync)| {
         let lags = lags.min(length);
-        // A piece of half as many cells, multiplied with all that are up to as much further on.
-        let half = lags.next_power_of_two().max(2);
-        let transform = InverseTransform::new(2 * half);
-        let pieces: Vec<(usize, usize)> = (0..lines)
-            .step_by(stride)
-            .flat_map(|line| (0..length).step_by(half).map(move |start| (line, start)))
-            .collect();
-        let spectra = each(threads, pieces.len().div_ceil(PIECES), |group| {
-            let mut spectrum = vec![Complex::default(); 2 * half];
-            for eight in pieces[group * PIECES..].chunks(WIDTH).take(PIECES / WIDTH) {
-                let deviation = |lane: usize, t: usize| {
-                    let piece = eight.get(lane).filter(|(_, start)| start + t < length);
-                    piece.map_or(0.0, |(line, start)| f64::from(cell(*line, start + t)) - mean)
-                };
-                let signals = (0..2 * half).map(|t| {
-                    let im = Lanes::from_fn(|lane| deviation(lane, t));
-                    Complex { re: if t < half { im } else { Lanes::ZERO }, im }
-                });
-                add(&mut spectrum, &transform.cross_spectrum(signals.collect()));
-            }
-            spectrum
-        });
-        let mut products = vec![Complex::default(); 2 * half];
-        spectra.iter().for_each(|spectrum| add(&mut products, spectrum));
-        transform.run(&mut products);
-        let product = |lag: usize| products[lag].re.0.iter().sum::<f64>() / (length - lag) as f64;
-        (0..lags).map(|lag| product(lag) / product(0)).collect()
+        let of_line = |line: usize| {
+            let values: Vec<f64> = (0..length).map(|i| f64::from(cell(line * stride, i))).collect();
+            lagged_products(&values, mean, std::slice::from_ref(&(0..length)), lags).concat()
+        };
+        let lines = each(threads, lines.div_ceil(stride), of_line);
+        let product =
+            |lag: usize| lines.iter().map(|products| products[lag]).sum::<f64>() / (length - lag) as f64;
+        let variance = product(0);
+        (0..lags).map(|lag| product(lag) / variance).collect()
     };
     [
         along(map.rows, map.columns, &|row, column| map.row(row)[column]),
         along(map.columns, map.rows, &|column, row| map.row(row)[column]),
     ]
-}
-
-fn add(sums: &mut [Complex], of: &[Complex]) {
-    for (sum, z) in sums.iter_mut().zip(of) {
-        *sum = Complex { re: sum.re + z.re, im: sum.im + z.im };
-    }
 }

@@ -86,17 +86,11 @@ impl Powers {
             let both = |column| Complex { re: numbers(first, column), im: numbers(first + WIDTH, column) };
             let mut data: Vec<Complex> = (0..columns).map(both).collect();
             transform.run(&mut data);
-            let half = Lanes::splat(0.5);
             let mut rows = Vec::with_capacity(groups * 2 * WIDTH);
             for group in 0..groups {
-                // Twice the even part is the transform of the real part, twice the odd one that of the imaginary part.
                 let parts: [[Complex; 2]; WIDTH] = from_fn(|i| {
                     let column = group * WIDTH + i;
-                    let (z, other) = (data[column], data[(columns - column) % columns]);
-                    [
-                        Complex { re: (z.re + other.re) * half, im: (z.im - other.im) * half },
-                        Complex { re: (z.im + other.im) * half, im: (other.re - z.re) * half },
-                    ]
+                    data[column].of_both_parts(data[(columns - column) % columns])
                 });
                 for part in [0, 1] {
                     rows.extend((0..WIDTH).map(|row| Complex {
