@@ -92,11 +92,6 @@ impl<'a> Delivery<'a> {
         Ok(())
     }
 
-    /// Says only the result, because the rest is told again when more is known.
-    pub(crate) fn say_headline(&self) {
-        self.text.lines().take(1).for_each(|headline| self.line(headline));
-    }
-
     /// Says as lines what was found and has not been said; the first time also which page to open.
     pub(crate) fn say(&mut self, contents: &impl Contents, lines: &[String]) {
         if self.output.json || self.output.quiet {

@@ -46,7 +46,6 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     delivery.publish(&written, run.threads)?;
     // The results are safe now, whatever becomes of the checks.
     let checked = paths.as_ref().filter(|_| plans.fibre_steps() > 0);
-    checked.iter().for_each(|_| delivery.say_headline());
     coarse.iter().filter(|_| delivery.folder().is_some()).for_each(|coarse| say::remark(false, coarse));
     if let Some(paths) = checked {
         fibre_steps.store(0, Ordering::Relaxed);

@@ -139,6 +139,51 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     assert!(found.standard_error.unwrap() < 0.01, "{found:?}");
 }
 
+/// The check of the mesh flies the same line with elements of half the length: what it tells is what anybody finds who
+/// halves them by hand. An element that is half as long is fed in half as many steps.
+#[test]
+fn invariant_the_mesh_check_of_a_fed_fibre_tells_what_halving_by_hand_does() {
+    let line = |element: &str| {
+        let mut case = common::laying::spunbond(&[
+            ("run.duration", "60 ms"),
+            ("run.spin_up", "20 ms"),
+            ("belt.kept_length", "30 mm"),
+            ("fibre.element_length", element),
+            ("run.time_step", "20 us"),
+        ]);
+        case.run.replicates = 8;
+        case
+    };
+    let [coarse, fine] = ["4 mm", "2 mm"].map(line);
+    let check = mesh_checked(&coarse);
+    let [own, halved] = [&coarse, &fine].map(|case| flights(case, 2));
+    for (name, measures) in [
+        ("spread", ["sigma_md", "sigma_cd"]),
+        ("half_correlation_length", ["half_correlation_length_md", "half_correlation_length_cd"]),
+        ("chord_over_arc", ["chord_over_arc"; 2]),
+    ] {
+        let (found, by_hand) = (change(&check, name), off(&own, &halved, measures));
+        // Both fly in the same turbulence with steps of 20 µs or a little less.
+        let allowed = 3.0 * found.standard_error.unwrap() + 0.01;
+        assert!((found.mean - by_hand).abs() < allowed, "{name}: {by_hand}, {found:?}");
+        assert!(found.mean.abs() < 0.3, "{name}: {found:?}");
+    }
+    // Each measure alone has its own change, for its own error.
+    let alone = check.change_of("sigma_md").expect("compared").estimate.mean;
+    assert!((alone - off(&own, &halved, ["sigma_md"; 2])).abs() < 0.05, "{alone}");
+    assert!(check.change_of("nodes_in_air").is_none() && check.change_of("noise").is_some());
+}
+
+/// Twice the elements of a case that was made for long ones: the fibre would be fed at half its speed.
+#[test]
+fn rejects_elements_that_are_not_fed_in_their_steps() {
+    let mut case = common::laying::spunbond(&[]);
+    assert!(case.check().is_ok());
+    case.fibre.elements *= 2;
+    let problems = case.check().unwrap_err();
+    assert!(problems[0].to_string().contains("set the time step after the element length"), "{problems:?}");
+}
+
 /// Table 1 with so many elements.
 fn with_elements(number: usize, law: NormalLaw) -> Case {
     let mut case = common::table1(Scheme::ImplicitTension, 1e-4, 3.0, 8);

@@ -1,7 +1,7 @@
 //! What the checks of a run say against its numbers: in its notes, in its headline, and in the errors that
 //! the headline states.
 
-use crate::numbers::plus_minus;
+use crate::numbers::{capitalised, plus_minus, significant};
 use spunlaid::fibre::{Case, Checks};
 use spunlaid::ground::{Dimension, Estimate};
 use spunlaid::simulation::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
@@ -11,9 +11,43 @@ pub(super) const FINE_ENOUGH: f64 = 0.03;
 /// Standard errors on each side of a difference within which the true one very likely is.
 pub(super) const SURE: f64 = 2.0;
 
-/// Changes of a check that are surely beyond what is small enough.
-pub(super) fn beyond(check: &FinerCheck) -> impl Iterator<Item = &Change> {
-    counted(check).filter(|change| least(check, change) > FINE_ENOUGH)
+/// Change of unknown order from which on a number has not converged with the mesh [-]: it has no error then, because
+/// nobody knows how far it is from that of very fine elements.
+const NOT_CONVERGED: f64 = 0.1;
+
+/// Changes of a check that are surely beyond what is small enough, and whether the errors contain them.
+pub(super) fn beyond(check: &FinerCheck, contained: bool) -> impl Iterator<Item = &Change> {
+    let wanted = move |change: &&Change| has_converged(check, change) == contained;
+    counted(check).filter(|change| least(check, change) > FINE_ENOUGH).filter(wanted)
+}
+
+/// Whether an error can contain what a change stands for.
+fn has_converged(check: &FinerCheck, change: &Change) -> bool {
+    check.error_over(change).is_some() || least(check, change) <= NOT_CONVERGED
+}
+
+/// The change of a measure that has not converged with the mesh: length of the finest elements with which it was
+/// compared [m], and how far it is from theirs.
+pub(super) fn not_converged(measure: &str, checks: &FinerChecks) -> Option<(f64, Estimate)> {
+    let check = checks.mesh.as_ref().ok()?;
+    let of_statistic = check.change_of_statistic(measure);
+    let change = of_statistic.or_else(|| check.change_of(measure))?;
+    (!has_converged(check, change)).then(|| finest(check, change))
+}
+
+/// Length of the finest elements [m], and what they change.
+fn finest(check: &FinerCheck, change: &Change) -> (f64, Estimate) {
+    change.from_quarter.clone().unwrap_or((check.element_length, change.estimate.clone()))
+}
+
+/// `44 % lower than with elements of 12.5 mm`.
+pub(super) fn compared_with_finest((length, change): &(f64, Estimate)) -> String {
+    format!(
+        "{} % {} than with elements of {}",
+        significant(100.0 * change.mean.abs(), 2),
+        if change.mean < 0.0 { "lower" } else { "higher" },
+        Dimension::Length.pretty_to(*length, 3)
+    )
 }
 
 /// Changes that count. The texture of a laid fibre is that of its elements, and is reported as such.
@@ -61,16 +95,15 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
     }
 }
 
-/// All that a check tells beyond its limit, with words before each and between them; none if there is nothing.
-fn all_told(check: &FinerCheck, case: &Case, [before, between]: [&str; 2]) -> Option<String> {
-    let each: Vec<String> =
-        beyond(check).map(|change| format!("{before}{}", told(check, change, case))).collect();
+/// All that a check tells beyond its limit; none if there is nothing.
+fn all_told(check: &FinerCheck, case: &Case) -> Option<String> {
+    let each: Vec<String> = beyond(check, true).map(|change| told(check, change, case)).collect();
     let is_open = |change: &Change| check.error_over(change).is_none() && change.from_quarter.is_some();
-    let end = match beyond(check).any(is_open) {
+    let end = match beyond(check, true).any(is_open) {
         true => ", which does not show how far this is from very fine elements",
         false => "",
     };
-    (!each.is_empty()).then(|| format!("{}{}{end}", part(check, case), each.join(between)))
+    (!each.is_empty()).then(|| format!("{}{}{end}", part(check, case), each.join(", ")))
 }
 
 /// With what a run is compared: `half the step`.
@@ -106,29 +139,53 @@ fn part(check: &FinerCheck, case: &Case) -> String {
     if check.is_of_a_part(&case.run) { format!("in the first {some} of {all}: ") } else { String::new() }
 }
 
+/// What has not converged with the mesh, and the command that settles it; none if all has.
+fn unsettled(checks: &FinerChecks) -> Option<String> {
+    let check = checks.mesh.as_ref().ok()?;
+    let each: Vec<String> = beyond(check, false)
+        .map(|change| {
+            let off = compared_with_finest(&finest(check, change));
+            format!("the {} is {off}", change.statistic.label.to_lowercase())
+        })
+        .collect();
+    let finer = Dimension::Length.pretty_to(finer_elements(check), 3);
+    (!each.is_empty()).then(|| {
+        format!(
+            "not converged with the mesh: {}; no error contains this, so run again with \
+            --set fibre.element_length=\"{finer}\"",
+            each.join(", ")
+        )
+    })
+}
+
+/// The longest elements [m] whose error may be small enough, if it falls with the square of their length: shorter than
+/// any that were compared.
+pub(super) fn finer_elements(check: &FinerCheck) -> f64 {
+    let changes = || counted(check).flat_map(|change| errors(check, change));
+    let found = changes().map(|error| error.mean.abs()).fold(0.0, f64::max);
+    let compared = if counted(check).any(|change| change.from_quarter.is_some()) { 3.0 } else { 2.0 };
+    let least = if beyond(check, false).next().is_some() { compared } else { 1.0 };
+    let halvings = (0.5 * (found / FINE_ENOUGH).log2()).ceil().max(least);
+    2.0 * check.element_length * 0.5f64.powf(halvings)
+}
+
 /// Notes about checks that are beyond their limit, and about those that could not be made.
 pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
     let found = |check: &FinerCheck| {
-        let (name, limit, kept) = (check.refined.name(), 100.0 * FINE_ENOUGH, kept(check, case));
-        let told = all_told(check, case, ["", ", "])?;
+        let (name, limit) = (check.refined.name(), 100.0 * FINE_ENOUGH);
+        let kept = match case.run.replicates {
+            1 => "a single replicate has no error that could contain this",
+            _ => "the errors contain this",
+        };
+        let told = all_told(check, case)?;
         Some(format!("the check of the {name} is beyond its limit of {limit} %: {told}; {kept}"))
     };
     let each = [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)];
-    each.into_iter()
-        .filter_map(|(check, refined)| match check {
-            Ok(check) => found(check),
-            Err(why) => why.leaves_doubt().then(|| unchecked(refined, why)),
-        })
-        .collect()
-}
-
-/// Whether the errors of the results contain what a check found.
-fn kept(check: &FinerCheck, case: &Case) -> &'static str {
-    match (check.is_of_a_part(&case.run), case.run.replicates) {
-        (true, _) => "the errors do not contain this",
-        (false, 1) => "a single replicate has no error that could contain this",
-        (false, _) => "the errors contain this",
-    }
+    let of_each = each.into_iter().filter_map(|(check, refined)| match check {
+        Ok(check) => found(check),
+        Err(why) => why.leaves_doubt().then(|| unchecked(refined, why)),
+    });
+    of_each.chain(unsettled(checks)).collect()
 }
 
 /// That a check was not made, and why.
@@ -136,53 +193,31 @@ pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
     format!("{}: not checked: {why}", refined.name())
 }
 
-/// An estimate of a run with its whole error: by chance, and what the checks found beyond their limit. Those over a
-/// part of the run are told in words alone. What chance does to a single replicate is not known, nor is its error.
-pub fn with_error_of_checks(
-    estimate: Estimate,
-    measure: &str,
-    checks: &FinerChecks,
-    case: &Case,
-) -> Estimate {
-    let of_checks: f64 = checks
-        .all()
-        .filter(|check| !check.is_of_a_part(&case.run))
-        .flat_map(|check| {
-            let own = beyond(check).filter(|change| change.statistic.measures.contains(&measure));
-            own.map(|change| {
-                // From the value of the limit, or of the finer flight, to that of the run.
-                let off = |error: &Estimate| {
-                    let error = error.mean.max(-0.95);
-                    (estimate.mean * error / (1.0 + error)).abs()
-                };
-                errors(check, change).iter().map(off).fold(0.0, f64::max).powi(2)
-            })
-        })
-        .sum();
-    let standard_error = estimate.standard_error.map(|chance| chance.hypot(of_checks.sqrt()));
-    Estimate { standard_error, ..estimate }
-}
-
-/// The measures whose whole errors have more in them than chance, as the labels of their statistics.
-pub fn statistics_in_errors(checks: &FinerChecks, case: &Case) -> Vec<&'static str> {
-    let whole = checks.all().filter(|check| !check.is_of_a_part(&case.run));
-    let mut labels: Vec<_> = whole.flat_map(beyond).map(|change| change.statistic.label).collect();
-    labels.dedup();
-    labels
-}
-
-/// What the headline has to say about the checks, as whole sentences; empty if they are within their limits.
-pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
-    let mut text = String::new();
-    for check in checks.all() {
-        let kept = match (check.is_of_a_part(&case.run), case.run.replicates) {
-            (false, 2..) => "The error contains what",
-            _ => "No error above contains what",
+/// An estimate of a run with its whole error: by chance, and by step and mesh as the checks found them. One that has
+/// not converged has no error. What chance does to a single replicate is not known, nor is its error.
+///                                                                                             theory.md (58)
+pub fn with_error_of_checks(estimate: Estimate, measure: &str, checks: &FinerChecks) -> Estimate {
+    let square = |check: &FinerCheck| {
+        // From the value of the limit, or of the finer flight, to that of the run. Chance is in the square of what was
+        // found too.
+        let off = |error: &Estimate| {
+            let ratio = 1.0 + error.mean.max(-0.95);
+            let by_chance = error.standard_error.unwrap_or(0.0) / ratio;
+            (estimate.mean / ratio).powi(2) * ((ratio - 1.0).powi(2) - by_chance.powi(2)).max(0.0)
         };
-        if let Some(told) = all_told(check, case, ["the ", "; "]) {
-            text += &format!(" {kept} the check of the {} found: {told}.", check.refined.name());
-        }
-    }
+        let errors = check.change_of(measure).map(|change| errors(check, change));
+        errors.iter().flatten().map(off).fold(0.0, f64::max)
+    };
+    let of_checks: f64 = checks.all().map(square).sum();
+    let is_known = not_converged(measure, checks).is_none();
+    let chance = estimate.standard_error.filter(|_| is_known);
+    Estimate { standard_error: chance.map(|chance| chance.hypot(of_checks.sqrt())), ..estimate }
+}
+
+/// What the headline has to say about the checks, as whole sentences: what no error contains. Empty if all is known.
+pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
+    let open = unsettled(checks).map(|unsettled| format!(" {}.", capitalised(&unsettled)));
+    let mut text = open.unwrap_or_default();
     let why = if case.run.checks == Checks::None { ", as the case asks" } else { "" };
     match (&checks.step, &checks.mesh) {
         (Err(Unchecked::Pending), _) | (_, Err(Unchecked::Pending)) => {
@@ -219,6 +254,7 @@ mod tests {
             share_of_run: 0.1,
             path: None,
             changes: vec![Change::new(statistic, estimate)],
+            of_measures: Vec::new(),
         };
         FinerChecks { step: Ok(step), mesh: Err(Unchecked::Dear { times: 12.0 }) }
     }
@@ -228,25 +264,45 @@ mod tests {
         let case = sample::fed_case(100, 2);
         let run = case.run.duration();
         let width = || Estimate { mean: 2.778, standard_error: Some(0.026), values: Vec::new() };
-        let error = |checks: &FinerChecks| {
-            with_error_of_checks(width(), "sigma_md", checks, &case).standard_error.unwrap()
-        };
-        // The run has 0.34 of the true spread, which is 2.778/0.34.
+        let error =
+            |checks: &FinerChecks| with_error_of_checks(width(), "sigma_md", checks).standard_error.unwrap();
+        // The run has 0.34 of the true spread, which is 2.778/0.34. The change is known to 0.02 of that.
         let whole = checks(-0.66, 0.02, run);
-        assert!((error(&whole) - (2.778 / 0.34 - 2.778)).abs() < 1e-3, "{}", error(&whole));
-        assert!(
-            sentences(&whole, &case).starts_with(" The error contains what the check of the time step found")
-        );
+        let [off, chance] = [2.778f64 / 0.34 * 0.66, 2.778f64 / 0.34 * 0.02 / 0.34];
+        assert!((error(&whole) - (off * off - chance * chance).sqrt()).abs() < 1e-3, "{}", error(&whole));
+        assert_eq!(sentences(&whole, &case), " The mesh is not checked.");
         assert!(notes(&whole, &case)[0].contains("spread differs by −66"), "{:?}", notes(&whole, &case));
         assert!(notes(&whole, &case)[1].starts_with("mesh: not checked: it would take 12 times"));
-        // A part of a fed fibre's run is told as one.
+        // A part of a fed fibre's run is told as one, and is in the error too.
         let part = checks(1.17, 0.05, 0.1 * run);
-        assert_eq!(error(&part), 0.026);
-        assert!(sentences(&part, &case).starts_with(" No error above contains"));
+        assert!((error(&part) - 2.778 / 2.17 * 1.17).abs() < 0.01, "{}", error(&part));
         assert!(notes(&part, &case)[0].contains("in the first "));
-        // What chance alone may be is within the limit.
-        let within = checks(-0.05, 0.02, run);
-        assert_eq!((error(&within), notes(&within, &case).len()), (0.026, 1));
+        // A change within the limit is in the error, less what chance does to it, and in no note.
+        let within = checks(-0.02, 0.002, run);
+        let off = 2.778 / 0.98 * (0.02f64.powi(2) - (0.002f64 / 0.98).powi(2)).sqrt();
+        assert!((error(&within) - off.hypot(0.026)).abs() < 1e-9);
+        assert_eq!((error(&checks(-0.02, 0.03, run)), notes(&within, &case).len()), (0.026, 1));
         assert_eq!(sentences(&within, &case), " The mesh is not checked.");
+    }
+
+    /// A change of unknown order that is surely beyond a tenth is no error, but a number that has not converged.
+    #[test]
+    fn what_has_not_converged_has_no_error_and_a_command() {
+        let case = sample::fed_case(100, 2);
+        let of_mesh = |mean: f64| {
+            let mut checks = checks(mean, 0.01, case.run.duration());
+            checks.mesh = checks.step.map(|check| FinerCheck { refined: Refinement::Elements, ..check });
+            FinerChecks { step: Err(Unchecked::TooShort), ..checks }
+        };
+        let width = || Estimate { mean: 2.8, standard_error: Some(0.03), values: Vec::new() };
+        let error = |mean: f64| with_error_of_checks(width(), "sigma_md", &of_mesh(mean)).standard_error;
+        assert_eq!(error(-0.44), None);
+        assert!(error(-0.11).unwrap() > 0.3);
+        let said = sentences(&of_mesh(-0.44), &case);
+        assert!(
+            said.contains("Not converged with the mesh: the spread is 44 % lower than with elements of 2 mm")
+        );
+        assert!(said.contains("--set fibre.element_length=\"1 mm\""), "{said}");
+        assert_eq!(notes(&of_mesh(-0.44), &case).len(), 1);
     }
 }

@@ -1,6 +1,8 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
-use super::doubt::{FINE_ENOUGH, SURE, compared_with, counted, errors, percent, told, unchecked};
+use super::doubt::{
+    FINE_ENOUGH, SURE, compared_with, counted, errors, finer_elements, percent, told, unchecked,
+};
 use crate::numbers::{capitalised, significant};
 use spunlaid::air::EddyModel;
 use spunlaid::fibre::Case;
@@ -141,13 +143,9 @@ fn mesh_advice(check: &FinerCheck) -> String {
     }
     let found = shares(0.0);
     if surely > FINE_ENOUGH || found > 2.0 * FINE_ENOUGH {
-        // If the error falls with the square of the length; the next run shows whether it does.
-        let halvings = (0.5 * (found / FINE_ENOUGH).log2()).ceil().max(1.0);
-        let own = 2.0 * check.element_length;
-        let proposed = own * 0.5f64.powf(halvings);
         return format!(
             "The elements are too long: write fibre.element_length = \"{}\" and look again",
-            length(proposed)
+            length(finer_elements(check))
         );
     }
     "This run is too short to show whether their error is below 3 %; fly for longer".to_owned()
@@ -175,6 +173,7 @@ mod tests {
             share_of_run: 0.1,
             path: None,
             changes: vec![Change { is_second_order: !is_fed, ..Change::new(statistic, estimate) }],
+            of_measures: Vec::new(),
         }
     }
 

@@ -38,7 +38,7 @@ pub fn summary(
     let mut measures = json!({});
     for number in &results.numbers {
         let group = number.measure.group.name.split('.').fold(&mut measures, |outer, name| &mut outer[name]);
-        group[number.measure.column] = summary_of(number, checks, case);
+        group[number.measure.column] = summary_of(number, checks);
     }
     let rest = json!({
         // Null if the run is too short for it, or if the fibres do not move across the flow.
@@ -79,16 +79,22 @@ fn check(check: &FinerCheck) -> Json {
 }
 
 /// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean
-/// has also its error by chance and by what the checks found beyond their limit, as headline and tables have it.
-fn summary_of(number: &Number, checks: &FinerChecks, case: &Case) -> Json {
+/// has also its whole error, as headline and tables have it, or what says that it has not converged.
+fn summary_of(number: &Number, checks: &FinerChecks) -> Json {
     let estimate = with_values(&number.estimate);
     match number.measure.aggregate {
         Aggregate::Median => joined([json!({"median": number.value()}), estimate]),
         Aggregate::Largest => joined([json!({"largest": number.value()}), estimate]),
         Aggregate::Mean => {
             let name = number.measure.name;
-            let whole = doubt::with_error_of_checks(number.estimate.clone(), name, checks, case);
-            joined([json!({"error": whole.standard_error}), estimate])
+            let whole = doubt::with_error_of_checks(number.estimate.clone(), name, checks);
+            let open = doubt::not_converged(name, checks).map_or_else(
+                || json!({}),
+                |(length, change)| {
+                    json!({"not_converged": {"element_length_m": length, "difference": change.mean}})
+                },
+            );
+            joined([json!({"error": whole.standard_error}), estimate, open])
         }
     }
 }

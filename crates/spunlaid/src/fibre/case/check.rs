@@ -48,6 +48,9 @@ impl Case {
     }
 }
 
+/// How far the speed of whole steps may be from that of the feed, by rounding [-].
+const WHOLE_STEPS: f64 = 1e-6;
+
 struct Check<'a> {
     case: &'a Case,
     problems: Vec<Problem>,
@@ -107,6 +110,7 @@ impl Check<'_> {
             );
             self.blame("fibre.element_length", fibre.rest_length(), fault);
         }
+        self.feed();
         if self.case.line.is_some() && fibre.root == Root::Free {
             let (other, remedy) = ("[feed]", "the feed drives the root, so choose \"clamped\" or \"pinned\"");
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::excludes(other, remedy));
@@ -125,6 +129,24 @@ impl Check<'_> {
             let direction = fibre.direction;
             let shown = format!("[{}, {}, {}]", direction.x, direction.y, direction.z);
             self.blame_key("fibre.direction", shown, Fault::excludes("[feed]", remedy));
+        }
+    }
+
+    /// Checks that an element is fed in its whole number of steps: otherwise the fibre comes at another speed.
+    fn feed(&mut self) {
+        let Some(line) = self.case.line else { return };
+        let (element, step) = (self.case.fibre.rest_length(), self.case.run.time_step);
+        let speed = element / (line.steps_per_element as f64 * step);
+        if (speed / line.feed_speed - 1.0).abs() > WHOLE_STEPS {
+            let fault = Fault::new(
+                format!(
+                    "feeds an element in {} steps, which is a feed.speed of {}",
+                    line.steps_per_element,
+                    Dimension::Velocity.pretty_to(speed, 3)
+                ),
+                "set the time step after the element length (Case::set_time_step)",
+            );
+            self.blame("run.time_step", step, fault);
         }
     }
 

@@ -2,12 +2,12 @@
 //! from the axis of the flow, and the circle in which it stays.
 
 use super::{Declaration, END_NODE, FibreMeasure, Observation, Observer, fixed};
-use crate::fibre::{Flight, Run};
+use crate::fibre::{Case, Flight};
 use crate::ground::measure::figure;
 use crate::ground::statistics::quantile;
 use crate::ground::{
-    EvenSample, Figure, HERTZ, MILLIMETRES, Measure, MeasureKind, SQUARE_MILLIMETRES_PER_HERTZ, Value, WIDTH,
-    Welch, Window,
+    EvenSample, Figure, HERTZ, MILLIMETRES, Measure, MeasureKind, SQUARE_MILLIMETRES_PER_HERTZ, Spectrum,
+    Value, WIDTH, Welch, Window,
 };
 
 pub(super) const MOTION: Declaration = Declaration {
@@ -189,7 +189,7 @@ pub(super) const SPECTRA: Declaration = Declaration {
         SPECTRUM.observed("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z").series("*z*"),
     ],
     applies: fixed,
-    observer: |flight| Box::new(EndPositions::new(flight)),
+    observer: |flight| Box::new(EndPositions::new(flight, Welch::segment_length)),
 };
 
 const SPECTRUM: FibreMeasure = Measure {
@@ -214,19 +214,26 @@ const SEGMENT: usize = 1 << 12;
 struct EndPositions(Vec<[Welch; 2]>);
 
 impl EndPositions {
-    fn new(flight: &Flight) -> Self {
+    /// * `segment` – instants in a segment of a record of so many, a power of two
+    fn new(flight: &Flight, segment: fn(usize) -> usize) -> Self {
         let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
         // The fibres of a flight have one clock, and its window and factors take long to compute.
-        let welch = flight.case(0).map(|case| welch(&case.run));
+        let welch = flight.case(0).map(|Case { run, .. }| {
+            let samples = run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1);
+            let segment = segment(samples as usize + 1).min(SEGMENT);
+            Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
+        });
         Self(welch.iter().cycle().zip(cases).map(|(welch, _)| [welch.clone(), welch.clone()]).collect())
     }
-}
 
-/// Welch's method for a run, before any record.
-fn welch(run: &Run) -> Welch {
-    let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
-    let segment = Welch::segment_length(samples).min(SEGMENT);
-    Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
+    /// Spectra of y and z of a fibre.
+    fn spectra(&self, lane: usize) -> [Spectrum; 2] {
+        [0, 1].map(|axis| {
+            let mut welch = self.0[lane][axis].clone();
+            welch.end_record(None);
+            welch.finish()
+        })
+    }
 }
 
 impl Observer for EndPositions {
@@ -240,14 +247,58 @@ impl Observer for EndPositions {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        let density = |record: &Welch| {
-            let mut welch = record.clone();
-            welch.end_record(None);
-            let (frequency, density) = welch.finish().points().unzip();
+        let density = |spectrum: Spectrum| {
+            let (frequency, density) = spectrum.points().unzip();
             Value::Curve(frequency, density)
         };
-        self.0[lane].iter().map(density).collect()
+        self.spectra(lane).map(density).to_vec()
     }
+}
+
+pub(super) const MEAN_FREQUENCY: Declaration = Declaration {
+    measures: &[Measure {
+        name: "mean_frequency",
+        is_main: true,
+        column: "mean_frequency_hz",
+        label: "Mean frequency",
+        meaning: "mean of the frequencies of its spectra in y and z up to the cut-off of the turbulence, each \
+             weighted by its part of the square of the amplitude; not defined in runs shorter than some periods of \
+             the cut-off, or where it is recorded less than twice in such a period",
+        unit: HERTZ,
+        figure: &figure("mean_frequency", "Mean frequency", "mean frequency"),
+        series: "*y* and *z*",
+        ..NUMBER
+    }],
+    applies: fixed,
+    // One long segment shows the low frequencies best, and a mean needs no smooth spectrum.
+    observer: |flight| {
+        Box::new(MeanFrequency(EndPositions::new(flight, |samples| 1 << samples.max(2).ilog2())))
+    },
+};
+
+/// Spectra of the free ends.
+#[derive(Debug)]
+struct MeanFrequency(EndPositions);
+
+impl Observer for MeanFrequency {
+    fn see(&mut self, observation: &Observation<'_>) {
+        self.0.see(observation);
+    }
+
+    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
+        let cutoff =
+            flight.case(lane).filter(|case| case.air.rms() > 0.0).map(|case| case.air.cutoff_frequency);
+        vec![Value::Number(mean_frequency(self.0.spectra(lane), cutoff))]
+    }
+}
+
+/// The mean frequency of two spectra [Hz]; NaN where they end below the cut-off [Hz].
+fn mean_frequency(spectra: [Spectrum; 2], cutoff: Option<f64>) -> f64 {
+    let within = |point: &(f64, f64)| cutoff.is_none_or(|cutoff| point.0 <= cutoff);
+    let add = |(sum, all): (f64, f64), (frequency, density)| (sum + frequency * density, all + density);
+    let points = spectra.iter().flat_map(Spectrum::points);
+    let (sum, all) = points.filter(within).fold((0.0, 0.0), add);
+    if cutoff.is_some_and(|cutoff| cutoff > spectra[0].highest()) { f64::NAN } else { sum / all }
 }
 
 #[cfg(test)]
@@ -262,6 +313,31 @@ mod tests {
         let [most_of_the_time, largest] = observer.known(2);
         assert!((most_of_the_time - 0.99).abs() < 1e-12);
         assert_eq!(largest, 1.0);
+    }
+}
+
+#[cfg(test)]
+mod frequency_tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Sines of 8 and 32 Hz, the second of a third of the amplitude: a tenth of the square of the amplitude is its.
+    #[test]
+    fn analytic_mean_frequency_of_two_sines() {
+        let spectrum = |cutoff: Option<f64>| {
+            let sine = |i: usize, frequency: f64| (2.0 * PI * frequency * i as f64 / 256.0).sin();
+            let welch = || {
+                let mut welch = Welch::new(1.0 / 256.0, 512, Window::Hann, 0.5);
+                (0..1024).for_each(|i| welch.push(sine(i, 8.0) + sine(i, 32.0) / 3.0, None));
+                welch.end_record(None);
+                welch.finish()
+            };
+            mean_frequency([welch(), welch()], cutoff)
+        };
+        // The lines are symmetric about their frequencies.
+        assert!((spectrum(None) - (0.9 * 8.0 + 0.1 * 32.0)).abs() < 1e-9, "{}", spectrum(None));
+        assert!((spectrum(Some(20.0)) - 8.0).abs() < 1e-6, "{}", spectrum(Some(20.0)));
+        assert!(spectrum(Some(129.0)).is_nan());
     }
 }
 

@@ -40,6 +40,7 @@ pub(crate) const ENERGY: Group = Group { name: "energy", title: "energy" };
 /// Everything that is measured, in the order of the tables.
 pub const DECLARED: &[&Declaration] = &[
     &end_node::MOTION,
+    &end_node::MEAN_FREQUENCY,
     &end_node::DEFLECTIONS,
     &end_node::RESIDENCE,
     &along_fibre::DECLARATION,

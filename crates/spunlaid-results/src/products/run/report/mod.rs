@@ -42,8 +42,12 @@ pub fn run_report<'a>(
 ) -> Result<Report<'a>, Failure> {
     let headline = headline(case, results, checks);
     let finer = finer::words(checks, case, results);
-    let whole =
-        |one: &Number| doubt::with_error_of_checks(one.estimate.clone(), one.measure.name, checks, case);
+    let whole = |one: &Number| {
+        let name = one.measure.name;
+        let open = doubt::not_converged(name, checks);
+        let open = open.map(|off| format!("not converged: {}", doubt::compared_with_finest(&off)));
+        (doubt::with_error_of_checks(one.estimate.clone(), name, checks), open)
+    };
     let methods = methods("run", of_case(case), "case.toml of the results");
     let load = load_of_spinline(case, &results.way());
     let loads: Vec<_> = load.iter().map(|load| (None, load)).collect();
@@ -56,7 +60,7 @@ pub fn run_report<'a>(
     Ok(Report::new("run", headline)
         .lead(words_of_case(case))
         .with(motion(case, results)?)
-        .with(numbers(results, &whole, &doubt::statistics_in_errors(checks, case)).told())
+        .with(numbers(results, &whole, checks.all().next().is_some()).told())
         .with_all(spinline.map(|(results, figures)| section_of_fibre(case, results, figures)))
         .with_all(section_of_loads(&loads))
         .with(under_headings(figures))
@@ -88,20 +92,15 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
 
 /// The results, and those of each replicate.
 ///
-/// * `beyond` – the statistics whose errors contain what the checks found
-fn numbers(results: &Results, whole: &Whole<'_>, beyond: &[&str]) -> Section<'static> {
+/// * `is_checked` – whether the errors contain what a check found
+fn numbers(results: &Results, whole: &Whole<'_>, is_checked: bool) -> Section<'static> {
     let n = results.replicates() as u64;
     let (about, caption) = if n > 1 {
         let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. \
             About two times in three the true mean lies within one standard error.";
-        let contained = match beyond {
-            [] => String::new(),
-            all => {
-                let all: Vec<String> = all.iter().map(|label| label.to_lowercase()).collect();
-                format!(" Those of {} contain what the checks found too.", all.join(" and "))
-            }
-        };
-        (format!("Mean ± one standard error of the mean over {}.{contained}", count(n, "replicate")), caption)
+        let contained = if is_checked { ", with what the checks of time step and mesh found" } else { "" };
+        let replicates = count(n, "replicate");
+        (format!("Mean ± one standard error of the mean over {replicates}{contained}."), caption)
     } else {
         let about = "From a single replicate, so without a standard error: run more to learn how sure these \
             numbers are.";

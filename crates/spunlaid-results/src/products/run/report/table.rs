@@ -9,8 +9,8 @@ use spunlaid::simulation::{Number, Results};
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;
 
-/// The mean of a result with its whole error.
-pub(super) type Whole<'a> = dyn Fn(&Number) -> Estimate + 'a;
+/// The mean of a result with its whole error, and that it has not converged, if so.
+pub(super) type Whole<'a> = dyn Fn(&Number) -> (Estimate, Option<String>) + 'a;
 
 /// The results that stand under one heading.
 pub(super) fn groups(results: &Results) -> Vec<&[Number]> {
@@ -41,29 +41,23 @@ pub(super) fn result_table(results: &Results, whole: &Whole<'_>) -> Table {
 
 fn row(one: &Number, whole: &Whole<'_>) -> Row {
     let measure = one.measure;
-    let note = match measure.aggregate {
-        Aggregate::Median => "median over the replicates",
-        Aggregate::Largest => "the largest of all replicates",
-        Aggregate::Mean => "",
+    let (estimate, not_converged) = whole(one);
+    let factor = measure.unit.per_si;
+    // A median or a largest value has no error.
+    let (value, note) = match measure.aggregate {
+        Aggregate::Median => (number(one.value() * factor), "median over the replicates".to_owned()),
+        Aggregate::Largest => (number(one.value() * factor), "the largest of all replicates".to_owned()),
+        Aggregate::Mean => (estimate_text(&estimate, factor), String::new()),
     };
     let n = count(one);
-    let cells = [value(one, whole), measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
-    let note = if n > 1 { note } else { "" };
-    Row::new(unbroken(measure.label), cells).detail(note.to_owned())
+    let cells = [value, measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
+    let note = if n > 1 { note } else { String::new() };
+    Row::new(unbroken(measure.label), cells).detail(not_converged.unwrap_or(note))
 }
 
 /// Number of replicates that it is taken over.
 fn count(one: &Number) -> usize {
     one.estimate.values.iter().filter(|value| value.is_finite()).count()
-}
-
-/// A median or a largest value has no error.
-fn value(one: &Number, whole: &Whole<'_>) -> String {
-    let factor = one.measure.unit.per_si;
-    match one.measure.aggregate {
-        Aggregate::Mean => estimate_text(&whole(one), factor),
-        Aggregate::Median | Aggregate::Largest => number(one.value() * factor),
-    }
 }
 
 /// One row for each replicate that was not lost, and how many more there are.

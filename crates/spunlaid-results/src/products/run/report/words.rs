@@ -11,8 +11,7 @@ use spunlaid::simulation::{FinerChecks, Results};
 
 /// The result in a sentence, and what its checks say against it.
 pub(super) fn headline(case: &Case, results: &Results, checks: &FinerChecks) -> String {
-    let estimate =
-        |measure: &str| doubt::with_error_of_checks(results.estimate(measure), measure, checks, case);
+    let estimate = |measure: &str| doubt::with_error_of_checks(results.estimate(measure), measure, checks);
     match found(case, estimate) {
         (sentence, true) => sentence + &doubt::sentences(checks, case),
         (sentence, false) => sentence,
@@ -24,29 +23,28 @@ fn found(case: &Case, estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
     if case.line.is_some() {
         return found_of_laid(estimate);
     }
-    let motion = |axis| {
-        let motion = |measure: &str| estimate(&format!("{measure}_{axis}"));
-        (axis, motion("amplitude"), motion("frequency"))
-    };
-    let both = ["y", "z"].map(motion);
-    if both.iter().any(|(_, amplitude, _)| !amplitude.mean.is_finite()) {
+    let both = ["y", "z"].map(|axis| (axis, estimate(&format!("amplitude_{axis}"))));
+    if both.iter().any(|(_, amplitude)| !amplitude.mean.is_finite()) {
         return ("The motion of the free end could not be measured.".to_owned(), false);
     }
     // Below this it is rounding.
     let least = 1e-12 * case.fibre.length;
-    let moving: Vec<_> = both.iter().filter(|(_, amplitude, _)| amplitude.mean > least).collect();
-    let joined = |parts: Vec<String>| parts.join(" and ");
-    let amplitudes = joined(
-        moving.iter().map(|(axis, a, _)| format!("{}{THIN}mm in {axis}", estimate_text(a, 1e3))).collect(),
-    );
-    let frequencies =
-        joined(moving.iter().filter(|m| m.2.mean > 0.0).map(|(.., f)| estimate_text(f, 1.0)).collect());
-    let sentence = match (moving.is_empty(), frequencies.is_empty()) {
+    let moving: Vec<_> = both.iter().filter(|(_, amplitude)| amplitude.mean > least).collect();
+    let amplitudes: Vec<String> =
+        moving.iter().map(|(axis, a)| format!("{}{THIN}mm in {axis}", estimate_text(a, 1e3))).collect();
+    let amplitudes = amplitudes.join(" and ");
+    let frequency = estimate("mean_frequency");
+    let swings = ["frequency_y", "frequency_z"].iter().any(|name| estimate(name).mean > 0.0);
+    let sentence = match (moving.is_empty(), swings) {
         (true, _) => "The free end does not move sideways.".to_owned(),
-        (false, true) => {
+        (false, true) if frequency.mean.is_finite() => {
+            let frequency = estimate_text(&frequency, 1.0);
+            format!("The free end swings {amplitudes}, at a mean frequency of {frequency}{THIN}Hz.")
+        }
+        (false, true) => format!("The free end swings {amplitudes}."),
+        (false, false) => {
             format!("The free end moves by {amplitudes} (standard deviation) without swinging through zero.")
         }
-        (false, false) => format!("The free end swings {amplitudes}, at {frequencies}{THIN}Hz."),
     };
     (sentence, !moving.is_empty())
 }

@@ -1,7 +1,7 @@
 //! What differs between the flights of a check.
 
 use super::flights::{Flight, Path};
-use super::{Change, FinerCheck, FinerPlan, OF_THE_END, OF_THE_LAID, Unchecked};
+use super::{Change, FinerCheck, FinerPlan, OF_MEASURES, OF_THE_END, OF_THE_LAID, Statistic, Unchecked};
 use crate::ground::Estimate;
 
 /// Amplitude below which the fibre does not move but for rounding, as a share of its length.
@@ -28,6 +28,7 @@ impl FinerPlan {
             share_of_run: self.share_of_run,
             path: None,
             changes: Vec::new(),
+            of_measures: Vec::new(),
         };
         let found = match flights {
             [fine] => self.compare_paths(check, paths, &fine.paths),
@@ -79,24 +80,27 @@ impl FinerPlan {
     /// does not move.
     fn compare_statistics(&self, mut check: FinerCheck, flights: [&Flight; 3]) -> Option<FinerCheck> {
         let statistics = if check.is_fed { OF_THE_LAID } else { OF_THE_END };
-        let [coarse, fine, finest] = flights.map(|flight| &flight.trajectories);
-        for statistic in statistics {
-            let each = coarse.iter().zip(fine).zip(finest);
-            let each = each.map(|((a, b), c)| [a, b, c].map(|flown| statistic.measure(flown)));
-            let each: Vec<[f64; 3]> = each.filter(|of| of.iter().all(|value| value.is_finite())).collect();
-            // Of a fibre that does not move, rounding has no meaning.
-            let moves = statistic.name == "frequency" || each.iter().all(|of| of[1] > self.least());
-            let ratio = |a: usize, b: usize| ratio(&each.iter().map(|of| [of[a], of[b]]).collect::<Vec<_>>());
-            let Some(estimate) = ratio(0, 1).filter(|_| moves) else { continue };
-            let mut change = Change::new(statistic, estimate);
-            if let Some((finest, next)) = self.finest.as_ref().zip(ratio(1, 2)) {
-                change.is_second_order = self.resolves_eddies && shows_second_order(&change.estimate, &next);
-                change.from_quarter = ratio(0, 2).map(|estimate| (finest.fibre.rest_length(), estimate));
-            }
-            check.changes.push(change);
-        }
+        let change = |statistic: &'static Statistic| self.change(statistic, flights);
+        check.changes = statistics.iter().filter_map(change).collect();
+        check.of_measures = OF_MEASURES.iter().filter_map(change).collect();
         let moves = check.changes.first().is_some_and(|change| change.statistic == &statistics[0]);
         moves.then_some(check)
+    }
+
+    /// How a statistic changes; none where it is not defined, or is nothing but rounding.
+    fn change(&self, statistic: &'static Statistic, flights: [&Flight; 3]) -> Option<Change> {
+        let [coarse, fine, finest] = flights.map(|flight| &flight.trajectories);
+        let each = coarse.iter().zip(fine).zip(finest);
+        let each = each.map(|((a, b), c)| [a, b, c].map(|flown| statistic.measure(flown)));
+        let each: Vec<[f64; 3]> = each.filter(|of| of.iter().all(|value| value.is_finite())).collect();
+        let is_rounding = each.iter().all(|of| of[1].abs() <= self.least());
+        let ratio = |a: usize, b: usize| ratio(&each.iter().map(|of| [of[a], of[b]]).collect::<Vec<_>>());
+        let mut change = Change::new(statistic, ratio(0, 1).filter(|_| !is_rounding)?);
+        if let Some((finest, next)) = self.finest.as_ref().zip(ratio(1, 2)) {
+            change.is_second_order = self.resolves_eddies && shows_second_order(&change.estimate, &next);
+            change.from_quarter = ratio(0, 2).map(|estimate| (finest.fibre.rest_length(), estimate));
+        }
+        Some(change)
     }
 }
 

@@ -17,10 +17,13 @@ mod plan;
 use super::Trajectory;
 use crate::fibre::Run;
 use crate::fibre::chain::Scheme;
-use crate::ground::Estimate;
+use crate::ground::{Aggregate, Estimate};
+use crate::simulation::observe::{ENERGY, MEASURES};
 pub(super) use flights::Paths;
 pub use flights::RunPaths;
 pub use plan::{FinerPlan, FinerPlans};
+use std::slice;
+use std::sync::LazyLock;
 
 named! {
     /// What is finer.
@@ -47,6 +50,7 @@ pub struct Statistic {
 /// Statistics of the free end.
 const OF_THE_END: &[Statistic] = &[
     Statistic { name: "amplitude", label: "Amplitude", measures: &["amplitude_y", "amplitude_z"] },
+    Statistic { name: "mean_frequency", label: "Mean frequency", measures: &["mean_frequency"] },
     Statistic { name: "frequency", label: "Frequency", measures: &["frequency_y", "frequency_z"] },
 ];
 
@@ -60,6 +64,20 @@ const OF_THE_LAID: &[Statistic] = &[
     },
     Statistic { name: "chord_over_arc", label: "Chord over arc", measures: &["chord_over_arc"] },
 ];
+
+/// Every measure alone that is a mean over the replicates: what is finer changes each of them, and so its error. Energy
+/// checks and a number of nodes are of the discretisation itself.
+static OF_MEASURES: LazyLock<Vec<Statistic>> = LazyLock::new(|| {
+    let means = MEASURES.iter().filter(|measure| measure.aggregate == Aggregate::Mean);
+    means
+        .filter(|measure| measure.group != ENERGY && measure.name != "nodes_in_air")
+        .map(|measure| Statistic {
+            name: measure.name,
+            label: measure.label,
+            measures: slice::from_ref(&measure.name),
+        })
+        .collect()
+});
 
 impl Statistic {
     /// Every statistic that is compared in some check.
@@ -125,6 +143,8 @@ pub struct FinerCheck {
     pub path: Option<Estimate>,
     /// The changes of the statistics.
     pub changes: Vec<Change>,
+    /// The changes of single measures; none where only paths are compared.
+    pub of_measures: Vec<Change>,
 }
 
 /// What there is for each refinement, or the reason why there is nothing.
@@ -163,6 +183,17 @@ impl FinerCheck {
     /// that a part of its lay-down may differ by another share than all of it.
     pub fn is_of_a_part(&self, run: &Run) -> bool {
         self.is_fed && self.duration < 0.99 * run.duration()
+    }
+
+    /// The change of the statistic that a measure belongs to.
+    pub fn change_of_statistic(&self, measure: &str) -> Option<&Change> {
+        self.changes.iter().find(|change| change.statistic.measures.contains(&measure))
+    }
+
+    /// The change of a measure, or that of its statistic where measures are not compared one by one.
+    pub fn change_of(&self, measure: &str) -> Option<&Change> {
+        let own = self.of_measures.iter().find(|change| change.statistic.name == measure);
+        own.or_else(|| self.change_of_statistic(measure))
     }
 
     /// What differs, by its name, `path_difference` or `amplitude_difference`, and the factor from it to the error, as

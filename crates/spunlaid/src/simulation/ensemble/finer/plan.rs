@@ -227,11 +227,16 @@ fn refined(case: &Case, halvings: u32, budget: Budget) -> Result<FinerPlan, Unch
     let interval = case.run.output_interval();
     let step =
         if case.line.is_some() { longest } else { interval / (interval / longest - 1e-9).ceil().max(1.0) };
-    coarse.run.scheme = Scheme::ImplicitTension;
     fine.set_time_step(step);
-    coarse.set_time_step(fine.run.time_step);
-    let mut meshes: Vec<Case> = (0..=halvings).map(|_| coarse.clone()).collect();
-    meshes.iter_mut().enumerate().for_each(|(i, mesh)| mesh.fibre.elements <<= i);
+    coarse.run.scheme = Scheme::ImplicitTension;
+    // An element of each mesh is fed in its own number of these steps.
+    let mesh = |halved: u32| {
+        let mut mesh = coarse.clone();
+        mesh.fibre.elements <<= halved;
+        mesh.set_time_step(fine.run.time_step);
+        mesh
+    };
+    let meshes = (0..=halvings).map(mesh).collect();
     statistics(Refinement::Elements, case, meshes, budget)
 }
 
