@@ -2,7 +2,7 @@
 //! from the axis of the flow, and the circle in which it stays.
 
 use super::{Declaration, END_NODE, FibreMeasure, Observation, Observer, fixed};
-use crate::fibre::{Case, Flight};
+use crate::fibre::{Case, Flight, Run};
 use crate::ground::measure::figure;
 use crate::ground::statistics::quantile;
 use crate::ground::{
@@ -189,7 +189,7 @@ pub(super) const SPECTRA: Declaration = Declaration {
         SPECTRUM.observed("spectrum_z", "spectrum_z_m2_hz", "Spectrum of z").series("*z*"),
     ],
     applies: fixed,
-    observer: |flight| Box::new(EndPositions::new(flight, Welch::segment_length)),
+    observer: |flight| Box::new(EndPositions::new(flight)),
 };
 
 const SPECTRUM: FibreMeasure = Measure {
@@ -214,26 +214,19 @@ const SEGMENT: usize = 1 << 12;
 struct EndPositions(Vec<[Welch; 2]>);
 
 impl EndPositions {
-    /// * `segment` – instants in a segment of a record of so many, a power of two
-    fn new(flight: &Flight, segment: fn(usize) -> usize) -> Self {
+    fn new(flight: &Flight) -> Self {
         let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
         // The fibres of a flight have one clock, and its window and factors take long to compute.
-        let welch = flight.case(0).map(|Case { run, .. }| {
-            let samples = run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1);
-            let segment = segment(samples as usize + 1).min(SEGMENT);
-            Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
-        });
+        let welch = flight.case(0).map(|case| welch(&case.run));
         Self(welch.iter().cycle().zip(cases).map(|(welch, _)| [welch.clone(), welch.clone()]).collect())
     }
+}
 
-    /// Spectra of y and z of a fibre.
-    fn spectra(&self, lane: usize) -> [Spectrum; 2] {
-        [0, 1].map(|axis| {
-            let mut welch = self.0[lane][axis].clone();
-            welch.end_record(None);
-            welch.finish()
-        })
-    }
+/// Welch's method for a run, before any record.
+fn welch(run: &Run) -> Welch {
+    let samples = (run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1)) as usize + 1;
+    let segment = Welch::segment_length(samples).min(SEGMENT);
+    Welch::new(run.output_interval(), segment, Window::Hann, 0.5)
 }
 
 impl Observer for EndPositions {
@@ -247,11 +240,11 @@ impl Observer for EndPositions {
     }
 
     fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
-        let density = |spectrum: Spectrum| {
-            let (frequency, density) = spectrum.points().unzip();
+        let density = |record: &Welch| {
+            let (frequency, density) = finished(record).points().unzip();
             Value::Curve(frequency, density)
         };
-        self.spectra(lane).map(density).to_vec()
+        self.0[lane].iter().map(density).collect()
     }
 }
 
@@ -270,26 +263,68 @@ pub(super) const MEAN_FREQUENCY: Declaration = Declaration {
         ..NUMBER
     }],
     applies: fixed,
-    // One long segment shows the low frequencies best, and a mean needs no smooth spectrum.
     observer: |flight| {
-        Box::new(MeanFrequency(EndPositions::new(flight, |samples| 1 << samples.max(2).ilog2())))
+        let cases = (0..WIDTH).filter_map(|lane| flight.case(lane));
+        Box::new(MeanFrequency(cases.map(CoarseSpectra::new).collect()))
     },
 };
 
-/// Spectra of the free ends.
+/// Instants that are looked at in a period of the cut-off, and most instants in a segment: 64 periods. So the spectra
+/// are as fine beside the turbulence in every run.
+const IN_PERIOD: f64 = 4.0;
+const COARSE_SEGMENT: usize = 256;
+
 #[derive(Debug)]
-struct MeanFrequency(EndPositions);
+struct MeanFrequency(Vec<CoarseSpectra>);
+
+/// Spectra of y and z of a free end, of every so many recorded instants after the spin-up.
+#[derive(Debug)]
+struct CoarseSpectra {
+    /// The highest frequency that counts; none without turbulence [Hz].
+    cutoff: Option<f64>,
+    every: u64,
+    seen: u64,
+    axes: [Welch; 2],
+}
+
+impl CoarseSpectra {
+    fn new(case: &Case) -> Self {
+        let run = &case.run;
+        let interval = run.output_interval();
+        let cutoff = Some(case.air.cutoff_frequency).filter(|_| case.air.rms() > 0.0);
+        let every =
+            cutoff.map_or(1.0, |cutoff| (1.0 / (IN_PERIOD * cutoff * interval) + 1e-9).floor().max(1.0));
+        let instants = run.steps.saturating_sub(run.spin_up_steps) / run.output_steps.max(1);
+        let samples = (instants / every as u64 + 1).clamp(2, COARSE_SEGMENT as u64);
+        let welch = Welch::new(every * interval, 1 << samples.ilog2(), Window::Hann, 0.5);
+        Self { cutoff, every: every as u64, seen: 0, axes: [welch.clone(), welch] }
+    }
+}
 
 impl Observer for MeanFrequency {
     fn see(&mut self, observation: &Observation<'_>) {
-        self.0.see(observation);
+        let Some(end) = observation.snapshot.position.last().filter(|_| observation.settled) else { return };
+        for (lane, spectra) in self.0.iter_mut().enumerate() {
+            if spectra.seen.is_multiple_of(spectra.every) {
+                let [y, z] = &mut spectra.axes;
+                y.push(end.y.0[lane], None);
+                z.push(end.z.0[lane], None);
+            }
+            spectra.seen += 1;
+        }
     }
 
-    fn finish(&self, lane: usize, flight: &Flight) -> Vec<Value> {
-        let cutoff =
-            flight.case(lane).filter(|case| case.air.rms() > 0.0).map(|case| case.air.cutoff_frequency);
-        vec![Value::Number(mean_frequency(self.0.spectra(lane), cutoff))]
+    fn finish(&self, lane: usize, _: &Flight) -> Vec<Value> {
+        let CoarseSpectra { cutoff, axes, .. } = &self.0[lane];
+        vec![Value::Number(mean_frequency(axes.each_ref().map(finished), *cutoff))]
     }
+}
+
+/// The spectrum of a record that has come so far.
+fn finished(welch: &Welch) -> Spectrum {
+    let mut welch = welch.clone();
+    welch.end_record(None);
+    welch.finish()
 }
 
 /// The mean frequency of two spectra [Hz]; NaN where they end below the cut-off [Hz].
