@@ -56,10 +56,17 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
     let why = failed[0]["why"].as_str().unwrap();
     assert!(why.contains("would tear the fibre"), "{why}");
     let [from, to] = ["cv_from", "cv_to"].map(|end| (100.0 * cv_over_10_mm(ranges, end)).round());
+    let patch = &summary["web"]["patches"].as_array().unwrap()[1];
+    assert_eq!(
+        [&patch["cv_assumed"][0], &patch["cv_assumed"][1]],
+        ["cv_from", "cv_to"].map(|end| &ranges[1][end])
+    );
     let report = fs::read_to_string(desk.path("w/report.html")).unwrap();
     for text in [said, report] {
         let text = text.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ");
         for part in [
+            // The headline says both.
+            &format!("each other; {from} to {to} % with the assumed values halved or doubled"),
             "Guesses, of which the error knows nothing",
             &format!("the CV over patches of 10 mm lies between {from} and {to} %"),
             "Filaments per metre: 1000",

@@ -3,6 +3,7 @@
 use spunlaid::ground::{Control, Isa};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
+use spunlaid::web::map::{Findings, PatchFindings};
 use spunlaid::web::{FewDoubt, LayerFew};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -40,13 +41,15 @@ cell = \"1 mm\"
 
 /// What the filaments say that are flown for all.
 fn told(flown: &str) -> LayerFew {
-    let text = format!("{WEB}flown = {flown}\n");
-    let spec: WebSpec = read_web((&text, "web.toml"), &[]).unwrap_or_else(|_| panic!("it is read")).spec;
+    found(&format!("{WEB}flown = {flown}\n")).laid.flown[0].few.clone().unwrap()
+}
+
+fn found(text: &str) -> Findings {
+    let spec: WebSpec = read_web((text, "web.toml"), &[]).unwrap_or_else(|_| panic!("it is read")).spec;
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
-    let findings = web.find(by).unwrap();
-    findings.laid.flown[0].few.clone().unwrap()
+    web.find(by).unwrap()
 }
 
 /// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then
@@ -58,4 +61,49 @@ fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell(
     assert!(matches!(first.doubt(), Some(FewDoubt::Neighbours(_))), "{}", first.correlation);
     assert_eq!(format!("{usual:?}"), format!("{fine:?}"));
     assert!((usual.pitch - 0.5e-3).abs() < 1e-12 && (first.pitch - 2e-3).abs() < 1e-12);
+}
+
+/// Its row in other words, on a longer way and a longer sheet.
+fn line(line: &str, web: &str) -> String {
+    let (before, after) = WEB.split_once("[line]").unwrap();
+    let web = format!("{line}\n[web]\nwidth = \"160 mm\"\ncell = \"1 mm\"\nflown = 500\n{web}");
+    assert!(after.contains("[web]"));
+    before.replace("30 mm", "60 mm") + &web
+}
+
+const DEFECT: &str = "[line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\ndefects = [{ from = \"60 mm\", to = \"72 mm\" }]";
+
+/// The few were told to be as even as filaments at any random places, without defects, and in layers that have nothing
+/// in common: up to two fifths off, and a note said that the map was wrong.
+#[test]
+fn identical_the_cv_of_few_is_that_of_their_map_with_its_places_defects_and_layers() {
+    let layers = "[[layer]]\n[layer.line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\n[[layer]]\n\
+        [layer.line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]";
+    for line in ["[line]\nfilaments_per_metre = 2000", DEFECT, layers]
+        .map(|words| line(words, "length = \"60 mm\"\npatches = [\"5 mm\", \"10 mm\", \"20 mm\"]\n"))
+    {
+        let patches = found(&line).patches;
+        assert_eq!(patches.len(), 3);
+        for patch in patches {
+            let few = patch.few.unwrap();
+            println!("{:.4} {:.4} {:.4}", few.patch, few.cv, patch.of_map);
+            assert!((few.cv / patch.of_map - 1.0).abs() < 0.03, "{few:?} {}", patch.of_map);
+        }
+    }
+}
+
+/// On a sheet of pieces a defect changes the told CV² as it changes that of the map, which has the same pieces.
+#[test]
+fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
+    let [with, without] = [DEFECT, DEFECT.split_once("\ndefects").unwrap().0].map(|words| {
+        let sheet = "length = \"1.7 m\"\npatches = [\"10 mm\", \"20 mm\"]\n";
+        found(&line(words, sheet).replace("3 m/s", "10 m/s").replace("= 500", "= 100")).patches
+    });
+    for (with, without) in with.iter().zip(&without) {
+        let [told, map] =
+            [|patch: &PatchFindings| patch.few.unwrap().cv, |patch: &PatchFindings| patch.of_map]
+                .map(|cv: fn(&PatchFindings) -> f64| cv(with).powi(2) - cv(without).powi(2));
+        // Quanta are rounded.
+        assert!((told / map - 1.0).abs() < 1e-3 && map > 0.05 * without.of_map.powi(2), "{told} {map}");
+    }
 }

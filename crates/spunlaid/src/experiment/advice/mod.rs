@@ -14,7 +14,7 @@ pub use kept::KEPT_OUTCOMES;
 pub use setting::{ChangedWeb, judged_by};
 
 use self::kept::{numbers_of, outcomes_of};
-use self::web_of_few::WebOfFew;
+use self::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_each;
@@ -183,9 +183,12 @@ fn few_of_changes(
         // The web as it is has been flown.
         let changed = &change.experiment.spec;
         let alone = tell(&[changed], &|told| {
-            let effects = |few: FewOfWeb| {
-                Ok(effects_between(&of_maps(&findings.patches), &WebOfFew::new(changed, few?).cvs()))
-            };
+            // Both without what places, defects and common clouds of layers do to the sheet of the web as it is.
+            let mut base = WebOfFew::new(spec, findings.laid.few().cloned().collect()).cvs(0.0);
+            let of_web = of_maps(&findings.patches);
+            base.retain(|cv| of_web.iter().any(|of_web| of_web.patch == cv.patch));
+            let effects =
+                |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
         })?;
         let all_are_flown = || Err("its filaments are so few that all of them are flown".to_owned());

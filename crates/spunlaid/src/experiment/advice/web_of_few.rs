@@ -7,7 +7,7 @@ use crate::web::{ExpectedCv, FewDoubt, LayerFew};
 /// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
 /// shares of the CV.
 const OF_MESH: f64 = 0.015;
-const OF_OTHER_MESH: f64 = 0.03;
+pub(super) const OF_OTHER_MESH: f64 = 0.03;
 
 /// What a few filaments say about the layers of a web.
 pub(super) struct WebOfFew {
@@ -74,8 +74,10 @@ impl WebOfFew {
         first.cvs.iter().filter_map(|cv| change(cv.patch)).collect()
     }
 
-    /// The CV over patches of each size, in an air that no other web has.
-    pub(super) fn cvs(&self) -> Vec<ExpectedCv> {
+    /// The CV over patches of each size, in an air that no other web has, of filaments at usual places without defects.
+    ///
+    /// * `of_mesh` – what a coarser mesh and air do to it, as a share of it
+    pub(super) fn cvs(&self, of_mesh: f64) -> Vec<ExpectedCv> {
         let Some((_, first)) = self.layers.first() else { return Vec::new() };
         let of_patch = |patch: f64| {
             let cv = self.over(patch)?.square.sqrt();
@@ -85,7 +87,7 @@ impl WebOfFew {
                 Some((share * share * of_layer.cv * error / cv).powi(2))
             };
             let variance: Option<f64> = self.layers.iter().map(part).sum();
-            let error = variance.map_or(f64::NAN, f64::sqrt).hypot(OF_OTHER_MESH * cv);
+            let error = variance.map_or(f64::NAN, f64::sqrt).hypot(of_mesh * cv);
             Some(ExpectedCv::alone(patch, cv, error))
         };
         first.cvs.iter().filter_map(|cv| of_patch(cv.patch)).collect()

@@ -10,7 +10,7 @@ use super::layer_beam::{LayerBeam, beam_on};
 use super::sampled::FlownSheet;
 use crate::ground::{Control, Error, Isa};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
-use crate::web::map::{Doubt, Findings, blocks_on, find_laid, lay, pieces};
+use crate::web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
 use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
 use std::mem::take;
 use std::path::Path;
@@ -99,11 +99,13 @@ impl<'a> Flyer<'a> {
             let gathered = layer.gather(found, self.threads)?;
             // In machine direction the sheet is not closed.
             spec.check_spreads([0.0, gathered.numbers[1].mean])?;
+            let of_fibres = Fibres::Flown(Arc::new(gathered));
             if let (Some(curves), Some(few)) = (curves, &mut of_layer.few) {
-                let filled = layer.fill_in((spec, number), (&curves, back), &brush, by)?;
-                (of_layer.strands, few.missing) = filled;
+                let inner = inner_columns(&spec.alone(number).web([of_fibres.clone()]));
+                of_layer.strands =
+                    layer.fill_in((spec, number), (&curves, back), (few, inner), &brush, by)?;
             }
-            fibres.push(Fibres::Flown(Arc::new(gathered)));
+            fibres.push(of_fibres);
             flown.push(of_layer);
         }
         Ok((fibres, LaidWeb { flown, ..canvas.finish()? }))

@@ -7,19 +7,25 @@ use crate::ground::error::Place;
 use crate::ground::place::Inlet;
 use crate::ground::threads::each;
 use crate::ground::{Dimension, Error, Estimate, Fault, Problem};
-use crate::simulation::{LaydownSource, WebSpec};
+use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::curtain::drawing::draw;
+use crate::web::curtain::lay_with;
 use crate::web::map::inlets;
+use crate::web::map::uniformity::unevenness;
 use crate::web::surrogate::identify;
 use crate::web::{
-    Belt, Brush, Curves, Edges, FlownCurves, FlownFibres, Library, OneAir, Sheet, Strand, Trace,
-    TraceSettings,
+    Belt, Brush, Curves, Edges, FewFilamentsCv, FlownCurves, FlownFibres, LayerFew, Library, OneAir, Sheet,
+    Strand, Titres, Trace, TraceSettings, Window,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+/// Area of a sheet of pieces on which places and defects of its filaments are looked at [m²]: they are the same along
+/// all of it.
+const OF_PLACES: f64 = 2.0;
 /// Smallest lateral cut-off that is worth to be written.
 const FEWEST_WAVES: f64 = 5.0;
 
@@ -33,7 +39,7 @@ const LONGEST_ELEMENT: f64 = 0.5;
 /// Width of filaments beside each other of which those beside them hardly know, in parts of the distance
 /// after which the air repeats itself at least, which is ten length scales.
 const APART: f64 = 0.5;
-/// Length of fed fibre after which gusts are forgotten, in ways from inlet to belt.
+/// Length of fed fibre after which gusts are forgotten, in lengths of the fibre that hangs between inlet and belt.
 const MEMORY: f64 = 2.0;
 
 /// The filaments of a layer before they fly.
@@ -90,6 +96,9 @@ impl LayerBeam<'_> {
             .case
             .line
             .ok_or_else(|| Error::folder(self.path, Fault::plain("its fibre is not fed on to a belt")))?;
+        // Where it swings and folds, more of it hangs there than the way is long.
+        let slack = flown.way.iter().map(|place| place.fibre).sum::<f64>() / flown.way.len().max(1) as f64;
+        let hanging = line.distance * slack.max(1.0);
         let kept = flown.kept.into_iter().filter(|(filament, _)| self.beam().keeps(*filament));
         let (filaments, laid): (Vec<usize>, Vec<Vec<LaidPoint>>) = kept.unzip();
         let (spacing, belt_ratio) = (self.case.fibre.rest_length(), line.belt_ratio());
@@ -114,7 +123,7 @@ impl LayerBeam<'_> {
             points.iter().skip(skip as usize).map(|point| [point.md, point.cd]).collect()
         };
         let places = laid.into_iter().map(after_start).collect();
-        let curves = Curves::new((spacing, belt_ratio), places, self.one_air(filaments))?;
+        let curves = Curves::new((spacing, belt_ratio), places, self.one_air(filaments, hanging))?;
         let found = FlownFibres { curves, numbers, residual: None, way: flown.way };
         let correlations: Vec<[&[f64]; 2]> =
             traced.iter().map(|(of, _)| [&*of.correlation_md, &*of.correlation_cd]).collect();
@@ -124,23 +133,26 @@ impl LayerBeam<'_> {
     }
 
     /// Draws all filaments of which these are a few: those between the flown ones on the sheet that these have
-    /// laid, and pieces of it on any other sheet. Returns their parts in the window, and the part of the variance
-    /// that the few do not tell.
+    /// laid, and pieces of it on any other sheet. Returns their parts in the window.
     ///
     /// * `back` – where the sheet that was flown begins on the belt [m]
+    /// * `few` – what these say, which takes the part of the variance that they do not tell, and on a sheet of
+    ///   pieces what places and defects of its filaments do to its CV
+    /// * `inner` – columns of the sheet that are not edges
     pub(super) fn fill_in(
         &self,
         (spec, number): (&WebSpec, usize),
         (curves, back): (&FlownCurves, f64),
+        (few, inner): (&mut LayerFew, Range<usize>),
         brush: &Brush<'_>,
         by: (usize, &AtomicBool),
-    ) -> Result<(Vec<Strand>, [f64; 2]), Error> {
+    ) -> Result<Vec<Strand>, Error> {
         let (sheet, window, flown) = (&spec.sheet, spec.window(), &self.sheet);
         let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);
         if [sheet.width, sheet.length] == [flown.width, flown.length] {
             let all = curves.fill(places, by.0);
-            let kept = draw(&all, Belt { sheet, window, back }, brush, by)?;
-            return Ok((kept, all.missing()));
+            few.missing = all.missing();
+            return draw(&all, Belt { sheet, window, back }, brush, by);
         }
         let library = Library::new(curves, by.0)?;
         let around = match sheet.edges {
@@ -149,20 +161,65 @@ impl LayerBeam<'_> {
             // Filaments at the two edges know nothing of each other.
             Edges::Cut => sheet.width + flown.width,
         };
-        let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
+        few.missing = library.missing();
+        let tiles = library.tiles(places.clone(), around, sheet.length, [spec.seed, number as u64])?;
         let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
-        Ok((kept, library.missing()))
+        let LayerSpec { filaments, defects, .. } = &spec.layers[number];
+        if filaments.are_at_random() || !defects.is_empty() {
+            self.see_places((spec, number), (&library, around, places), (few, inner), by)?;
+        }
+        Ok(kept)
+    }
+
+    /// Finds what the places of the filaments and their defects do to the CV of a sheet of pieces: that of the same pieces with an even row, or without defects, is known too.
+    fn see_places(
+        &self,
+        (spec, number): (&WebSpec, usize),
+        (library, around, places): (&Library, f64, Vec<Inlet>),
+        (few, inner): (&mut LayerFew, Range<usize>),
+        by: (usize, &AtomicBool),
+    ) -> Result<(), Error> {
+        let LayerSpec { filaments, defects, .. } = &spec.layers[number];
+        let mut sheet = spec.sheet.clone();
+        if defects.iter().all(|defect| defect.after <= 0.0) {
+            let cells = (OF_PLACES / sheet.width / sheet.cell).ceil();
+            sheet.length = sheet.length.min(cells * sheet.cell);
+        }
+        let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+        let squares = |places: Vec<Inlet>, titres: Titres| {
+            let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
+            let belt = Belt::within(&tiles, &sheet, window)?;
+            let (laid, _) = lay_with(&tiles, belt, (self.beam().element_mass(), titres), by)?;
+            let map = laid.map.between(inner.clone());
+            let square = |few: &FewFilamentsCv| {
+                unevenness(&map, (few.patch / sheet.cell).round() as usize).map(|found| found.cv * found.cv)
+            };
+            Ok::<Vec<Option<f64>>, Error>(few.cvs.iter().map(square).collect())
+        };
+        let pitch = sheet.width / places.len() as f64;
+        let even = (0..places.len()).map(|i| Inlet { z: (i as f64 + 0.5) * pitch, ..places[i] });
+        let without: Vec<Inlet> = if filaments.are_at_random() { even.collect() } else { places.clone() };
+        let without = squares(without, Titres::default())?;
+        let with = squares(places, spec.titres(number))?;
+        // What places do on average gives way to what these do.
+        let expected = |cv: &FewFilamentsCv| if filaments.are_at_random() { cv.own } else { 0.0 };
+        let more = |((cv, with), without): ((&FewFilamentsCv, Option<f64>), Option<f64>)| {
+            with.zip(without).map_or(0.0, |(with, without)| with - without - expected(cv))
+        };
+        few.by_places = few.cvs.iter().zip(with).zip(without).map(more).collect();
+        Ok(())
     }
 
     /// How far some of its filaments hang together.
-    fn one_air(&self, filaments: Vec<usize>) -> OneAir {
+    ///
+    /// * `hanging` – length of the fibre between inlet and belt [m]
+    fn one_air(&self, filaments: Vec<usize>, hanging: f64) -> OneAir {
         let (case, sheet) = (&self.case, &self.sheet);
         let groups = (sheet.width / (APART * case.extent_of_air().z)).floor().max(1.0);
         let group =
             |filament: usize| (self.places[filament].z / sheet.width * groups).clamp(0.0, groups - 1.0);
-        let way = case.line.map_or(0.0, |line| line.distance);
         let groups = filaments.into_iter().map(|filament| group(filament) as usize);
-        OneAir { groups: groups.collect(), memory: MEMORY * way }
+        OneAir { groups: groups.collect(), memory: MEMORY * hanging }
     }
 }
 

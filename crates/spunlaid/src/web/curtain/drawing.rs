@@ -219,10 +219,20 @@ pub fn lay(
     element: f64,
     by: (usize, &AtomicBool),
 ) -> Result<(LaidWeb, Vec<Strand>), Error> {
+    lay_with(curtain, belt, (element, Titres::default()), by)
+}
+
+/// [`lay`] of filaments of which some have defects.
+pub(crate) fn lay_with(
+    curtain: &dyn Curtain,
+    belt: Belt<'_>,
+    (element, titres): (f64, Titres),
+    by: (usize, &AtomicBool),
+) -> Result<(LaidWeb, Vec<Strand>), Error> {
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let strands = draw(curtain, belt, &Brush::new(&canvas, element, Titres::default()), by)?;
+    let strands = draw(curtain, belt, &Brush::new(&canvas, element, titres), by)?;
     Ok((canvas.finish()?, strands))
 }
 
@@ -307,6 +317,7 @@ mod tests {
         let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
         let belt = Belt { sheet: &sheet, window, back: 0.0 };
-        assert!(matches!(lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true))), Err(Error::Interrupted)));
+        let stopped = lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true)));
+        assert!(matches!(stopped, Err(Error::Interrupted)));
     }
 }

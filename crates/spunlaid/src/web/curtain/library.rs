@@ -5,10 +5,13 @@ use super::flown_curves::farthest;
 use super::{Curtain, FlownCurves};
 use crate::ground::Fault;
 use crate::ground::place::Inlet;
+use std::f64::consts::FRAC_PI_2;
 
 /// Most places along the machine direction that are rows; more are a slot.
 const ROWS: usize = 8;
-/// Levels on which a slot is filled.
+/// Fewest levels on which a slot is filled. They are at most a mean distance of flown filaments apart, which is the
+/// shortest scale of a filling: between levels farther apart a cubic would lose what distinguishes filaments of
+/// different depth, and lay them more alike.
 const LEVELS: usize = 6;
 /// Distance of the lattice across, in mean distances of flown filaments: between those the curves are smooth.
 const COLUMN: f64 = 0.5;
@@ -30,6 +33,7 @@ pub(crate) struct Library {
     pub(super) turn: f64,
     pub(super) spacing: f64,
     pub(super) belt_ratio: f64,
+    /// On the ring to which the curves are closed: their end fades into their begin.
     pub(super) points: usize,
     /// Points of a piece and of the fade to the next one.
     pub(super) piece: usize,
@@ -59,7 +63,8 @@ impl Levels {
         let is_slot = y.len() > ROWS;
         if is_slot {
             let (first, depth) = (y[0], flown.depth());
-            y = (0..LEVELS).map(|i| first + depth * i as f64 / (LEVELS - 1) as f64).collect();
+            let steps = ((depth / flown.mean_distance()).ceil() as usize).max(LEVELS - 1);
+            y = (0..=steps).map(|i| first + depth * i as f64 / steps as f64).collect();
         }
         let means = y.iter().map(|y| [0, 1].map(|d| flown.mean(d, *y))).collect();
         Self { y, means, is_slot }
@@ -68,9 +73,10 @@ impl Levels {
     /// The levels that a filament follows from, with their weights; None where a row was not flown.
     pub(super) fn around(&self, y: f64) -> Option<Vec<(usize, f64)>> {
         if self.is_slot {
-            let step = (self.y[LEVELS - 1] - self.y[0]) / (LEVELS - 1) as f64;
-            let at = ((y - self.y[0]) / step).clamp(0.0, (LEVELS - 1) as f64);
-            let first = (at.floor() as usize).saturating_sub(1).min(LEVELS - 4);
+            let last = self.y.len() - 1;
+            let step = (self.y[last] - self.y[0]) / last as f64;
+            let at = ((y - self.y[0]) / step).clamp(0.0, last as f64);
+            let first = (at.floor() as usize).saturating_sub(1).min(last - 3);
             return Some((first..).zip(cubic(at - first as f64 - 1.0)).collect());
         }
         let row = self.y.iter().position(|row| (row - y).abs() <= 1e-9)?;
@@ -133,8 +139,10 @@ impl Library {
                 values.iter_mut().for_each(|value| *value -= mean as f32);
             }
         }
+        let (fade, longest) = ((FADE * half_lag).ceil() as usize, PIECE * half_lag);
+        curves.iter_mut().flatten().for_each(|values| close(values, fade));
         let farthest = MOST_WITHIN * MOST * farthest(&curves);
-        let longest = PIECE * half_lag;
+        let points = points - fade;
         Ok(Self {
             curves,
             columns,
@@ -144,7 +152,7 @@ impl Library {
             belt_ratio: flown.belt_ratio(),
             points,
             piece: (longest as usize).min(points / 2),
-            fade: (FADE * half_lag).ceil() as usize,
+            fade,
             fade_across,
             missing: filling.missing(),
             reach: flown.reach(),
@@ -182,6 +190,21 @@ impl Library {
             })
         };
         around.iter().flat_map(of_level).collect()
+    }
+}
+
+/// Parts of a curve at the points of its fade; that of what it follows is the same from the other end.
+pub(super) fn fade_in(fade: usize) -> impl Iterator<Item = f32> {
+    (0..fade).map(move |i| libm::sin(FRAC_PI_2 * (i as f64 + 0.5) / fade as f64) as f32)
+}
+
+/// Closes a curve to a ring: its last points fade into the first ones, so that each part of it is drawn as often as
+/// any other.
+fn close(values: &mut Vec<f32>, fade: usize) {
+    let parts: Vec<f32> = fade_in(fade).collect();
+    let end = values.split_off(values.len() - fade);
+    for (i, (value, last)) in values.iter_mut().zip(end).enumerate() {
+        *value = parts[i] * *value + parts[fade - 1 - i] * last;
     }
 }
 

@@ -17,6 +17,7 @@ mod library;
 mod synthetic;
 mod tiles;
 
+pub(crate) use drawing::lay_with;
 pub use drawing::{Belt, lay};
 pub(crate) use filling::Covariances;
 pub use filling::Filling;

@@ -41,6 +41,13 @@ pub enum Doubt {
         /// The CV of the map over the told one, less one, where they differ most.
         apart: f64,
     },
+    /// The map is made of pieces of the sheet that was flown, and is not as uneven as this by chance.
+    Pieces {
+        /// Sides of the patches over which the map has another CV [m].
+        sides: Vec<f64>,
+        /// The CV of the map over the told one, less one, where they differ most.
+        apart: f64,
+    },
     /// The sheet that was flown is too small for these patches, or all filaments of another layer were flown.
     SmallSheet {
         /// Sides of the patches [m].
@@ -102,13 +109,15 @@ impl Display for Doubt {
                 per_cent(*missing, 2),
                 match sides.is_empty() {
                     true => "is too uneven over small patches".to_owned(),
-                    false => format!(
-                        "is too {} over patches of {}, by up to {} % of the CV",
-                        if *apart > 0.0 { "uneven" } else { "even" },
-                        listed(sides),
-                        per_cent(apart.abs(), 2)
-                    ),
+                    false => too_uneven(sides, *apart),
                 }
+            ),
+            Self::Pieces { sides, apart } => write!(
+                f,
+                "the map is made of pieces of the sheet that was flown, shifted at random, and {}; picture, thin \
+                places, strips and light follow from it, the CV in the headline does not. Another web.seed draws \
+                other pieces",
+                too_uneven(sides, *apart)
             ),
             Self::SmallSheet { sides } => write!(
                 f,
@@ -145,6 +154,16 @@ impl Display for Doubt {
             ),
         }
     }
+}
+
+/// How far a map is from what is told.
+fn too_uneven(sides: &[f64], apart: f64) -> String {
+    format!(
+        "is too {} over patches of {}, by up to {} % of the CV",
+        if apart > 0.0 { "uneven" } else { "even" },
+        listed(sides),
+        per_cent(apart.abs(), 2)
+    )
 }
 
 /// Why a few filaments do not tell what all do.
@@ -225,6 +244,11 @@ mod tests {
             "{said}"
         );
         assert!(filled(Vec::new()).contains("is too uneven over small patches; the CV"));
+        let pieces = Doubt::Pieces { sides: vec![0.05], apart: -0.07 }.to_string();
+        assert!(
+            pieces.contains("and is too even over patches of 50 mm, by up to 7 % of the CV; picture"),
+            "{pieces}"
+        );
         assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));
     }
 }

@@ -18,6 +18,18 @@ pub struct FewFilamentsCv {
     pub own: f64,
     /// CV of the few filaments alone.
     pub few: f64,
+    /// What CV² of all has more than that of a map in which those between the few are filled in, each at its own place
+    /// and without a defect; of filaments at random places, that of an even row. Zero where such a map tells it.
+    pub beyond_filling: f64,
+}
+
+impl FewFilamentsCv {
+    /// With another square of the CV: the errors of the square stay.
+    pub(crate) fn with_square(self, square: f64) -> Self {
+        let cv = square.max(0.0).sqrt();
+        let error = |error: f64| error * self.cv / cv;
+        Self { cv, by_chance: self.by_chance.map(error), by_pitch: error(self.by_pitch), ..self }
+    }
 }
 
 /// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be
@@ -75,6 +87,12 @@ pub struct LayerFew {
     pub missing: [f64; 2],
     /// CV over patches of each size.
     pub cvs: Vec<FewFilamentsCv>,
+    /// What the places of all filaments, in place of usual ones, and their defects add to each CV² on a sheet of pieces;
+    /// empty without them, and where the few have laid the whole sheet.
+    pub by_places: Vec<f64>,
+    /// Of octaves of wavelength [m], how far the variance of the map is off that is filled in from every second one, as a
+    /// part of it.
+    pub octaves: Vec<([f64; 2], f64)>,
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of
     /// the patches of the few filaments in each block from the mean of all, over that mean. Two webs in the
     /// same air are compared block by block.
@@ -84,6 +102,13 @@ pub struct LayerFew {
 }
 
 impl LayerFew {
+    /// The CV over patches of a side of the sheet with its places and defects.
+    pub(crate) fn on_sheet(&self, patch: f64) -> Option<FewFilamentsCv> {
+        let number = self.cvs.iter().position(|cv| cv.patch == patch)?;
+        let cv = self.cvs[number];
+        Some(self.by_places.get(number).map_or(cv, |more| cv.with_square(cv.cv * cv.cv + more)))
+    }
+
     /// Why they do not tell the CV over patches of a side; None if they do.
     pub(crate) fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
         if self.correlation < TOGETHER {
@@ -139,6 +164,7 @@ mod tests {
             of_halves,
             own: 0.0,
             few: 0.2,
+            beyond_filling: 0.0,
         }
     }
 

@@ -4,7 +4,7 @@ use super::basis_weight::Map;
 use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
-use super::few_findings::{FewDoubt, FewFilamentsCv};
+use super::few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 use super::laid_web::{Evidence, LaidWeb, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
@@ -172,9 +172,13 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
         None => None,
     };
-    // The air displaces neighbours together, so their streaks are chance.
+    // The air displaces neighbours together, so their streaks are chance; those of defects are not.
     let width = columns.len() as f64 * sheet.cell;
-    let places = if evidence == Evidence::Known { web.places(width) } else { Places::Unknown };
+    let places = match evidence {
+        Evidence::Known => web.places(width),
+        _ if web.layers.iter().all(|layer| layer.defects.is_empty()) => Places::Unknown,
+        _ => Places::Fixed,
+    };
     let mut patches = Vec::new();
     let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
@@ -194,7 +198,11 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
     }
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
-    let clouds = Clouds::at(&map, &places, by.threads);
+    // The layer of which the filling knows least.
+    let off = |few: &&LayerFew| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
+    let worst = laid.few().max_by(|a, b| off(a).total_cmp(&off(b)));
+    let filling = worst.map_or_else(Vec::new, |few| few.octaves.clone());
+    let clouds = Clouds::at(&map, &places, by.threads).map(|clouds| clouds.with_filling(filling));
     let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);
@@ -221,33 +229,53 @@ fn straight(web: &Web, patch: f64) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// What the few filaments of all layers say together: their airs are independent of each other, so the
-/// variances add up.
+/// What the few filaments of all layers say together.
+///
+/// Where they have laid the whole sheet, its map has what the places of the filaments, their defects and the layers
+/// do together by chance, and only what filling them in makes of it is taken away. On a sheet of pieces the layers,
+/// whose airs are independent of each other, add up their variances.
 fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilamentsCv> {
     let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
     let whole = weights.iter().sum::<f64>();
-    let layers = weights.iter().enumerate().map(|(number, weight)| {
-        let few = laid.flown.get(number)?.few.as_ref()?;
-        let cv = few.cvs.iter().find(|cv| cv.patch == map.patch)?;
-        Some((weight / whole, *cv))
-    });
-    let layers: Vec<(f64, FewFilamentsCv)> = layers.collect::<Option<_>>()?;
+    let is_whole = is_whole(web, laid);
+    let of_layer = |(weight, flown): (&f64, &LayerFlown)| match &flown.few {
+        // All of its filaments are on the map.
+        None => is_whole.then_some(None),
+        Some(few) => Some(Some((weight / whole, few.on_sheet(map.patch)?))),
+    };
+    let layers: Vec<_> = weights.iter().zip(&laid.flown).map(of_layer).collect::<Option<_>>()?;
+    let layers: Vec<(f64, FewFilamentsCv)> = layers.into_iter().flatten().collect();
+    if layers.is_empty() {
+        return None;
+    }
     let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {
         layers.iter().map(|(share, few)| (share.powi(2) * of(few)).powi(power)).sum::<f64>()
     };
-    let cv = sum(&|few| few.cv * few.cv, 1).sqrt();
-    // The error of a sum of squares, as one of its root.
-    let error = |of: &dyn Fn(&FewFilamentsCv) -> f64| sum(&|few| few.cv * of(few), 2).sqrt() / cv;
-    let by_chance = error(&|few| few.by_chance.unwrap_or(f64::NAN));
-    Some(FewFilamentsCv {
+    let square = sum(&|few| few.cv * few.cv, 1);
+    let cv = square.sqrt();
+    // The errors of sums of squares, as one of their root. What layers have in common by chance is as much as their
+    // waves are alike: at most, their errors by chance add up.
+    let by_chance = sum(&|few| few.cv * few.by_chance.unwrap_or(f64::NAN), 1) / cv;
+    let told = FewFilamentsCv {
         patch: map.patch,
         cv,
-        by_chance: by_chance.is_finite().then_some(by_chance),
-        by_pitch: error(&|few| few.by_pitch),
-        of_halves: sum(&|few| few.cv * few.cv * few.of_halves, 1) / (cv * cv),
+        by_chance: Some(by_chance).filter(|error| error.is_finite()),
+        by_pitch: sum(&|few| few.cv * few.by_pitch, 2).sqrt() / cv,
+        of_halves: sum(&|few| few.cv * few.cv * few.of_halves, 1) / square,
         own: sum(&|few| few.own, 1),
         few: sum(&|few| few.few * few.few, 1).sqrt(),
-    })
+        beyond_filling: sum(&|few| few.beyond_filling, 1),
+    };
+    if !is_whole {
+        return Some(told);
+    }
+    let told = told.with_square(map.cv * map.cv + told.beyond_filling);
+    Some(FewFilamentsCv { by_chance: map.standard_error.map(|error| error * map.cv / told.cv), ..told })
+}
+
+/// Whether the filaments of every layer of which few were flown have laid the whole sheet.
+fn is_whole(web: &Web, laid: &LaidWeb) -> bool {
+    laid.few().all(|few| few.sheet == [web.sheet.width, web.sheet.length])
 }
 
 /// The standard error of the CV of a map, by its causes [as the CV].
@@ -283,7 +311,7 @@ impl Findings {
         let mut doubts = match laid.evidence() {
             Evidence::Known if self.patches.is_empty() => Vec::new(),
             Evidence::Known => vec![Doubt::NothingFlown],
-            _ => [lost(web, laid), few_filaments(self), charged(laid)].concat(),
+            _ => [lost(web, laid), few_filaments(web, self), charged(laid)].concat(),
         };
         if laid.cut > 0.0 {
             let whole = laid.map.total() as f64 * laid.map.quantum + laid.cut;
@@ -322,7 +350,7 @@ fn charged(laid: &LaidWeb) -> Vec<Doubt> {
 }
 
 /// Whether the few filaments that were flown are enough for what is told of all.
-fn few_filaments(findings: &Findings) -> Vec<Doubt> {
+fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
     let few = || findings.laid.few();
     let too_few = few().filter_map(|few| {
         let why = few.doubt()?;
@@ -335,10 +363,19 @@ fn few_filaments(findings: &Findings) -> Vec<Doubt> {
     let apart = |patch: &PatchFindings| Some((patch.map.patch, patch.of_map / patch.told()?.cv - 1.0));
     let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
     let off: Vec<(f64, f64)> = apart.into_iter().filter(|(_, apart)| apart.abs() > OF_MAP).collect();
-    if missing > MISSING || !off.is_empty() {
-        let most = off.iter().map(|(_, apart)| *apart).max_by(|a, b| a.abs().total_cmp(&b.abs()));
-        let sides = off.iter().map(|(side, _)| *side).collect();
-        doubts.push(Doubt::FilledIn { missing, sides, apart: most.unwrap_or(0.0) });
+    let most = off.iter().map(|(_, apart)| *apart).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (sides, apart): (Vec<f64>, f64) = (off.iter().map(|(side, _)| *side).collect(), most.unwrap_or(0.0));
+    match is_whole(web, &findings.laid) {
+        // Pieces make clouds of their own.
+        false => {
+            doubts.extend((!sides.is_empty()).then_some(Doubt::Pieces { sides, apart }));
+            let sides = Vec::new();
+            doubts.extend((missing > MISSING).then_some(Doubt::FilledIn { missing, sides, apart: 0.0 }));
+        }
+        true if missing > MISSING || !sides.is_empty() => {
+            doubts.push(Doubt::FilledIn { missing, sides, apart });
+        }
+        true => {}
     }
     let is_of_map = |patch: &&PatchFindings| {
         matches!((patch.evidence, patch.few, patch.doubt), (Evidence::FewInOneAir, None, None))

@@ -93,7 +93,7 @@ pub struct Sheet {
 }
 
 /// What becomes of fibre beyond the edges of the sheet in cross direction. In machine direction the sheet is
-/// a stretch of an endless web, closed to a ring: what goes out at one end comes in at the other.
+/// a stretch of an endless web; that of filaments of known numbers is closed to a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edges {
     /// It comes in at the other edge: the sheet is a part of a web that is wide everywhere.

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! parts of the mean: filaments × stretches of the belt
-//!   → cells, so wide and long that one hardly knows of another → their scatter
+//!   → cells, so wide and long that one knows of the next, but hardly of the next but one → their scatter
 //!   → what stays with a filament from stretch to stretch: its place
 //! ```                                                                                                theory.md (72a)
 
@@ -27,13 +27,34 @@ pub(super) struct SharedError {
 /// Numbers that are found from the cells: the mean, and what a longer cell has more.
 const FOUND: f64 = 2.0;
 
+/// What a product of two cells beside each other counts.
+const BESIDE: f64 = 0.5;
+
+/// Over all pairs of cells, the sums of their products by weight, of the weights and of the squares of these.
+///
+/// * `sizes` – groups of neighbours, around the web, and stretches one after the other
+fn sums_of_near([groups, stretches]: [usize; 2], cells: &[f64]) -> [f64; 3] {
+    let weight = |distance: usize| [1.0, BESIDE].get(distance).copied().unwrap_or(0.0);
+    let mut sums = [0.0; 3];
+    for (one, a) in cells.iter().enumerate() {
+        for (other, b) in cells.iter().enumerate() {
+            let across = (one / stretches).abs_diff(other / stretches);
+            let along = (one % stretches).abs_diff(other % stretches);
+            let weight = weight(across.min(groups - across)) * weight(along);
+            let parts = [weight * a * b, weight, weight * weight];
+            sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+        }
+    }
+    sums
+}
+
 impl SharedError {
     /// The error of the mean over filaments of the sums over their stretches.
     ///
     /// A cell with more fibre has a larger sum, but all cells together have a fixed length. So the sums are
-    /// compared with a line over the length, and what is left scatters as independent numbers. What stays
-    /// with a filament in all stretches, as its place in the slot does, is not in the scatter of the
-    /// stretches: it is told by the products of different stretches of the same filament.
+    /// compared with a line over the length. What is left of a cell is like that of the cells beside it, because
+    /// gusts reach across: products with these count by half. What stays with a filament in all stretches, as its
+    /// place in the slot does, is told by the products of its other stretches.
     ///
     /// * `parts` – of each filament, in order across the web; all have as many stretches
     /// * `groups` – of each filament the number of its group of neighbours, from 0
@@ -56,17 +77,23 @@ impl SharedError {
         let [product, square] = [|cell: &Part| cell.value * cell.length, |cell: &Part| cell.length.powi(2)]
             .map(|of: fn(&Part) -> f64| cells.iter().map(of).sum::<f64>());
         let slope = if square > 0.0 { product / square } else { 0.0 };
-        let squares = cells.iter().map(|cell| (cell.value - slope * cell.length).powi(2)).sum::<f64>();
-        let degrees = cells.len() as f64 - FOUND;
-        let by_chance = cells.len() as f64 / degrees * squares;
+        let left: Vec<f64> = cells.iter().map(|cell| cell.value - slope * cell.length).collect();
+        let [products, weights, squares] = sums_of_near([count, stretches], &left);
+        let all = (cells.len() as f64).powi(2);
+        let (degrees, known) = (all / squares - FOUND, all - FOUND * weights);
+        let by_chance = all / known * products.max(0.0);
         let of_place = |fibre: &Vec<Part>| {
             let rest = |part: &Part| (part.value - mean - slope * (part.length - length)) / filaments;
-            let (sum, squares) =
-                fibre.iter().map(rest).fold((0.0, 0.0), |(sum, squares), x| (sum + x, squares + x * x));
-            sum * sum - squares
+            let rests: Vec<f64> = fibre.iter().map(rest).collect();
+            let beside = rests.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
+            let squares = rests.iter().map(|x| x * x).sum::<f64>();
+            // Without what the cells and those beside them have of it.
+            rests.iter().sum::<f64>().powi(2) - squares - 2.0 * BESIDE * beside
         };
-        let by_places = (parts.iter().map(of_place).sum::<f64>() * filaments / (filaments - 1.0)).max(0.0);
-        if degrees < 1.0 || filaments < FOUND {
+        let of_places = parts.iter().map(of_place).sum::<f64>() * filaments / (filaments - 1.0);
+        // It is a difference of large sums, and would be too large on average if it were cut off at zero.
+        let by_places = of_places.max(-0.5 * by_chance);
+        if degrees < 1.0 || known <= 0.0 || filaments < FOUND {
             return Self { standard_error: f64::NAN, degrees: f64::NAN };
         }
         let variance = by_chance + by_places;
@@ -89,9 +116,9 @@ mod tests {
     const GUST: usize = 10;
     const SEEDS: u64 = 600;
 
-    /// Parts whose mean is zero over all seeds: gusts that move neighbours together, what the place of each
-    /// filament adds, and more of it where more fibre lies.
-    fn parts(seed: u64, of_place: f64) -> Vec<Vec<Part>> {
+    /// Parts whose mean is zero over all seeds: gusts that move neighbours together and of which a part is kept from
+    /// stretch to stretch, what the place of each filament adds, and more of it where more fibre lies.
+    fn parts(seed: u64, of_place: f64, kept: f64) -> Vec<Vec<Part>> {
         let mut random = SplitMix64::seed_from_u64(seed);
         // Nearly normal, of variance one.
         let mut normal = || (0..12).map(|_| random.next_u64() as f64 / u64::MAX as f64).sum::<f64>() - 6.0;
@@ -104,8 +131,9 @@ mod tests {
             let mean = lengths.iter().sum::<f64>() / STRETCHES as f64;
             lengths.iter_mut().for_each(|length| *length -= mean);
         }
+        let mut gusts: Vec<f64> = (0..FILAMENTS).map(|_| normal()).collect();
         for stretch in 0..STRETCHES {
-            let gusts: Vec<f64> = (0..FILAMENTS).map(|_| normal()).collect();
+            gusts.iter_mut().for_each(|gust| *gust = kept * *gust + (1.0 - kept * kept).sqrt() * normal());
             for (filament, (fibre, lengths)) in parts.iter_mut().zip(&lengths).enumerate() {
                 let gust = (0..GUST).map(|i| gusts[(filament + i) % FILAMENTS]).sum::<f64>();
                 let length = lengths[stretch];
@@ -120,11 +148,11 @@ mod tests {
 
     /// How many of the seeds have an interval that holds the truth: by this error, and as if filaments were
     /// independent; and the mean square of the error over that of the deviations.
-    fn covered(of_place: f64) -> ([f64; 2], f64) {
+    fn covered(of_place: f64, kept: f64) -> ([f64; 2], f64) {
         let groups: Vec<usize> = (0..FILAMENTS).map(|filament| filament * 3 / FILAMENTS).collect();
         let (mut held, mut squares) = ([0.0; 2], [0.0; 2]);
         for seed in 0..SEEDS {
-            let parts = parts(seed, of_place);
+            let parts = parts(seed, of_place, kept);
             let sums =
                 Estimate::new(parts.iter().map(|fibre| fibre.iter().map(|part| part.value).sum()).collect());
             let SharedError { standard_error, degrees } = SharedError::of(&parts, &groups);
@@ -142,12 +170,14 @@ mod tests {
     /// without; as if filaments were independent they hold it in two of three seeds.
     #[test]
     fn stat_the_error_of_filaments_in_one_air_covers() {
-        for of_place in [0.0, 0.3, 1.0] {
-            let ([held, alone], ratio) = covered(of_place);
-            println!("{of_place}: {held:.3}, {alone:.3} as independent ones; variance {ratio:.2}");
-            // 600 seeds: 0.9 % by chance.
-            assert!((0.92..=0.98).contains(&held), "{held}");
-            assert!((0.8..1.25).contains(&ratio), "{ratio}");
+        for (of_place, kept) in [(0.0, 0.0), (0.3, 0.0), (1.0, 0.0), (0.0, 0.4)] {
+            let ([held, alone], ratio) = covered(of_place, kept);
+            println!("{of_place} {kept}: {held:.3}, {alone:.3} as independent ones; variance {ratio:.2}");
+            // 600 seeds: 0.9 % by chance, and 6 % of the ratio. Gusts of ten filaments hardly reach from cell to cell, so
+            // a tenth of the variance is told too much; where two fifths are kept, what reaches farther is missing.
+            let (least, least_ratio) = if kept > 0.0 { (0.87, 0.5) } else { (0.92, 0.8) };
+            assert!((least..=0.99).contains(&held), "{held}");
+            assert!((least_ratio..1.3).contains(&ratio), "{ratio}");
             assert!(of_place >= 1.0 || alone < 0.8, "{alone}");
         }
     }

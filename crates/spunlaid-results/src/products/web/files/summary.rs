@@ -78,7 +78,14 @@ pub fn summary_of_web(
             Some(_) => "too few filaments were flown",
         };
         let interval = patch.interval().ok_or_else(|| why.to_owned());
-        numbers_of_patch(patch.map.patch, OF_PATCHES, patch, interval)
+        let side = patch.map.patch;
+        let mut numbers = numbers_of_patch(side, OF_PATCHES, patch, interval);
+        // With half and twice of each assumed value, of which the error knows nothing.
+        let known = |guesses: &&Advice| guesses.tried.iter().any(|tried| tried.on(side).is_some());
+        if let (Some(guesses), Some(told)) = (guesses.filter(known), patch.told()) {
+            numbers["cv_assumed"] = json(guesses.range(side).map(|ratio| ratio * told.cv));
+        }
+        numbers
     });
     let flown: Vec<Json> = findings.laid.few().map(few_flown).collect();
     let lost = findings.laid.flown.iter().map(|layer| layer.lost);

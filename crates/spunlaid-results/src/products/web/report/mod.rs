@@ -24,9 +24,11 @@ use fabric::fabric_section;
 use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use scale::Judged;
 use spinlines::{LayerSpinline, sections_of_web};
+use spunlaid::experiment::Advice;
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
+use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
 use spunlaid_charts::Figure;
@@ -72,7 +74,7 @@ pub fn web_report<'a>(
     let judged = findings.seen().map(Judged::from);
     let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
     let mut sentences = verdict(findings);
-    Ok(Report::new("web", headline_of(findings))
+    Ok(Report::new("web", headline_of(spec, findings, tried))
         .lead(sentences.pop().unwrap_or_default())
         .lead(spun)
         .with(table)
@@ -187,15 +189,16 @@ fn laid_weight(web: &Web, findings: &Findings) -> String {
 const AS_HEAVY: f64 = 0.005;
 
 /// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
-fn headline_of(findings: &Findings) -> String {
+fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
     let weight = findings.basis_weight();
     let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
-        return headline(
-            Some(weight),
-            patch.and_then(PatchFindings::told_with_whole_error).as_ref(),
-            findings.laid.evidence() == Evidence::Known,
-        );
+        let told = patch.and_then(PatchFindings::told_with_whole_error);
+        let line = headline(Some(weight), told.as_ref(), findings.laid.evidence() == Evidence::Known);
+        return match told.filter(|_| !spec.guessed.is_empty()) {
+            Some(told) => with_assumed(&line, &told, tried.guesses),
+            None => line,
+        };
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
@@ -207,6 +210,24 @@ fn headline_of(findings: &Findings) -> String {
         "A web of {}. How uneven it is, is not known: too few filaments were flown. {remedy}.",
         grams_with_error(weight)
     )
+}
+
+/// A headline that also says what assumed values make of the CV, because its error is that of sampling alone.
+fn with_assumed(line: &str, told: &Unevenness, guesses: Option<&Advice>) -> String {
+    let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(told.patch).is_some());
+    let assumed = match guesses.filter(known).map(|guesses| guesses.range(told.patch)) {
+        None => "the ± is the sampling error, without that of the assumed values".to_owned(),
+        Some([1.0, 1.0]) => {
+            "no assumed value, halved or doubled, changes it by more than sampling".to_owned()
+        }
+        Some(ends) => {
+            let [from, to] = ends.map(|end| significant(PER_CENT * end * told.cv, 2));
+            format!(
+                "{from} to {to}{THIN}% with the assumed values halved or doubled, which the ± of sampling excludes"
+            )
+        }
+    };
+    format!("{}; {assumed}.", line.trim_end_matches('.'))
 }
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of

@@ -313,7 +313,7 @@ impl<'a> NodeStates<'a> {
     }
 }
 
-/// Length of a stretch of time that is independent of the next, in times from the inlet to the belt.
+/// Length of a stretch of time that hardly knows of the next but one, in times from the inlet to the belt.
 const WAYS_OF_STRETCH: f64 = 2.0;
 
 /// Balances of one or more fibres of a case in stretches of time, one after the other.
@@ -358,18 +358,39 @@ impl StretchedBalance {
     }
 
     /// Means and standard errors over the stretches; empty without one. The last one is left out if it is not
-    /// whole.
+    /// whole. A slack fibre takes longer to the belt, and its stretches know of more of those before.
     pub(crate) fn way(&self) -> Vec<WayPlace> {
         let fullest = self.stretches.iter().map(|balance| balance.instants).fold(0.0, f64::max);
         let whole = || self.stretches.iter().filter(|balance| balance.instants > 0.9 * fullest);
         let all: Vec<[Vec<f64>; 2]> = whole().map(|balance| [balance.forces(), balance.lengths()]).collect();
+        let lengths = || all.iter().flat_map(|[_, lengths]| lengths);
+        let memory = (lengths().sum::<f64>() / lengths().count() as f64).round() as usize;
         let at = |(class, distance): (usize, f64)| {
             let values =
                 |which: usize| all.iter().filter_map(move |of| of[which].get(class).copied()).collect();
-            let [force, fibre] = [0, 1].map(|which| Estimate::new(values(which)));
-            WayPlace { distance, force: force.mean, standard_error: force.standard_error, fibre: fibre.mean }
+            let [force, fibre]: [Vec<f64>; 2] = [0, 1].map(values);
+            let standard_error = error_of_series(&force, memory);
+            let [force, fibre] = [force, fibre].map(|values| Estimate::new(values).mean);
+            WayPlace { distance, force, standard_error, fibre }
         };
         let places = whole().next().map(MomentumBalance::places).unwrap_or_default();
         places.into_iter().enumerate().map(at).collect()
     }
+}
+
+/// Standard error of the mean of values one after the other, which know of each other over some steps: with products of
+/// neighbours that count less the farther they are apart (Bartlett), and with what is lost because the mean is found
+/// from the same values. None of less than two.
+///
+/// * `memory` – steps
+fn error_of_series(values: &[f64], memory: usize) -> Option<f64> {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let pairs = (0..values.len()).flat_map(|i| (0..values.len()).map(move |j| (i, j)));
+    let (products, weights) = pairs.fold((0.0, 0.0), |(products, weights), (i, j)| {
+        let weight = (1.0 - i.abs_diff(j) as f64 / (memory as f64 + 1.0)).max(0.0);
+        (products + weight * (values[i] - mean) * (values[j] - mean), weights + weight)
+    });
+    let left = count * count - weights;
+    (values.len() > 1 && left > 0.0).then(|| (products.max(0.0) / left).sqrt())
 }

@@ -16,6 +16,7 @@ mod tests;
 
 use super::basis_weight::Map;
 use super::canvas::Canvas;
+use super::clouds::Clouds;
 use super::few_findings::{FewFilamentsCv, LayerFew};
 use super::uniformity::{boxes, places_of_patches, unevenness};
 use super::{Edges, Sheet};
@@ -111,6 +112,10 @@ impl FewFilaments<'_> {
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
         let mut told = LayerFew { filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
+        let clouds = filled.map(|filled| [&filled.of_all, &filled.of_every_second].map(Clouds::measure));
+        if let Some([Some(all), Some(half)]) = clouds {
+            told.octaves = all.apart(&half);
+        }
         for ((found, blocks), (products, patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
         {
@@ -148,6 +153,8 @@ impl FewFilaments<'_> {
             let by_pitch = (0.5 * off).hypot(by_places).hypot(small);
             let by_filling =
                 filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
+            let of_filled = filled.and_then(|filled| unevenness(&filled.of_all, self.side(*patch)));
+            let of_places = if self.arrangement == Arrangement::AtRandom { whole[1] } else { 0.0 };
             if let Some(mut by_filling) = by_filling {
                 // Filled maps of all and of every second one may agree and both be wrong. In a slot the few
                 // say the CV without them too: what is between the two beyond its error is one of the filling.
@@ -168,6 +175,7 @@ impl FewFilaments<'_> {
                 of_halves: off / cv,
                 own: whole[1],
                 few: all.cv,
+                beyond_filling: of_filled.map_or(0.0, |filled| whole[0] - of_places - filled.cv * filled.cv),
             });
         }
         Ok(told)
@@ -212,6 +220,7 @@ impl FewFilaments<'_> {
             of_halves: half / cv - 1.0,
             own: if self.arrangement == Arrangement::Slot { slot } else { own(filled.cv) },
             few,
+            beyond_filling: 0.0,
         })
     }
 

@@ -28,8 +28,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
-            "Size of the web in machine direction, a whole number of cells. Its end joins its \
-             beginning, as in an endless web.",
+            "Size of the web in machine direction, a whole number of cells. A stretch of the belt; the end of a \
+             web of known numbers joins its beginning.",
         )
         .label("Length of the web"),
     key("web.patches", Kind::Lengths)
