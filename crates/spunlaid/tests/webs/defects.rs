@@ -1,7 +1,7 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Control, Estimate, Isa};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::map::{lay, strands};
@@ -139,5 +139,39 @@ fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
     ] {
         let found = refused(defects);
         assert!(found.contains(message), "{found}");
+    }
+}
+
+/// The basis weight of webs scatters by what its error says: by the holes that chance blocks, between cut edges by
+/// what crosses these, and by the number of filaments at random places that lie between them. A slot was told two to
+/// four times too much, and chance defects nothing.
+#[test]
+fn stat_the_error_of_the_basis_weight() {
+    const SEEDS: u64 = 40;
+    let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
+    let rows = KNOWN.lines().find(|line| line.starts_with("rows")).unwrap();
+    let many = "filaments_per_metre = 2000\n";
+    for (filaments, edges) in [
+        (format!("{rows}\ndefects = [{{ share = 0.1, titre = 0.3 }}]"), "periodic"),
+        (format!("{many}depth = \"10 mm\""), "cut"),
+        (many.to_owned(), "cut"),
+    ] {
+        let text = format!("{}edges = \"{edges}\"\n", KNOWN.replace(rows, &filaments));
+        let of_seed = |seed: u64| {
+            let set =
+                [("web.seed".to_owned(), seed.to_string()), ("web.length".to_owned(), "0.1 m".to_owned())];
+            let spec = read_web((&text, "known.toml"), &set[..]).unwrap().spec;
+            let (weight, error) =
+                Flyer::new(1, &stop, &unwatched).web(&spec).unwrap().find(by).unwrap().basis_weight();
+            (weight, error.unwrap_or(0.0))
+        };
+        let found: Vec<(f64, f64)> = (0..SEEDS).map(of_seed).collect();
+        let weights = Estimate::new(found.iter().map(|(weight, _)| *weight).collect());
+        let scatter = weights.standard_error.unwrap() * (SEEDS as f64).sqrt();
+        let told = found.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
+        println!("{filaments}: {:.2}", scatter / told);
+        // The scatter of 40 seeds is known to 11 %.
+        assert!((0.7..1.5).contains(&(scatter / told)), "{filaments}: {scatter} {told}");
     }
 }

@@ -1,8 +1,9 @@
 //! The fabric that a web becomes.
 
-use super::WebSpec;
+use super::{LayerSpec, WebSpec};
+use crate::web::fabric::LaidPatch;
 use crate::web::fabric::{Filaments, tell};
-use crate::web::map::{Findings, PatchFindings, holes};
+use crate::web::map::{Evidence, Findings, PatchFindings, holes};
 use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
 
 impl WebSpec {
@@ -16,13 +17,21 @@ impl WebSpec {
             density: layer.density,
             basis_weight: drawn.basis_weight(sheet),
         });
+        let laid_patch = |of: &PatchFindings| LaidPatch {
+            patch: of.map.patch,
+            told: of.told_with_whole_error(),
+            off: of.off_of_map(),
+        };
         let laid = Laid {
             map: &found.laid.map,
             margins: found.margins,
             reach: Some(found.reach),
             filaments: kinds.collect(),
             orientation: Some(&found.orientation),
-            patches: found.patches.iter().filter_map(PatchFindings::told_with_whole_error).collect(),
+            patches: found.patches.iter().map(laid_patch).collect(),
+            streaks: found.laid.evidence() != Evidence::Known
+                || self.layers.iter().any(LayerSpec::has_random_streaks),
+            error_of_weight: found.error_of_weight.unwrap_or(0.0),
             defects: self.streak_sources(web),
         };
         tell(&laid, &self.fabric, threads)

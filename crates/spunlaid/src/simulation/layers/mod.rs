@@ -162,6 +162,11 @@ impl LayerSpec {
         0.25 * PI * self.diameter * self.diameter * self.density
     }
 
+    /// Whether other webs have other streaks, by the places of its filaments or by their defects.
+    pub(crate) fn has_random_streaks(&self) -> bool {
+        self.filaments.are_at_random() || self.defects.iter().any(|defect| defect.share < 1.0)
+    }
+
     /// The layer, once its fibres are known.
     pub(crate) fn layer(&self, fibres: Fibres) -> Layer {
         Layer {

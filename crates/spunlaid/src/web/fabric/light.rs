@@ -44,7 +44,7 @@ pub(super) const LOCAL: f64 = 2e-3;
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `found` – the unevenness over patches of 2 mm
 pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
-    let weights = weights(map, found.patch);
+    let (_, weights) = weights(map, found.patch);
     let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
     let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);
     let lower = if variance > 0.0 { (of_clouds / variance).sqrt() } else { 0.0 };
@@ -56,15 +56,15 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 ///                                                                                            theory.md (110)
 ///
 /// * `local` – of `local_weights`
-/// * `length` – of fibre per area of the sheet [1/m]
+/// * `length` – of fibre per area of the sheet [1/m], with its error as a share of it
 /// * `diameter` – of the fibres, the mean over their length [m]
 /// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share
-pub fn bare_area(local: &[f64], length: f64, diameter: f64, found: &Unevenness) -> Known {
+pub fn bare_area(local: &[f64], (length, error): (f64, f64), diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
-    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV.                     theory.md (113)
-    let error = found.standard_error.map(|error| libm::exp(-covered) * covered * covered * found.cv * error);
-    Known::Value(share, error)
+    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV, and all of it falls with τd.     theory.md (113)
+    let by_clouds = |error: f64| libm::exp(-covered) * covered * covered * found.cv * error;
+    Known::Value(share, found.standard_error.map(|chance| by_clouds(chance).hypot(share * covered * error)))
 }
 
 /// The formation number: CV² over that of straight fibres at random of the same mass, which have 1.   theory.md (102)

@@ -53,8 +53,9 @@ impl Marks {
 
 /// Those of the patches of the map side by side that are thin.
 fn thin_patches(map: &Map, corner: f64, side: usize) -> Vec<Marked> {
-    let (columns, size) = (map.columns / side, side as f64 * map.cell);
-    let thin = weights(map, size).into_iter().enumerate().filter(|(_, weight)| *weight < THIN);
+    let size = side as f64 * map.cell;
+    let ([columns, _], weights) = weights(map, size);
+    let thin = weights.into_iter().enumerate().filter(|(_, weight)| *weight < THIN);
     thin.map(|(number, weight)| {
         let at = [number % columns, number / columns].map(|place| place as f64 * size);
         Marked { corner: [corner + at[0], at[1]], sides: [size; 2], weight }

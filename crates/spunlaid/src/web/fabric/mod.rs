@@ -31,8 +31,10 @@ pub use patches::{ThinPlaces, thin_places};
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, strips};
 pub(crate) use tell::{ABOUT, PATCHES};
-pub use tell::{AirThrough, Fabric, FabricPatch, Laid, Opacity, of_scan, tell};
+pub use tell::{AirThrough, Fabric, FabricPatch, Laid, LaidPatch, Opacity, of_scan, tell};
 pub use usable::{Usable, usable};
+
+use crate::ground::Known;
 
 /// What is given of the fabric and of its tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,6 +109,32 @@ pub fn about(word: &str) -> Option<&'static str> {
     let singular = word.strip_suffix('s').unwrap_or(&word);
     let is_named = |words: &&[&str]| words.iter().any(|one| *one == word || *one == singular);
     WORDS.iter().find(|(words, _)| is_named(words)).map(|(_, sentence)| *sentence)
+}
+
+/// The shares by which the deviations of the weight of a map from its mean may have to be larger.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Deviations {
+    /// The error of the CV.
+    pub by_chance: f64,
+    /// The told CV over that of the map, less one.
+    pub of_map: f64,
+}
+
+impl Deviations {
+    /// A number with its error by chance, which is at least that of the deviations, and what the map is off; without an
+    /// error where it is not known how far that is.
+    ///
+    /// * `number` – with the error that it has by itself
+    /// * `change` – of the number with deviations that are larger by a share
+    pub(super) fn add(of: Option<Self>, number: Known, change: impl Fn(f64) -> f64) -> Known {
+        let Known::Value(value, error) = number else { return number };
+        let whole = |of: Self| {
+            let least = change(of.by_chance).abs();
+            let is_known = error.is_some() || least > 0.0;
+            is_known.then(|| error.unwrap_or(0.0).max(least).hypot(change(of.of_map)))
+        };
+        Known::Value(value, of.and_then(whole))
+    }
 }
 
 /// A rectangle of the sheet with its weight.

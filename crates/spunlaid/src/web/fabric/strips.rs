@@ -1,10 +1,11 @@
 //! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its
 //! lightest section.
 
-use super::Marked;
+use super::{Deviations, Marked};
+use crate::ground::Known;
 use crate::ground::statistics::quantile;
-use crate::ground::{Estimate, Known};
 use crate::web::map::Map;
+use crate::web::map::lattice::{Chance, Lattice};
 
 /// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
 pub(crate) const WEAK: f64 = 0.05;
@@ -40,8 +41,10 @@ pub struct Strips {
 
 /// All strips of the sheet along MD and along CD, side by side without overlap; none where no strip of two
 /// sections fits.                                                                             theory.md (104)
-pub fn strips(map: &Map, size: StripSize) -> [Option<Strips>; 2] {
-    [true, false].map(|is_along_md| along(map, size, is_along_md))
+///
+/// * `of` – the chance in the map, and how far its deviations are from those of the web, if it is known
+pub fn strips(map: &Map, size: StripSize, of: (Chance, Option<Deviations>)) -> [Option<Strips>; 2] {
+    [true, false].map(|is_along_md| along(map, size, is_along_md, of))
 }
 
 /// Where a strip lies, and its weakest section.
@@ -120,44 +123,60 @@ fn cut(map: &Map, size: StripSize, is_along_md: bool) -> Option<Cut> {
     Some(Cut { sums, in_strip, size })
 }
 
-fn along(map: &Map, size: StripSize, is_along_md: bool) -> Option<Strips> {
+fn along(
+    map: &Map,
+    size: StripSize,
+    is_along_md: bool,
+    (chance, deviations): (Chance, Option<Deviations>),
+) -> Option<Strips> {
     let Cut { sums, in_strip, size } = cut(map, size, is_along_md)?;
-    let (mut weakest, mut squares) = (Vec::new(), Vec::new());
+    // Of each section: its weight over the mean of its strip.
+    let (mut weakest, mut shares) = (Vec::new(), Vec::new());
     for strip in sums.iter().flat_map(|sections| sections.chunks_exact(in_strip)) {
-        let mean = strip.iter().sum::<u64>() as f64 / in_strip as f64;
-        if mean > 0.0 {
-            let share = |sum: &u64| *sum as f64 / mean;
-            weakest.push(strip.iter().map(share).fold(f64::INFINITY, f64::min));
-            let square: f64 = strip.iter().map(|sum| (share(sum) - 1.0).powi(2)).sum();
-            squares.push(square / (in_strip as f64 - 1.0));
-        }
+        let mean = (strip.iter().sum::<u64>() as f64 / in_strip as f64).max(f64::MIN_POSITIVE);
+        shares.extend(strip.iter().map(|sum| *sum as f64 / mean));
+        weakest.push(shares[shares.len() - in_strip..].iter().copied().fold(f64::INFINITY, f64::min));
     }
-    let count = weakest.len();
-    (count > 0).then(|| {
-        let low = low(&weakest);
-        let (weakest, squares) = (Estimate::new(weakest), Estimate::new(squares));
-        let scatter = weakest.standard_error.map(|error| {
-            let deviation = error * (count as f64).sqrt() / weakest.mean;
-            Known::Value(deviation, Some(deviation / (2.0 * (count as f64 - 1.0)).sqrt()))
-        });
-        let deviation = squares.mean.sqrt();
-        let of_deviation = |error: f64| if deviation > 0.0 { 0.5 * error / deviation } else { 0.0 };
-        Strips {
-            size,
-            count,
-            weakest: Known::of(&weakest),
-            scatter,
-            low,
-            sections: Known::Value(deviation, squares.standard_error.map(of_deviation)),
+    let lattice = |numbers: &[f64]| {
+        let (beside, behind) = (sums.len(), numbers.len() / sums.len());
+        // Row by row of the sheet.
+        let turned = |i: usize| numbers[i % beside * behind + i / beside];
+        match is_along_md {
+            true => (Lattice { sides: [beside, behind], chance }, (0..numbers.len()).map(turned).collect()),
+            false => (Lattice { sides: [behind, beside], chance }, numbers.to_vec()),
         }
+    };
+    let per_square = 1.0 / (1.0 - 1.0 / in_strip as f64);
+    let squares: Vec<f64> = shares.iter().map(|share| per_square * (share - 1.0).powi(2)).collect();
+    let square = squares.iter().sum::<f64>() / squares.len() as f64;
+    let deviation = square.sqrt();
+    let influence: Vec<f64> = squares.iter().map(|found| found - square).collect();
+    let (of_sections, influence) = lattice(&influence);
+    let error = of_sections.error_of_mean(&influence, &[]);
+    let relative = error.map(|error| if square > 0.0 { 0.5 * error / square } else { 0.0 });
+    // The strips themselves may be few; and where the sections vary more, the weakest ones do.
+    let of = deviations.zip(relative).map(|(of, by_chance)| Deviations { by_chance, ..of });
+    let with = |number: Known, deviation: f64| Deviations::add(of, number, |by| deviation * by);
+    let (of_strips, weakest) = lattice(&weakest);
+    let [mean, scatter] = [of_strips.mean(&weakest, &[]), of_strips.cv(&weakest, &[])];
+    Some(Strips {
+        size,
+        count: weakest.len(),
+        weakest: with(mean, mean.value() - 1.0),
+        scatter: (weakest.len() > 1).then(|| with(scatter, scatter.value())),
+        low: low(&weakest, &of_strips).map(|low| with(low, low.value() - 1.0)),
+        sections: with(Known::Value(deviation, None), deviation),
     })
 }
 
-/// The 5 % quantile, with the error of its place in the order of the strips, a binomial number.
-fn low(weakest: &[f64]) -> Option<Known> {
-    let count = weakest.len() as f64;
-    let off = (WEAK * (1.0 - WEAK) / count).sqrt();
-    let ends = [WEAK - off, WEAK + off].map(|share| quantile(weakest, share));
-    let value = Known::Value(quantile(weakest, WEAK), Some(0.5 * (ends[1] - ends[0])));
-    (count >= FEWEST).then_some(value)
+/// The 5 % quantile, between the quantiles whose shares are an error of the share away.
+fn low(weakest: &[f64], lattice: &Lattice) -> Option<Known> {
+    let value = quantile(weakest, WEAK);
+    let is_below = |weight: &f64| f64::from(u8::from(*weight <= value)) - WEAK;
+    let off = lattice.error_of_mean(&weakest.iter().map(is_below).collect::<Vec<_>>(), &[]);
+    let error = off.map(|off| {
+        let [below, above] = [WEAK - off, WEAK + off].map(|share| quantile(weakest, share));
+        0.5 * (above - below)
+    });
+    (weakest.len() as f64 >= FEWEST).then_some(Known::Value(value, error))
 }

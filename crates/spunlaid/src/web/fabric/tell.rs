@@ -7,9 +7,10 @@ use super::patches::{ThinPlaces, thin_places, weights};
 use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
-use super::{FabricKeys, light};
+use super::{Deviations, FabricKeys, light};
 use crate::ground::threads::each;
-use crate::ground::{Dimension, Estimate, Known};
+use crate::ground::{Dimension, Known};
+use crate::web::map::lattice::{Chance, Lattice};
 use crate::web::map::uniformity::{Unevenness, unevenness};
 use crate::web::map::{Map, Orientation, straight_fibres};
 use crate::web::scan::{Findings, PatchFindings};
@@ -42,9 +43,37 @@ pub struct Laid<'a> {
     /// Directions of the fibres, if they are known.
     pub orientation: Option<&'a Orientation>,
     /// Its unevenness over patches of some sides.
-    pub patches: Vec<Unevenness>,
+    pub patches: Vec<LaidPatch>,
+    /// Whether its streaks are chance.
+    pub streaks: bool,
+    /// Standard error of its mean basis weight, as a share of it.
+    pub error_of_weight: f64,
     /// Defects of the line.
     pub defects: Vec<StreakSource>,
+}
+
+/// The unevenness over patches of one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LaidPatch {
+    /// Their side [m].
+    pub patch: f64,
+    /// What is told of the web; None if it is not known.
+    pub told: Option<Unevenness>,
+    /// The share by which the deviations of the map would have to be larger; None if it is not known.
+    pub off: Option<f64>,
+}
+
+impl Laid<'_> {
+    /// How far the deviations over patches of a side may be off: as over those of the nearest side. None if it is not
+    /// known.
+    fn deviations(&self, patch: f64) -> Option<Deviations> {
+        let far = |of: &&LaidPatch| libm::log(of.patch / patch).abs();
+        let Some(nearest) = self.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b))) else {
+            return Some(Deviations::default());
+        };
+        let told = |told: Unevenness| told.standard_error.map_or(0.0, |error| error / told.cv);
+        nearest.off.map(|of_map| Deviations { by_chance: nearest.told.map_or(0.0, told), of_map })
+    }
 }
 
 /// A fabric in the words of those who buy it.
@@ -112,7 +141,8 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let (first, map) = part(laid, keys);
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
-    let mut notes = Vec::new();
+    let chance = Chance { closed: map.closed, streaks: laid.streaks };
+    let mut notes: Vec<String> = unknown(laid).into_iter().collect();
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
@@ -121,21 +151,26 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
     let told = |side: usize| {
-        let same = |found: &&Unevenness| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
-        laid.patches.iter().find(same).copied()
+        let same = |found: &&LaidPatch| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
+        laid.patches.iter().find(same)?.told
     };
     // The formation number is of the part of the sheet of which the CV beside it is, whatever is sold.
     let of_cv =
         of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
     let patches = each(threads, sides.len(), |i| {
-        let thin = thin_places(map, sides[i])?;
+        let deviations = laid.deviations(sides[i] as f64 * map.cell);
+        let thin = thin_places(map, sides[i], (chance, deviations))?;
         let found = told(sides[i]).filter(|_| length > 0.0);
         let formation = found.map(|found| formation_number(&found, at_random(&of_cv, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
     let uneven = |side: usize| match (keys.saleable_width, told(side)) {
         (None, Some(told)) => Some(told),
-        (_, told) => Some(with_error_of(unevenness(map, side)?, told)),
+        (_, told) => {
+            let found = with_error_of(unevenness(map, side)?, told);
+            let is_known = laid.deviations(found.patch).is_some();
+            Some(Unevenness { standard_error: found.standard_error.filter(|_| is_known), ..found })
+        }
     };
     let local = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
         let side = ((LOCAL / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
@@ -144,12 +179,14 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     });
     let air = (!laid.filaments.is_empty()).then(|| {
         let given = keys.thickness.map(|thickness| (thickness, keys.pressure)).zip(local.as_ref());
-        let found = given.and_then(|(by, (local, _))| air(map, &filaments, local, by));
+        let found = given.and_then(|(by, (local, _))| air(laid, map, (&filaments, local), by));
         notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
         found
     });
     let air = air.flatten();
-    let bare = local.map(|(local, found)| bare_area(&local, length, diameter, &found));
+    let bare =
+        local.map(|(local, found)| bare_area(&local, (length, laid.error_of_weight), diameter, &found));
+    let of_sections = laid.deviations((keys.strip.width * keys.strip.section).sqrt());
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     notes.extend(usable.is_some().then(unknown_neck_in));
     notes.extend(laid.orientation.map(directions_of));
@@ -158,7 +195,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
         usable,
         patches: patches.into_iter().flatten().collect(),
-        strips: strips(map, keys.strip),
+        strips: strips(map, keys.strip, (chance, of_sections)),
         marks: Marks::new(map, corner, keys.strip),
         streaks: streaks(map, corner, &laid.defects),
         stiffness_ratio: laid.orientation.map(|of| Known::Value(of.stiffness_ratio.0, of.stiffness_ratio.1)),
@@ -167,7 +204,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
             let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
-            opacity(map, scattering * heavier)
+            opacity(laid, map, scattering * heavier)
         }),
         is_of_map_alone: laid.orientation.is_none(),
         notes,
@@ -259,28 +296,50 @@ fn lengths(filaments: &[Filaments]) -> (f64, f64) {
     (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
 }
 
-fn air(map: &Map, filaments: &[Filaments], local: &[f64], by: (f64, f64)) -> Option<AirThrough> {
+fn air(
+    laid: &Laid<'_>,
+    map: &Map,
+    (filaments, local): (&[Filaments], &[f64]),
+    by: (f64, f64),
+) -> Option<AirThrough> {
     let permeability = air_permeability(filaments, local, by)?;
-    let spread =
-        spread(&weights(map, AIR_AREA.sqrt())).map(|cv| cv.times(sensitivity(filaments, by.0, by.1).abs()));
-    Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread })
+    let factor = sensitivity(filaments, by.0, by.1).abs();
+    let (_, cv) = over_patches(laid, map, AIR_AREA.sqrt(), |weight| weight)?;
+    Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread: Some(cv.times(factor)) })
 }
 
-fn opacity(map: &Map, scattering: f64) -> Option<Opacity> {
-    let opacities = weights(map, OPACITY_PATCH).into_iter().map(|weight| light::opacity(scattering * weight));
-    let opacities: Vec<f64> = opacities.collect();
-    let spread = spread(&opacities)?;
-    let mean = Known::of(&Estimate::new(opacities));
-    Some(Opacity { mean, spread: spread.times(mean.value()) })
+fn opacity(laid: &Laid<'_>, map: &Map, scattering: f64) -> Option<Opacity> {
+    let of = |weight| light::opacity(scattering * weight);
+    let (mean, cv) = over_patches(laid, map, OPACITY_PATCH, of)?;
+    Some(Opacity { mean, spread: cv.times(mean.value()) })
 }
 
-/// Standard deviation over the mean.
-fn spread(values: &[f64]) -> Option<Known> {
-    let count = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    let deviation = (squares / (count - 1.0)).sqrt() / mean;
-    (values.len() >= FEWEST).then(|| Known::Value(deviation, Some(deviation / (2.0 * (count - 1.0)).sqrt())))
+/// Mean and CV over patches side by side of what follows from their weight. What deviations take from the mean grows
+/// with their square.
+fn over_patches(laid: &Laid<'_>, map: &Map, patch: f64, of: impl Fn(f64) -> f64) -> Option<(Known, Known)> {
+    let (sides, weights) = weights(map, patch);
+    let numbers: Vec<f64> = weights.iter().copied().map(&of).collect();
+    // The weights are those over their own mean, as on a closed sheet.
+    let lattice = Lattice { sides, chance: Chance { closed: [true; 2], streaks: laid.streaks } };
+    let off: Vec<f64> = weights.iter().map(|weight| weight - 1.0).collect();
+    let [mean, cv] = [lattice.mean(&numbers, &off), lattice.cv(&numbers, &off)];
+    let by_clouds = 2.0 * (mean.value() - of(1.0));
+    let of_map = laid.deviations(patch);
+    let with = |number, change: f64| Deviations::add(of_map, number, |by| change * by);
+    (numbers.len() >= FEWEST).then(|| (with(mean, by_clouds), with(cv, cv.value())))
+}
+
+/// Over which patches it is not known how uneven the web is, so that nothing that follows has an error.
+fn unknown(laid: &Laid<'_>) -> Option<String> {
+    let sides = laid.patches.iter().filter(|of| of.off.is_none());
+    let sides: Vec<String> = sides.map(|of| Dimension::Length.pretty_to(of.patch, 2)).collect();
+    (!sides.is_empty()).then(|| {
+        format!(
+            "thin places, weights, strips, bare area and light have no error where they follow from patches of {}: \
+            the CV of the web over these is not known, and the map may be more or less uneven",
+            sides.join(", ")
+        )
+    })
 }
 
 /// Any density, of which only the length of fibre is made, which depends on the titre alone.
@@ -295,13 +354,21 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         density: DENSITY,
         basis_weight: findings.map.basis_weight(),
     });
+    // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.
+    let patch = |of: &PatchFindings| LaidPatch {
+        patch: of.unevenness.patch,
+        told: Some(of.unevenness),
+        off: (findings.guess.is_none() && of.interval.is_ok()).then_some(0.0),
+    };
     let laid = Laid {
         map: &findings.map,
         margins: [0.0; 2],
         reach: None,
         filaments: filaments.into_iter().collect(),
         orientation: None,
-        patches: findings.patches.iter().map(|patch| patch.unevenness).collect(),
+        patches: findings.patches.iter().map(patch).collect(),
+        streaks: true,
+        error_of_weight: 0.0,
         defects: Vec::new(),
     };
     let mut fabric = tell(&laid, &FabricKeys::USUAL, 1);
@@ -317,23 +384,8 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         "a scan does not show what needs its fibres: stiffness, bare area, air \
         permeability{formation}"
     )];
-    // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.
-    for patch in &mut fabric.patches {
-        let thin = &mut patch.thin;
-        let is_same = |found: &&PatchFindings| (found.unevenness.patch / thin.patch - 1.0).abs() < 1e-6;
-        let same = findings.patches.iter().find(is_same);
-        if findings.guess.is_some() || same.is_some_and(|found| found.interval.is_err()) {
-            let numbers = thin.lighter.iter_mut().chain([&mut thin.heavier]).chain(&mut thin.quantiles);
-            numbers.for_each(|number| *number = number.without_error());
-        }
-    }
     if let Some(guess) = findings.guess {
         fabric.notes.push(format!("thin places and strips have no errors, because {guess}"));
-        for strips in fabric.strips.iter_mut().flatten() {
-            let numbers = [Some(&mut strips.weakest), strips.scatter.as_mut(), strips.low.as_mut()];
-            let numbers = numbers.into_iter().flatten().chain([&mut strips.sections]);
-            numbers.for_each(|number| *number = number.without_error());
-        }
     }
     fabric
 }

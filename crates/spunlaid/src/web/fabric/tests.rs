@@ -4,7 +4,8 @@
 
 use super::light::local_weights;
 use super::*;
-use crate::ground::{Estimate, Known, NORMAL_95};
+use crate::ground::{Estimate, Formula, Known, Measure, NORMAL_95};
+use crate::web::map::lattice::Chance;
 use crate::web::map::uniformity::{Unevenness, unevenness};
 use crate::web::map::{Canvas, Edges, Map, Sheet, straight_fibres};
 use crate::web::scan::{Format, Light, Picture, Settings, analyse};
@@ -13,6 +14,9 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use std::f64::consts::PI;
 
 const DIAMETER: f64 = 18e-6;
+/// A map of which nothing else is known.
+const KNOWN: (Chance, Option<Deviations>) =
+    (Chance { closed: [false; 2], streaks: true }, Some(Deviations { by_chance: 0.0, of_map: 0.0 }));
 
 struct Random(SplitMix64);
 
@@ -124,7 +128,9 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
         reach: Some([0.0, 0.2]),
         filaments: kinds.to_vec(),
         orientation: None,
-        patches: vec![told],
+        patches: vec![LaidPatch { patch: told.patch, told: Some(told), off: Some(0.0) }],
+        streaks: true,
+        error_of_weight: 0.0,
         defects: Vec::new(),
     };
     let weight = map.between(60..340).basis_weight();
@@ -174,7 +180,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
         assert!(scanned.bare.is_none() && scanned.stiffness_ratio.is_none() && scanned.air.is_none());
         assert_eq!(scanned.notes.len(), 1, "{:?}", scanned.notes);
         for (patch, side) in scanned.patches.iter().zip([2, 4, 10, 20]) {
-            let laid = thin_places(&map, side).unwrap();
+            let laid = thin_places(&map, side, KNOWN).unwrap();
             let values = |thin: &ThinPlaces| thin.quantiles.map(Known::value);
             for (one, other) in values(&laid).into_iter().zip(values(&patch.thin)) {
                 // A pixel is a whole number of millionths of the mean weight.
@@ -212,7 +218,7 @@ fn stat_the_bare_area_of_straight_fibres_at_random() {
     assert!(off(drawn, expected) < 3.0, "{drawn:?} {expected}");
     let (map, length) = random_fibres(3, 1);
     let uneven = unevenness(&map, 4).unwrap();
-    let found = bare_area(&local_weights(&map, length, &uneven), length, DIAMETER, &uneven);
+    let found = bare_area(&local_weights(&map, length, &uneven), (length, 0.0), DIAMETER, &uneven);
     assert!(
         off(found, expected) < 3.0 && (found.value() / expected - 1.0).abs() < 0.01,
         "{found:?} {expected}"
@@ -235,7 +241,7 @@ fn analytic_the_bare_area_of_a_cloudy_fabric() {
     let by_chance = straight_fibres(length, 2e-3).powi(2);
     let found = Unevenness { patch: 2e-3, cv: (squared + by_chance).sqrt(), standard_error: Some(0.001) };
     let expected = libm::pow(1.0 + length * DIAMETER * squared, -(shape as f64));
-    let found = bare_area(&local_weights(&sheet, length, &found), length, DIAMETER, &found);
+    let found = bare_area(&local_weights(&sheet, length, &found), (length, 0.0), DIAMETER, &found);
     // 90,000 patches, whose shares scatter by 0.4 of their mean.
     assert!((found.value() / expected - 1.0).abs() < 0.005, "{found:?} {expected}");
     assert!(expected > 1.1 * libm::exp(-length * DIAMETER));
@@ -245,7 +251,7 @@ fn analytic_the_bare_area_of_a_cloudy_fabric() {
 fn stat_thin_places_of_normal_weights() {
     let (mut random, cv) = (Random::new(5), 0.2);
     let sheet = map([400, 400], 1e-3, |_| 1.0 + cv * random.normal());
-    let found = thin_places(&sheet, 1).unwrap();
+    let found = thin_places(&sheet, 1, KNOWN).unwrap();
     // Shares of a normal distribution below −2.5, −1.5 and −1 deviations.
     for (number, share) in found.lighter.iter().zip([0.006_210, 0.066_807, 0.158_655]) {
         assert!(off(*number, share * 1e6) < 3.5, "{number:?} {share}");
@@ -257,13 +263,15 @@ fn stat_thin_places_of_normal_weights() {
     }
     // A number below one on the sheet is no rounding, and not surer than so small a count.
     let rare =
-        thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 10 && i < 500 { 0.0 } else { 1.0 }), 10).unwrap();
+        thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 10 && i < 500 { 0.0 } else { 1.0 }), 10, KNOWN)
+            .unwrap();
     let [.., Known::Value(number, Some(error))] = rare.lighter else { panic!("{rare:?}") };
     assert!(number * 0.01 < 1.0 && error * 0.01 >= (number * 0.01).sqrt(), "{number} {error}");
     // Weights at the edge of a class are no thick places: 1.3 of the mean, and nothing above.
-    let steps = thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 50 { 0.7 } else { 1.29 }), 2).unwrap();
+    let steps =
+        thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 50 { 0.7 } else { 1.29 }), 2, KNOWN).unwrap();
     assert_eq!(steps.heavier, Known::AtMost(300.0), "{steps:?}");
-    let even = thin_places(&map([100, 100], 1e-3, |_| 1.0), 5).unwrap();
+    let even = thin_places(&map([100, 100], 1e-3, |_| 1.0), 5, KNOWN).unwrap();
     assert_eq!(even.heavier, Known::AtMost(300.0));
     assert_eq!(even.lighter, [Known::AtMost(300.0); 3]);
 }
@@ -352,13 +360,13 @@ const STRIP: StripSize = StripSize { width: 50e-3, length: 200e-3, section: 5e-3
 
 #[test]
 fn analytic_the_weakest_sections_of_even_strips() {
-    for strips in strips(&map([400, 400], 1e-3, |_| 1.0), STRIP) {
+    for strips in strips(&map([400, 400], 1e-3, |_| 1.0), STRIP, KNOWN) {
         let strips = strips.unwrap();
         assert_eq!((strips.count, strips.weakest), (16, Known::Value(1.0, Some(0.0))));
     }
     // Filaments that are one curve: rows differ, so strips along MD are all alike, and sections along CD.
     let waves = map([400, 400], 1e-3, |i| 1.0 + 0.3 * libm::sin((i / 400) as f64 * 2.0 * PI / 100.0));
-    let [md, cd] = strips(&waves, STRIP).map(Option::unwrap);
+    let [md, cd] = strips(&waves, STRIP, KNOWN).map(Option::unwrap);
     assert!(md.scatter.unwrap().value() < 1e-12, "{:?}", md.scatter);
     assert!(md.weakest.value() < 0.72 && (cd.weakest.value() - 1.0).abs() < 1e-12);
 }
@@ -369,12 +377,122 @@ fn stat_the_weakest_of_forty_sections() {
     let (mut random, sigma) = (Random::new(6), 0.05);
     let cells_of_section = 250.0_f64;
     let sheet = map([800, 800], 1e-3, |_| 1.0 + sigma * cells_of_section.sqrt() * 0.25 * random.normal());
-    for strips in strips(&sheet, STRIP) {
+    for strips in strips(&sheet, STRIP, KNOWN) {
         let strips = strips.unwrap();
         let found = (1.0 - strips.weakest.value()) / strips.sections.value();
         assert_eq!(strips.count, 64);
         assert!((found / 2.16 - 1.0).abs() < 0.1, "{found}");
         assert!(strips.low.unwrap().value() < strips.weakest.value());
     }
-    assert!(strips(&map([100, 100], 1e-3, |_| 1.0), STRIP).iter().all(Option::is_none));
+    assert!(strips(&map([100, 100], 1e-3, |_| 1.0), STRIP, KNOWN).iter().all(Option::is_none));
+}
+
+/// A normal field of streaks and of independent cells on a sheet that is closed to a ring, 0.5 m wide and long.
+fn streaky(random: &mut Random) -> Map {
+    let (columns, sigma, width) = (200, 18e-3, 0.5);
+    let waves: Vec<[f64; 2]> = (1..=12)
+        .map(|k| {
+            let wave = 2.0 * PI * f64::from(k) / width * sigma;
+            [(); 2].map(|()| 0.028 * libm::exp(-0.5 * wave * wave) * random.normal())
+        })
+        .collect();
+    let profile: Vec<f64> = (0..columns)
+        .map(|column| {
+            let angle = 2.0 * PI * column as f64 / columns as f64;
+            let part = |(k, [a, b]): (f64, &[f64; 2])| a * libm::cos(k * angle) + b * libm::sin(k * angle);
+            1.0 + (1..).map(f64::from).zip(&waves).map(part).sum::<f64>()
+        })
+        .collect();
+    let sheet = map([columns, 200], width / columns as f64, |i| profile[i % columns] + 0.1 * random.normal());
+    Map { closed: [true; 2], ..sheet }
+}
+
+/// What is told of a streaky web whose map is off by this.
+fn streaky_fabric(seed: u64, off: Option<f64>) -> Fabric {
+    let sheet = streaky(&mut Random::new(seed));
+    let patch = |side| {
+        let told = unevenness(&sheet, side).unwrap();
+        LaidPatch { patch: told.patch, told: off.map(|_| told), off }
+    };
+    let laid = Laid {
+        map: &sheet,
+        margins: [0.0; 2],
+        reach: None,
+        filaments: Vec::new(),
+        orientation: None,
+        patches: [1, 2, 4, 8].map(patch).to_vec(),
+        streaks: true,
+        error_of_weight: 0.0,
+        defects: Vec::new(),
+    };
+    tell(&laid, &FabricKeys { measured_opacity: Some(0.35), ..FabricKeys::USUAL }, 1)
+}
+
+/// Over webs with random streaks the numbers of the fabric scatter by what their errors say. As if the blocks of a
+/// column were independent, quantiles of weight scattered by up to four of them, strips along CD by four, the spread of
+/// the opacity by twenty.
+#[test]
+fn stat_the_errors_of_a_fabric_with_random_streaks() {
+    const SEEDS: u64 = 60;
+    let mut found: std::collections::BTreeMap<String, Vec<(f64, f64)>> = std::collections::BTreeMap::new();
+    for seed in 0..SEEDS {
+        let fabric = streaky_fabric(1000 + seed, Some(0.0));
+        let mut numbers: Vec<(String, Option<Known>)> = told_of(OF_FABRICS, &fabric, "");
+        for patch in &fabric.patches {
+            let side = format!(" of {} mm", (1e3 * patch.thin.patch).round());
+            numbers.extend(told_of(OF_FABRIC_PATCHES, patch, &side));
+        }
+        for (strips, direction) in fabric.strips.iter().flatten().zip([" along MD", " along CD"]) {
+            numbers.extend(told_of(OF_STRIPS, strips, direction));
+        }
+        for (name, number) in numbers {
+            if let Some(Known::Value(value, Some(error))) = number {
+                found.entry(name).or_default().push((value, error));
+            }
+        }
+    }
+    // Numbers of rare places are not there in each web.
+    found.retain(|_, numbers| numbers.len() as u64 == SEEDS);
+    assert!(found.len() > 25, "{:?}", found.keys());
+    for (name, numbers) in found {
+        let scatter =
+            Estimate::new(numbers.iter().map(|(value, _)| *value).collect()).standard_error.unwrap();
+        let told = numbers.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
+        let ratio = scatter * (SEEDS as f64).sqrt() / told;
+        println!("{name}: {ratio:.2}");
+        assert!((0.6..1.6).contains(&ratio), "{name}: {ratio:.2}");
+    }
+}
+
+fn told_of<T>(measures: &'static [Measure<T>], found: &T, of: &str) -> Vec<(String, Option<Known>)> {
+    let told = |measure: &Measure<T>| match measure.formula {
+        Formula::Told(number) => Some((format!("{}{of}", measure.entry()), number(found))),
+        _ => None,
+    };
+    measures.iter().filter_map(told).collect()
+}
+
+/// Where the map is less even than the web, the difference is in the errors; where it is not known how even the web
+/// is, nothing has an error, and a note says over which patches.
+#[test]
+fn numbers_of_a_map_that_is_not_as_even_as_the_web_say_so() {
+    let numbers = |of: &Fabric| {
+        let thin = &of.patches[0].thin;
+        let strips = of.strips[0].clone().unwrap();
+        [thin.lighter[2], thin.quantiles[0], strips.weakest, strips.sections, of.opacity.unwrap().spread]
+    };
+    let [same, other, unknown] = [Some(0.0), Some(-0.2), None].map(|off| streaky_fabric(3, off));
+    for ((same, other), unknown) in numbers(&same).into_iter().zip(numbers(&other)).zip(numbers(&unknown)) {
+        let (Known::Value(value, Some(error)), Known::Value(_, Some(whole))) = (same, other) else {
+            panic!("{same:?} {other:?}")
+        };
+        // A fifth of a deviation, or what is beyond an edge less by what a fifth takes away.
+        let part =
+            if value > 1.5 { 0.2 * value } else { 0.19 * if value > 0.5 { 1.0 - value } else { value } };
+        assert!(whole > error.hypot(part), "{same:?} {other:?}");
+        assert_eq!(unknown, Known::Value(value, None));
+    }
+    let said = &unknown.notes[0];
+    assert!(said.contains("5 mm, 10 mm, 20 mm") && said.contains("not known"), "{said}");
+    assert!(same.notes.iter().all(|note| !note.contains("may be more or less uneven")));
 }

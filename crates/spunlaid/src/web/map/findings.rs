@@ -9,7 +9,7 @@ use super::laid_web::{Evidence, LaidWeb, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
-use super::uniformity::{Unevenness, error_of_mean, nearest_to_seen, unevenness_at};
+use super::uniformity::{Unevenness, nearest_to_seen, unevenness_at, variance_of_mean};
 use super::waves::Places;
 use super::{Layer, Web};
 use crate::fibre::STRONG;
@@ -31,6 +31,9 @@ pub struct Findings {
     /// Where the web begins and ends across the sheet: where the reach of the outermost filaments ends, or at
     /// the edges of the sheet, which cut it or where it goes on [m].
     pub reach: [f64; 2],
+    /// Standard error of the mean basis weight between the edges, as a share of it; none of a sheet that is closed to
+    /// a ring and has no defects by chance.
+    pub error_of_weight: Option<f64>,
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
     /// Directions of the fibres.
@@ -59,12 +62,10 @@ impl Findings {
     }
 
     /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web
-    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring.
+    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring and has no defects by chance.
     pub fn basis_weight(&self) -> (f64, Option<f64>) {
-        let map = self.within();
-        let side = self.seen().map_or(1, |seen| (seen.map.patch / map.cell).round() as usize);
-        let weight = map.basis_weight();
-        (weight, error_of_mean(&map, side).map(|error| error * weight))
+        let weight = self.within().basis_weight();
+        (weight, self.error_of_weight.map(|error| error * weight))
     }
 }
 
@@ -102,6 +103,17 @@ impl PatchFindings {
     pub fn told_with_whole_error(&self) -> Option<Unevenness> {
         let told = self.told()?;
         Some(Unevenness { standard_error: self.whole_error().whole().or(told.standard_error), ..told })
+    }
+
+    /// The share by which the deviations of the map, with what is filled in, would have to be larger to be those of
+    /// the web, with the error by the few fibres in it. None if it is not known.
+    pub fn off_of_map(&self) -> Option<f64> {
+        if self.evidence != Evidence::FewInOneAir {
+            return Some(0.0);
+        }
+        let told = self.few.filter(|_| self.doubt.is_none())?;
+        let off = told.cv / self.of_map - 1.0;
+        Some(off.hypot(told.by_pitch / told.cv).copysign(off))
     }
 
     /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
@@ -197,6 +209,9 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         };
         patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
     }
+    let variance =
+        variance_of_mean(&map, width / sheet.width, &web.places(width)) + web.variance_by_defects();
+    let error_of_weight = Some(variance.sqrt()).filter(|error| error.is_normal());
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     // The layer of which the filling knows least.
     let off = |few: &&LayerFew| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
@@ -213,6 +228,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         orientation,
         clouds,
         autocorrelation,
+        error_of_weight,
         patches,
         margins,
         reach,

@@ -26,6 +26,7 @@ mod few_filaments;
 mod few_findings;
 mod findings;
 mod laid_web;
+pub(crate) mod lattice;
 mod lay;
 mod measures;
 mod one_fibre;
@@ -56,6 +57,7 @@ pub use laid_web::{
     ChargedCurtain, Correlation, Curves, Evidence, FlownFibres, LaidWeb, LayerFlown, NeighbourCorrelation,
     TimeSpent,
 };
+pub use lattice::Chance;
 pub use lay::{lay, pieces, strands};
 pub use measures::{OF_PATCHES, OF_WEBS};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
@@ -266,6 +268,31 @@ impl Web {
         let powers =
             (1..=MOST_STREAKS).map(power).take_while(|power| *power > 1e-6 * variance_of_mean).collect();
         Places::AtRandom(Streaks { variance_of_mean, powers })
+    }
+
+    /// Variance of the mean basis weight over webs of this kind by the holes that have a defect by chance, over its
+    /// square.
+    pub(crate) fn variance_by_defects(&self) -> f64 {
+        let of_layer = |(number, layer): (usize, &Layer)| {
+            let count = layer.count(&self.sheet) as f64;
+            let of_defect = |defect: &Defect| {
+                let of_all = Defect { share: 1.0, ..*defect };
+                let holes =
+                    holes((&self.sheet, self.seed), (number, &layer.filaments), (0, &of_all)).len() as f64;
+                // Of filaments at random places, as many as come down there.
+                let is_one = defect.from.is_some() && defect.to.is_none();
+                let (among, share) = match layer.filaments.are_at_random() && !is_one {
+                    true => (count, defect.share * holes / count),
+                    false => (holes, defect.share),
+                };
+                let length =
+                    (defect.until(self.sheet.length, layer.belt_speed) / self.sheet.length).clamp(0.0, 1.0);
+                among * share * (1.0 - share) * ((1.0 - defect.titre) * length / count).powi(2)
+            };
+            let part = layer.basis_weight(&self.sheet) / self.basis_weight();
+            part * part * layer.defects.iter().map(of_defect).sum::<f64>()
+        };
+        self.layers.iter().enumerate().map(of_layer).sum()
     }
 
     /// Mass of all filaments over the sheet's area [kg/m²]. With [`Edges::Cut`] some of it may lie beyond the edges.

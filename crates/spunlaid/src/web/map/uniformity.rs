@@ -93,14 +93,31 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     })
 }
 
-/// Standard error of the mean basis weight of a map that is a piece of a web, as a share of it: by the waves that
-/// are as long as the piece. None of a map that is closed to a ring both ways, whose mean is that of the web,
-/// and of a map that is too small to say.
+/// Variance of the mean basis weight of a part of a sheet between its edges, over its square; zero of a whole sheet
+/// that is closed to a ring.
 ///
-/// * `side` – of the patches whose waves are looked at [cells]
-pub(crate) fn error_of_mean(map: &Map, side: usize) -> Option<f64> {
-    let (_, powers) = deviations(map, side)?;
-    Some(powers?.variance_of_mean(map.closed).sqrt()).filter(|error| *error > 0.0)
+/// A filament lays all its fibre on the sheet, so the mean varies with what crosses the two edges of the part. What
+/// has crossed a place is the mass up to it less that of an even web. For filaments at random places that is a
+/// random walk from edge to edge, of a third of the variance that their number gives the mean.    theory.md (103b)
+///
+/// * `share` – of the sheet's width
+/// * `places` – of the filaments
+pub(crate) fn variance_of_mean(map: &Map, share: f64, places: &Places) -> f64 {
+    if map.closed[0] {
+        return 0.0;
+    }
+    let (profile, mean) = (map.profile_cd(), map.basis_weight());
+    let mut up_to = 0.0;
+    let (sum, squares) = profile.iter().fold((0.0, 0.0), |(sum, squares), weight| {
+        up_to += (weight / mean - 1.0) / profile.len() as f64;
+        (sum + up_to, squares + up_to * up_to)
+    });
+    let crossed = 2.0 * (squares - sum * sum / profile.len() as f64) / profile.len() as f64;
+    let by_number = match places {
+        Places::AtRandom(streaks) => streaks.variance_of_mean,
+        _ => 0.0,
+    };
+    by_number * (1.0 - share).max(0.0) + (crossed - by_number / 3.0).max(0.0)
 }
 
 /// The mean square of the deviations of the patches of one side from the mean, over it, and the powers of their

@@ -1,9 +1,11 @@
 //! How far the CV of one piece of web may be from that of the web.
 
-use crate::ground::statistics::student_t_95;
 use crate::ground::{Estimate, NORMAL_95};
 use crate::web::map::Map;
-use std::f64::consts::PI;
+use crate::web::map::lattice::{Chance, Lattice, waves};
+
+/// A piece of a web, of which nothing else is known.
+pub(crate) const PIECE: Chance = Chance { closed: [false; 2], streaks: true };
 
 /// The variance of the basis weight over patches of one size, relative to the squared mean, and how well a
 /// piece of web knows it.
@@ -180,60 +182,24 @@ impl Blocks {
                 (block.2 / block.0 as f64 - (block.1 / block.0 as f64).powi(2)).max(0.0) * scale * scale
             })
         };
-        let variance_within: Vec<Option<f64>> = sums.iter().map(variance_within).collect();
+        let within: Vec<Option<f64>> = sums.iter().map(variance_within).collect();
+        let mean_within = Estimate::new(within.iter().copied().flatten().collect()).mean;
+        let off: Vec<f64> =
+            within.iter().map(|variance| variance.map_or(0.0, |found| found - mean_within)).collect();
+        let lattice = Lattice { sides, chance: PIECE };
         Some(Self {
             sides,
             means: sums.iter().map(mean_of).collect(),
             variance: (squares / count as f64 - of_all * of_all).max(0.0) * scale * scale,
-            error_within: error_of_mean(&variance_within, sides[0]),
+            error_within: lattice.error_of_mean(&off, &[]).unwrap_or(0.0).powi(2),
         })
     }
 
     /// The share of the variance in each wave, orthogonal cosines of half a wave and more over the piece: `Σ`
     /// over all but the first is the variance of the means of the blocks.
     fn waves(&self) -> Vec<f64> {
-        let [across, along] = self.sides;
-        let cosines = |side: usize| -> Vec<f64> {
-            let wave = |k: usize, i: usize| {
-                let norm = if k == 0 { 1.0 } else { 2f64.sqrt() };
-                norm * libm::cos(PI * k as f64 * (i as f64 + 0.5) / side as f64) / side as f64
-            };
-            (0..side * side).map(|at| wave(at / side, at % side)).collect()
-        };
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let of_rows = cosines(across);
-        let rows = self.means.chunks_exact(across);
-        let rows: Vec<f64> = rows
-            .flat_map(|row| of_rows.chunks_exact(across).map(|wave| product(wave, row)).collect::<Vec<_>>())
-            .collect();
-        let of_columns = cosines(along);
-        let mut waves = vec![0.0; across * along];
-        for i in 0..across {
-            let column: Vec<f64> = (0..along).map(|j| rows[j * across + i]).collect();
-            for (j, wave) in of_columns.chunks_exact(along).enumerate() {
-                waves[j * across + i] = product(wave, &column).powi(2);
-            }
-        }
-        waves
+        waves(&self.means, self.sides, self.sides).into_iter().map(|wave| wave * wave).collect()
     }
-}
-
-/// Squared error of the mean of values on a lattice: from the scatter of all, of the columns and of the rows,
-/// the largest of them. An error that comes from few columns is enlarged by Student's t.
-fn error_of_mean(values: &[Option<f64>], columns: usize) -> f64 {
-    let mean = |parts: &mut dyn Iterator<Item = &Option<f64>>| {
-        let values: Vec<f64> = parts.flatten().copied().collect();
-        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-    };
-    let by_column = (0..columns).filter_map(|i| mean(&mut values.iter().skip(i).step_by(columns)));
-    let by_row = values.chunks_exact(columns).filter_map(|row| mean(&mut row.iter()));
-    let sets: [Vec<f64>; 3] =
-        [values.iter().copied().flatten().collect(), by_column.collect(), by_row.collect()];
-    let error = |values: Vec<f64>| {
-        let t = student_t_95((values.len() as u64).max(2) - 1) / NORMAL_95;
-        (t * Estimate::new(values).standard_error.unwrap_or(0.0)).powi(2)
-    };
-    sets.into_iter().map(error).fold(0.0, f64::max)
 }
 
 /// Passes on the mean cell of each patch that is web, with the row and the column of its first cell.

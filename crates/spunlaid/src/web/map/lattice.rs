@@ -1,0 +1,157 @@
+//! Chance in the numbers of a map: how far they are from those of all such webs.
+//!
+//! A number of a map is to first order a mean over its places, of what each of them adds to it, its influence.
+//! That is a field with clouds and streaks as the weight is, and the mean is its wave of infinite length. One map
+//! does not show how strong this wave is over many webs; it is as strong as the next ones.       theory.md (103a)
+
+use crate::ground::statistics::{dot, student_t_95_at};
+use crate::ground::{Known, NORMAL_95};
+use std::f64::consts::PI;
+
+/// Longest half waves either way that tell how strong the wave of infinite length is.
+const LONGEST: usize = 4;
+/// Fewest degrees of freedom for which an error is enlarged.
+const FEWEST: f64 = 2.0;
+
+/// Parts of equal size that lie side by side on a sheet; their numbers stand row by row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Lattice {
+    /// Number of parts in cross and in machine direction.
+    pub(crate) sides: [usize; 2],
+    /// What is known of the chance.
+    pub(crate) chance: Chance,
+}
+
+/// What is known of the chance in a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Chance {
+    /// Directions, cross and machine, in which the sheet is closed to a ring, so that all such sheets have the
+    /// same mass.
+    pub closed: [bool; 2],
+    /// Whether what is the same along the whole web, its streaks, is another in each web of the kind.
+    pub streaks: bool,
+}
+
+/// Powers of waves of one kind: their sum and number.
+#[derive(Clone, Copy)]
+struct Line {
+    sum: f64,
+    count: f64,
+}
+
+impl Line {
+    fn of(powers: impl Iterator<Item = f64>) -> Self {
+        powers.fold(Self { sum: 0.0, count: 0.0 }, |of, power| Self {
+            sum: of.sum + power,
+            count: of.count + 1.0,
+        })
+    }
+
+    fn mean(self) -> f64 {
+        self.sum / self.count.max(1.0)
+    }
+
+    /// Whether it is stronger than others by more than a standard error of the ratio of two variances.
+    fn is_beyond(self, others: Self) -> bool {
+        self.mean() > others.mean() * (1.0 + (2.0 / self.count + 2.0 / others.count).sqrt())
+    }
+}
+
+impl Lattice {
+    /// Standard error of the mean of numbers; none where the map is too small to say.
+    ///
+    /// Streaks may be stronger than the other waves, and so may bars, which go across the whole web; both reach to the
+    /// wave of infinite length. On a closed sheet the weight has no such wave: what follows the weight
+    /// in a line is then taken out. An error that is known from few waves is enlarged by Student's t.
+    ///
+    /// * `influence` – deviation of each number from the mean
+    /// * `weights` – deviation of the weight of each part from the mean; empty where the numbers do not follow it
+    pub(crate) fn error_of_mean(&self, influence: &[f64], weights: &[f64]) -> Option<f64> {
+        let counts = self.sides.map(|side| side.min(LONGEST + 1));
+        let own = waves(influence, self.sides, counts);
+        let slope = if weights.is_empty() { 0.0 } else { dot(influence, weights) / dot(weights, weights) };
+        let follows: Vec<f64> = match slope.is_normal() {
+            true => waves(weights, self.sides, counts).into_iter().map(|wave| slope * wave).collect(),
+            false => vec![0.0; own.len()],
+        };
+        let power = |across: usize, along: usize, is_closed: bool| {
+            let at = along * counts[0] + across;
+            (own[at] - if is_closed { follows[at] } else { 0.0 }).powi(2)
+        };
+        let [closed_across, closed_along] = self.chance.closed;
+        let streaks = Line::of((1..counts[0]).map(|i| power(i, 0, closed_across)));
+        let bars = Line::of((1..counts[1]).map(|j| power(0, j, closed_along)));
+        let of_row = |j| (1..counts[0]).map(move |i| (i, j));
+        let rest = (1..counts[1]).flat_map(of_row).map(|(i, j)| power(i, j, closed_across || closed_along));
+        let rest = Line::of(rest);
+        let lines = if self.chance.streaks || rest.count == 0.0 { vec![streaks, bars] } else { vec![bars] };
+        let (strong, alike): (Vec<Line>, Vec<Line>) =
+            lines.into_iter().partition(|line| line.is_beyond(rest));
+        let all =
+            alike.iter().fold(rest, |of, line| Line { sum: of.sum + line.sum, count: of.count + line.count });
+        let parts = strong.iter().map(|line| ((line.mean() - all.mean()).max(0.0), line.count));
+        let (variance, squares) = parts
+            .chain([(all.mean(), all.count)])
+            .filter(|(_, count)| *count > 0.0)
+            .fold((0.0, 0.0), |(sum, squares), (part, count)| (sum + part, squares + part * part / count));
+        let degrees = if squares > 0.0 { variance * variance / squares } else { f64::INFINITY };
+        let t = student_t_95_at(degrees.max(FEWEST)) / NORMAL_95;
+        let are_known = streaks.count > 0.0 || !self.chance.streaks;
+        (are_known && own.len() > 1).then(|| t * variance.sqrt())
+    }
+
+    /// The mean of numbers with its error.
+    ///
+    /// * `weights` – as in [`Lattice::error_of_mean`]
+    pub(crate) fn mean(&self, numbers: &[f64], weights: &[f64]) -> Known {
+        let mean = mean(numbers);
+        let influence: Vec<f64> = numbers.iter().map(|number| number - mean).collect();
+        Known::Value(mean, self.error_of_mean(&influence, weights))
+    }
+
+    /// The standard deviation of numbers over their mean, with its error.
+    ///
+    /// * `weights` – as in [`Lattice::error_of_mean`]
+    pub(crate) fn cv(&self, numbers: &[f64], weights: &[f64]) -> Known {
+        let (mean, count) = (mean(numbers), numbers.len() as f64);
+        let variance = numbers.iter().map(|number| (number - mean).powi(2)).sum::<f64>() / (count - 1.0);
+        let deviation = variance.sqrt();
+        // The deviation is that of all, of which the same numbers tell the mean.
+        let of = |number: &f64| {
+            let off = number - mean;
+            if deviation > 0.0 {
+                0.5 * (off * off - variance) / deviation - deviation / mean * off
+            } else {
+                0.0
+            }
+        };
+        let influence: Vec<f64> = numbers.iter().map(of).collect();
+        Known::Value(deviation, self.error_of_mean(&influence, weights)).times(1.0 / mean)
+    }
+}
+
+fn mean(numbers: &[f64]) -> f64 {
+    numbers.iter().sum::<f64>() / numbers.len() as f64
+}
+
+/// Strengths of orthogonal cosines of so many half waves over a lattice, row by row: the sum of the squares of all
+/// is the mean square of the numbers.
+///
+/// * `sides` – of the lattice, across and along
+/// * `counts` – of half waves across and along, from none on
+pub(crate) fn waves(numbers: &[f64], sides: [usize; 2], counts: [usize; 2]) -> Vec<f64> {
+    let cosines = |axis: usize| -> Vec<f64> {
+        let side = sides[axis];
+        let wave = |k: usize, i: usize| {
+            let norm = if k == 0 { 1.0 } else { 2f64.sqrt() };
+            norm * libm::cos(PI * k as f64 * (i as f64 + 0.5) / side as f64) / side as f64
+        };
+        (0..counts[axis] * side).map(|at| wave(at / side, at % side)).collect()
+    };
+    let [across, along] = [cosines(0), cosines(1)];
+    let of_row = |row: &[f64]| across.chunks_exact(sides[0]).map(|wave| dot(wave, row)).collect::<Vec<_>>();
+    let rows: Vec<Vec<f64>> = numbers.chunks_exact(sides[0]).map(of_row).collect();
+    let of =
+        |wave: &[f64], i: usize| -> f64 { wave.iter().zip(&rows).map(|(cosine, row)| cosine * row[i]).sum() };
+    along.chunks_exact(sides[1]).flat_map(|wave| (0..counts[0]).map(move |i| of(wave, i))).collect()
+}
