@@ -93,6 +93,9 @@ impl<T> PerLane<T> {
 pub trait CompanyKey: Ord {
     /// In words, the first thing in which two differ.
     fn difference(&self, other: &Self) -> Option<&'static str>;
+
+    /// Adds the words and the value of each part.
+    fn add_parts(&self, to: &mut Vec<(&'static str, String)>);
 }
 
 impl<S: CompanyKey> CompanyKey for Option<S> {
@@ -102,6 +105,10 @@ impl<S: CompanyKey> CompanyKey for Option<S> {
             (None, None) => None,
             _ => Some("whether the fibre is fed (feed.speed, belt.distance, belt.speed)"),
         }
+    }
+
+    fn add_parts(&self, to: &mut Vec<(&'static str, String)>) {
+        self.iter().for_each(|known| known.add_parts(to));
     }
 }
 
@@ -139,6 +146,10 @@ macro_rules! shared {
                 $($crate::shared!(@compare &self.$field, &other.$field $(, $words)?);)*
                 None
             }
+
+            fn add_parts(&self, to: &mut Vec<(&'static str, String)>) {
+                $($crate::shared!(@add &self.$field, to $(, $words)?);)*
+            }
         }
     };
     (@compare $one:expr, $other:expr, $words:literal) => {
@@ -150,5 +161,11 @@ macro_rules! shared {
         if let Some(words) = $crate::company::CompanyKey::difference($one, $other) {
             return Some(words);
         }
+    };
+    (@add $part:expr, $to:ident, $words:literal) => {
+        $to.push(($words, format!("{:?}", $part)));
+    };
+    (@add $part:expr, $to:ident) => {
+        $crate::company::CompanyKey::add_parts($part, $to);
     };
 }

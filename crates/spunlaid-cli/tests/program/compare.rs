@@ -74,11 +74,18 @@ fn runs_in_different_turbulence_are_compared_by_welch() {
     flown(&desk, "a", &[]);
     flown(&desk, "b", &["run.seed=8"]);
     flown(&desk, "c", &["air.length_scale=100 mm"]);
-    let found = json(&desk, "a b c");
+    flown(&desk, "d", &["air.lateral=von-karman", "air.lateral_cutoff=5"]);
+    let found = json(&desk, "a b c d");
     let comparisons = found["comparisons"].as_array().unwrap();
     let reason = |i: usize| comparisons[i]["reason"].as_str().unwrap();
-    assert!(reason(0).contains("because run.seed differs"), "{}", reason(0));
-    assert!(reason(1).contains("because air.length_scale_m differs"), "{}", reason(1));
+    for (run, what) in ["run.seed", "air.length_scale", "air.lateral"].into_iter().enumerate() {
+        assert!(
+            reason(run).contains("because the turbulence differs in ") && reason(run).contains(what),
+            "{}",
+            reason(run)
+        );
+        assert_eq!(comparisons[run]["paired"].as_bool(), Some(false));
+    }
     let amplitude = &comparisons[0]["measures"]["amplitude_y_m"];
     let square = |name: &str| {
         let summary = desk.summary(name);

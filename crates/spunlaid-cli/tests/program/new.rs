@@ -201,6 +201,44 @@ fn new_writes_beams_from_a_diameter_and_all_holes() {
     }
 }
 
+/// Mass flows are of the beam, of its width, and of all beams.
+#[test]
+fn analytic_each_of_two_beams_says_what_it_gives_and_what_all_give() {
+    let desk = Desk::new();
+    success(desk.spunlaid("new --web two.toml --beams 2 --width 3.2").args(LINE));
+    let web = String::from_utf8(desk.read("two.toml")).unwrap();
+    // 1000 holes/m × 0.5 g/min = 30 kg/h from each metre.
+    let flows = "# 30 kg/h from each metre of width, 96 kg/h of this beam, 192 kg/h of all 2\n";
+    assert_eq!(web.matches(flows).count(), 2, "{web}");
+}
+
+/// What is outside of the usual range by a factor of ten or more is not written, and the unit that was probably meant
+/// is said; nearer, it is written with a warning.
+#[test]
+fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
+    let desk = Desk::new();
+    for (option, absurd, told) in [
+        ("--throughput", "0.5 g/s", "did you mean 0.5 g/min?"),
+        ("--dtex", "2 kg/m", "2 dtex?"),
+        ("--basis-weight", "20 kg/m²", "did you mean 20 g/m²?"),
+        ("--air-speed", "60000", "mm/s"),
+        ("--slot-depth", "25 m", "did you mean 25 mm?"),
+        ("--width", "3200 m", "did you mean 3200 mm"),
+        ("--distance", "500 m", "did you mean"),
+        ("--thickness", "3 m", "did you mean 3 mm"),
+    ] {
+        let kept = LINE.chunks(2).filter(|pair| pair[0] != option).flatten();
+        let mut command = desk.spunlaid("new --web line.toml");
+        let said = refusal(command.args(kept).args([option, absurd]), 1);
+        assert!(said.contains(told), "{option} {absurd}: {said}");
+        assert!(!desk.path("line.toml").exists() && !desk.path("line_air.csv").exists(), "{option}");
+    }
+    // A filament twice as fast as any that is known.
+    let mut fast = LINE.to_vec();
+    fast[3] = "3 g/min";
+    success(desk.spunlaid("new --web line.toml").args(fast));
+}
+
 /// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its
 /// grade: the files are the same, and each is said once.
 #[test]

@@ -105,7 +105,7 @@ fn the_summary_has_the_fields_that_are_promised() {
     let desk = Desk::new();
     success(&mut desk.spunlaid("run brief.toml --out r"));
     let summary = desk.summary("r");
-    let top = "schema_version spunlaid_version case elements steps replicates lost lost_fibres end_node \
+    let top = "schema_version spunlaid_version case turbulence elements steps replicates lost lost_fibres end_node \
         energy fibre step_check mesh_check performance notes";
     assert_eq!(keys(&summary), sorted(top));
     assert_eq!(summary["schema_version"], 4);

@@ -189,6 +189,17 @@ impl Dimension {
         fits.map(|unit| with_unit(&shortest(digits), unit.shown)).collect()
     }
 
+    /// The number of up to three digits that a value has in another unit and that lies between two others as it stands:
+    /// 0.5 of `0.5 kg/s` in g/min between 0.05 and 5.
+    pub fn meant_in(self, unit: &str, value: f64, [least, greatest]: [f64; 2]) -> Option<f64> {
+        let number = |own: &table::Unit| {
+            let number = value / own.scale.size();
+            let short: f64 = format!("{number:.2e}").parse().ok()?;
+            ((short / number - 1.0).abs() < 1e-6 && (least..=greatest).contains(&short)).then_some(short)
+        };
+        self.units().iter().filter(|own| own.shown != unit).find_map(number)
+    }
+
     /// Size in SI units and symbol of the unit that suits a value.
     fn unit_for(self, value: f64, decimals: usize) -> (f64, &'static str) {
         let mut best = (1.0, self.si_unit());

@@ -11,6 +11,9 @@ use spunlaid::ground::{Measured, measure};
 
 const TITLE: &str = "What the filaments do to their air";
 
+/// What is said where nothing of the way was seen.
+const NOT_SEEN: &str = "The force on the way to the belt is not known, because no filament was seen on it.";
+
 /// Share of the momentum of the air from which on the given air is far from that of the line.
 const LARGE: f64 = 0.2;
 
@@ -52,9 +55,10 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
             section = section.heading(format!("Layer {name}"));
         }
         section = section.paragraph(load_words(load)).table(Table::of_measures(OF_LOADS, load));
-        if !load.places.is_empty() {
-            section = section.table(along_way(load));
-        }
+        section = match load.places.is_empty() {
+            true => section.paragraph(NOT_SEEN),
+            false => section.table(along_way(load)),
+        };
     }
     let heat = match loads.iter().all(|(_, load)| load.heat.is_none()) {
         true => " What heat they bring is not known, because they come from no spinline.",

@@ -2,6 +2,7 @@
 
 use crate::fibre::{Note, Remark};
 use crate::ground::error::Place;
+use crate::simulation::layers::full_names::web_key;
 use crate::simulation::{LayerSpec, WebSpec};
 use std::fmt;
 
@@ -104,8 +105,14 @@ impl Implausible {
     }
 
     /// What is told of it.
-    pub(crate) fn note(&self) -> Note {
+    ///
+    /// * `is_written` – whether its key is, so that another unit may have been meant
+    pub(crate) fn note(&self, is_written: bool) -> Note {
         let Limit { key, words, unit: (unit, size), range, advice, .. } = self.limit;
+        let dimension = web_key(key).and_then(|key| key.kind.dimension()).filter(|_| is_written);
+        let meant = dimension.and_then(|dimension| dimension.meant_in(unit, self.value, *range));
+        let advice =
+            meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
         let told = format!("{} {unit}", shown(self.value / size));
         let range = match range {
             [0.0, most] => format!("{} at most", shown(*most)),
@@ -113,14 +120,15 @@ impl Implausible {
         };
         let what = Remark::doubt(format!(
             "is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}"
-        ));
+        ))
+        .outside_by(self.excess());
         Note { place: Place::Code, key: (*key).to_owned(), value: None, what }
     }
 }
 
 impl fmt::Display for Implausible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.note().fmt(f)
+        self.note(false).fmt(f)
     }
 }
 

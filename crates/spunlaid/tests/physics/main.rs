@@ -20,6 +20,7 @@ mod friction;
 mod laydown;
 mod laydown_statistics;
 mod load;
+mod melt_blowing;
 mod schemes;
 mod slack;
 mod spinline;

@@ -37,12 +37,12 @@ fn points(case: &str, key: &str, values: &[String; 2]) -> Result<Vec<Point>, Str
 /// Two values so close to each other that they share a flight if any do.
 const CLOSE: usize = 0;
 /// Others; words have further numbers.
-const FAR: usize = 1;
+pub const FAR: usize = 1;
 
 /// Pairs of values of a key, as they are written in a study: [`CLOSE`] or [`FAR`]. Of several of a kind, the
 /// first that can be run will do. They follow from the row of the table: its value in the case, its slider,
 /// its words.
-fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
+pub fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
     let written = |value: f64| match key.kind {
         Kind::Quantity(dimension, _) => format!("'{}'", dimension.exact(value)),
         _ => format!("{value:.0}"),

@@ -15,5 +15,6 @@ mod flown_tension;
 mod paper;
 mod starters;
 mod studies;
+mod turbulence_of_case;
 mod web_keys;
 mod web_studies;

@@ -98,3 +98,30 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
     assert_eq!(once, minus);
     assert!((few / twice - 1.0).abs() < 0.1, "{few} {twice}");
 }
+
+/// Charged beams advance by blocks of 16 steps, fewer than there are from one look at the momentum to the next.
+#[test]
+fn limit_a_charge_of_next_to_nothing_keeps_the_load_on_the_air() {
+    let (case, places) = (case_in("uniform"), slot(6));
+    let way = |charge| lay(&case, (&places, charge), (Isa::detect(), 2)).1.way;
+    let (plain, charged) = (way(None), way(Some(&charge(1e-12, &places))));
+    assert!(plain.len() > 10 && plain.len() == charged.len(), "{} {}", plain.len(), charged.len());
+    for (plain, charged) in plain.iter().zip(&charged) {
+        // The flight of charged ones ends at another step, so one has some looks more.
+        let error = plain.standard_error.unwrap().hypot(charged.standard_error.unwrap());
+        assert!((plain.force - charged.force).abs() < 2.0 * error, "{plain:?} {charged:?}");
+    }
+}
+
+/// The load is known however many steps an element takes, also where it takes more than are flown at a time.
+#[test]
+fn limit_the_load_on_the_air_does_not_depend_on_the_steps_of_an_element() {
+    let (case, places) = (case_in("uniform"), slot(3));
+    let [coarse, fine] = [20.0, 260.0].map(|steps| {
+        let mut case = case.clone();
+        case.set_time_step(case.run.time_step * case.line.unwrap().steps_per_element as f64 / steps);
+        assert_eq!(case.line.unwrap().steps_per_element as f64, steps);
+        lay(&case, (&places, None), (Isa::detect(), 2)).1.way.last().unwrap().force
+    });
+    assert!((fine / coarse - 1.0).abs() < 0.2, "{fine} {coarse}");
+}

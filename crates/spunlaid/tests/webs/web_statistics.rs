@@ -97,6 +97,19 @@ fn a_wave_is_found_at_its_length_and_direction() {
     );
 }
 
+/// A tile in which nothing lies has no texture, and does not blur that of the others.
+#[test]
+fn analytic_the_texture_of_a_sparse_sheet_is_that_of_where_it_lies() {
+    let lies = |row: usize, column: usize| row < 64 && column < 64;
+    let sparse = map(256, 512, true, |row, column| match lies(row, column) {
+        true => 0.2 * (TAU * row as f64 / 8.0).sin(),
+        false => -1.0,
+    });
+    let texture = Clouds::measure(&sparse).expect("clouds").texture_md();
+    // As above; a single tile has no error.
+    assert!(texture.mean < 0.03 && texture.standard_error.is_none(), "{texture:?}");
+}
+
 #[test]
 fn the_parts_of_white_noise_are_the_areas_of_their_rings() {
     let field = noise(1, [512, 512], 1);

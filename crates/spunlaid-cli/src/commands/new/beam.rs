@@ -30,7 +30,13 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         }
     };
     let holes = given.holes.map(|holes| format!("{holes} holes / {}; ", length(given.width.value)));
+    // Of the whole width [kg/h].
+    let of_width = |flow: f64| format!("{} kg/h", significant(flow * given.width.value * 3600.0, 4));
     let of_beam = flow / given.beams as f64;
+    let in_all = match given.beams {
+        1 => format!("{} in all", of_width(flow)),
+        beams => format!("{} of this beam, {} of all {beams}", of_width(of_beam), of_width(flow)),
+    };
     format!(
         include_str!("beam.toml"),
         header = header,
@@ -43,7 +49,7 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         per_metre = holes_per_metre,
         holes = holes.unwrap_or_default(),
         flow = significant(of_beam * 3600.0, 4),
-        flow_in_all = significant(of_beam * given.width.value * 3600.0, 4),
+        in_all = in_all,
         depth = length(value(&given.slot_depth).unwrap_or(DEPTH)),
         guess = if given.slot_depth.is_none() { ", a guess" } else { "" },
     )

@@ -12,7 +12,7 @@ use crate::{perform_words, say};
 use ask::ask;
 use line::NewLine;
 use spunlaid::ground::{Error, Fault};
-use spunlaid::input::{read_web, starter_case, starter_case_of_fed, starter_study};
+use spunlaid::input::{WebFile, read_web, starter_case, starter_case_of_fed, starter_study};
 use std::fs::remove_file;
 use std::io::stdin;
 use std::path::Path;
@@ -51,8 +51,8 @@ fn web(path: &Path, numbers: &LineNumbers) -> Result<String, Failure> {
     let air = format!("{name}_air.csv");
     let (table, text, shown) = (path.with_file_name(&air), text::file(&line, &name, &air), path.display());
     write_new(&table, &text::air(&line))?;
-    // What is written can be laid, or nothing is written.
-    let read = read_web((&text, &shown.to_string()), &[]);
+    // What is written can be laid and is a line as there may be, or nothing is written.
+    let read = read_web((&text, &shown.to_string()), &[]).and_then(WebFile::within_reason);
     read.and_then(|_| write_new(path, &text)).inspect_err(|_| drop(remove_file(&table)))?;
     line.warning().iter().for_each(|warning| say::warning(warning));
     let then = format!("spunlaid check {shown}, spunlaid web {shown}");

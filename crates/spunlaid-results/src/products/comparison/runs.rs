@@ -12,21 +12,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What two runs must have in common for their replicates to fly in the same turbulence: where it stands in
-/// `summary.json`.
-const OF_TURBULENCE: [&str; 10] = [
-    "/case/run/seed",
-    "/case/fibre/length_m",
-    "/case/air/length_scale_m",
-    "/case/air/cutoff_frequency_hz",
-    "/case/air/harmonics",
-    "/case/air/spectrum",
-    "/case/air/eddies",
-    "/case/air/decay_time_s",
-    "/case/air/record",
-    "/elements",
-];
-
 /// Every run against the first, and their curves in one picture each.
 pub(super) fn compared(folders: &[PathBuf], names: Vec<String>) -> Result<Found, Failure> {
     let runs = folders.iter().zip(names).map(|(folder, name)| ComparedRun::read(folder, name));
@@ -37,7 +22,7 @@ pub(super) fn compared(folders: &[PathBuf], names: Vec<String>) -> Result<Found,
 }
 
 fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
-    let differs = OF_TURBULENCE.iter().find(|path| first.at(path) != other.at(path));
+    let differs = first.turbulence_mismatch(other);
     let pairs = differs.is_none().then(|| first.replicates().min(other.replicates()) as usize);
     let measure = |measure: &&'static FibreMeasure| {
         let values_of_run = |run: &ComparedRun| run.values(measure.group.name, measure.column);
@@ -64,11 +49,10 @@ fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
         (Some(pairs), _) => format!(
             "paired by replicate, because both have the same seed and the same eddies ({pairs} pairs)"
         ),
-        (None, Some(path)) => {
-            let key = path.trim_start_matches("/case/").trim_start_matches('/').replace('/', ".");
-            format!("as independent samples, because {key} differs (Welch’s t)")
-        }
-        (None, None) => "as independent samples (Welch’s t)".to_owned(),
+        (None, what) => format!(
+            "as independent samples, because the turbulence differs in {} (Welch’s t)",
+            what.unwrap_or_default()
+        ),
     };
     let measures = MEASURES.iter().filter_map(measure).collect();
     let errors = "Mean ± one standard error of the mean over the replicates.";
@@ -103,9 +87,14 @@ impl ComparedRun {
         self.summary["replicates"].as_u64().unwrap_or(0)
     }
 
-    /// A value by its path in `summary.json`.
-    fn at(&self, path: &str) -> Option<&Json> {
-        self.summary.pointer(path)
+    /// In words, the first thing in which its turbulence differs from that of another run.
+    fn turbulence_mismatch<'a>(&'a self, other: &'a Self) -> Option<&'a str> {
+        let parts = |run: &'a Self| run.summary["turbulence"].as_object();
+        let (Some(own), Some(others)) = (parts(self), parts(other)) else {
+            return Some("something that an older folder does not tell");
+        };
+        let differs = |what: &&String| own.get(*what) != others.get(*what);
+        own.keys().chain(others.keys()).find(differs).map(String::as_str)
     }
 
     /// The values of the replicates of a measure; NaN where there is none.

@@ -6,7 +6,7 @@ use crate::files::origin::Performance;
 use crate::files::versioned_json;
 use crate::products::load;
 use crate::products::spinline::files as spinline;
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json, json};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::case::keys::{Content, Value};
@@ -24,6 +24,8 @@ pub fn summary(
 ) -> String {
     let about = json!({
         "case": resolved(case),
+        // By what it depends on: runs that agree in all of it flew in the same eddies.
+        "turbulence": case.turbulence().into_iter().map(|(what, sum)| (what.to_owned(), sum.into())).collect::<Map<_, _>>(),
         // Of a case that is fed from a spinline, and what the filaments do to their air where it has a curtain.
         "spinline": spinline::part_of_case(case),
         "curtain": load::load_of_spinline(case, &results.way()).as_ref().map(load::summary),

@@ -189,11 +189,12 @@ fn verdict(findings: &Findings) -> Vec<String> {
         millimetres(SEEN[1]),
         per_cent(index, error.filter(|_| findings.guess.is_none()))
     ));
-    sentences.push(format!(
+    let of_texture = format!(
         "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine \
         direction, 0 all across.",
         plus_minus(texture.mean, texture.standard_error)
-    ));
+    );
+    sentences.extend(texture.mean.is_finite().then_some(of_texture));
     sentences
 }
 

@@ -1,8 +1,9 @@
 //! How the turbulence varies along a fibre: which elements feel the same eddy.
 
-use super::{Air, Spectrum};
+use super::spectrum::harmonics_up_to;
+use super::{Air, Spectrum, SpectrumShape};
 use crate::air::field::Hint;
-use crate::ground::Vec3;
+use crate::ground::{Bits, Vec3};
 
 /// How the turbulence at one place of the fibre is related to that at the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,7 +31,7 @@ impl EddyModel {
 }
 
 /// The eddy of each element of a fibre.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Eddies {
     index_of_element: Vec<u32>,
     count: usize,
@@ -130,6 +131,18 @@ impl EddyTurbulence {
         let numbers =
             |turbulence: &Self| (turbulence.rms, turbulence.cutoff_frequency, turbulence.integral_time);
         numbers(self) == numbers(other)
+    }
+
+    /// The numbers on which its signal over the rms depends beside the spectrum, or the records, of its air.
+    pub(crate) fn pattern(&self, air: &Air) -> [Bits; 4] {
+        let Self { mean: _, rms: _, cutoff_frequency, integral_time, carried, decay_times } = *self;
+        let carried = carried.unwrap_or(f64::NAN);
+        if !air.records.is_empty() {
+            return [0.0, 0.0, carried, 0.0].map(Bits::from);
+        }
+        let harmonics = harmonics_up_to(cutoff_frequency, 1.0 / air.repeat_time()) as f64;
+        let integral_time = if air.spectrum == SpectrumShape::VonKarman { integral_time } else { 0.0 };
+        [harmonics, integral_time, carried, decay_times].map(Bits::from)
     }
 
     /// Energy spectrum of a component of its signal. The spacing of the harmonics is the same in every eddy, so

@@ -59,6 +59,11 @@ pub(super) fn linear(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
     Some(if x1 > x0 { y0 + (y1 - y0) * ((x - x0) / (x1 - x0)) } else { y0 })
 }
 
+/// Number of harmonics up to a cut-off frequency; at least one.
+pub(super) fn harmonics_up_to(cutoff: f64, spacing: f64) -> usize {
+    ((cutoff / spacing).round() as usize).max(1)
+}
+
 /// One-sided energy spectrum `E(ω)` of a velocity component. It is zero above the cut-off frequency.
 ///
 /// `∫ E dω = u²`; if the shape is not flat, the sum over the harmonics replaces the integral.
@@ -98,9 +103,9 @@ impl<'a> Spectrum<'a> {
         spectrum
     }
 
-    /// Number of harmonics up to the cut-off; at least one.
+    /// Number of harmonics up to the cut-off.
     fn harmonics(&self) -> usize {
-        ((self.cutoff / self.spacing).round() as usize).max(1)
+        harmonics_up_to(self.cutoff, self.spacing)
     }
 
     fn frequency(&self, n: usize) -> f64 {

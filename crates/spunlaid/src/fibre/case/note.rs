@@ -12,9 +12,14 @@ pub type Note = Finding<Remark>;
 pub struct Remark {
     text: String,
     weight: Weight,
+    /// How many times outside of what is usual its number is; 0 where that is not known.
+    excess: f64,
     /// Where in the program it arises: all remarks from there are of one kind.
     origin: &'static Location<'static>,
 }
+
+/// From how many times outside of what is usual on a number is taken for a slip.
+const ABSURD: f64 = 10.0;
 
 /// How much a remark matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -52,7 +57,22 @@ impl Remark {
 
     #[track_caller]
     fn new(weight: Weight, text: String) -> Self {
-        Self { text, weight, origin: Location::caller() }
+        Self { text, weight, excess: 0.0, origin: Location::caller() }
+    }
+
+    /// Whether its number is outside of what is usual.
+    pub(crate) fn is_unusual(&self) -> bool {
+        self.excess > 0.0
+    }
+
+    /// The same of a number that is so many times outside of what is usual.
+    pub(crate) fn outside_by(self, excess: f64) -> Self {
+        Self { excess, ..self }
+    }
+
+    /// Whether its number is outside of what is usual by a factor of ten or more, as after a slip of a unit.
+    pub(crate) fn is_absurd(&self) -> bool {
+        self.excess >= ABSURD
     }
 
     /// Whether this is a warning: the results may mislead. Otherwise it is a note, for example on rounding.

@@ -26,7 +26,13 @@ pub(crate) fn unusual(dimension: Dimension, usual: (f64, f64), value: f64) -> Op
             [more @ .., last] => format!("did you mean {} or {last}?", more.join(", ")),
         };
         Remark::warning(format!("is outside the usual range, {}; {advice}", range(dimension, usual)))
+            .outside_by(excess(usual, value))
     })
+}
+
+/// How many times outside a value is.
+fn excess((least, greatest): (f64, f64), value: f64) -> f64 {
+    (least / value.abs()).max(value.abs() / greatest)
 }
 
 fn is_unusual((least, greatest): (f64, f64), value: f64) -> bool {
@@ -60,7 +66,7 @@ impl Case {
                         "means that the rms of the fluctuation is {shown} times the mean velocity; if {shown} % was \
                          meant, write \"{shown} %\""
                     );
-                    notes.push(finding(key.name, value, Remark::warning(text)));
+                    notes.push(finding(key.name, value, Remark::warning(text).outside_by(value)));
                 }
                 None => notes.extend(self.unusual(key)),
             }
@@ -95,7 +101,8 @@ impl Case {
                 key.kind.pretty(&Value::Number(value)),
                 range(dimension, usual)
             );
-            return is_unusual(usual, value).then(|| self.note_of_file(Remark::warning(text)))?;
+            let remark = Remark::warning(text).outside_by(excess(usual, value));
+            return is_unusual(usual, value).then(|| self.note_of_file(remark))?;
         }
         Some(finding(key.name, value, unusual(dimension, usual, value)?))
     }
@@ -131,19 +138,21 @@ impl Case {
         let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
         let speed = places.map(|at| air.local(at, &mut hint).velocity.norm()).fold(0.0, f64::max);
         let density = if OF_AIR.contains(&air.density) { air.density } else { 1.204 };
-        let mach = speed / (SPECIFIC_HEATS * ATMOSPHERE / density).sqrt();
-        if mach <= SLOW {
+        let mach_number = speed / (SPECIFIC_HEATS * ATMOSPHERE / density).sqrt();
+        if mach_number <= SLOW {
             return None;
         }
         // A thousandth of it is the speed of a flow: 1 to 100 m/s.
-        let of_millimetres = mach > 3.0 && (1.0..=100.0).contains(&(speed / 1000.0));
+        let of_millimetres = mach_number > 3.0 && (1.0..=100.0).contains(&(speed / 1000.0));
         let advice = |text| if of_millimetres { text } else { "" };
-        let [shown, mach] = [Dimension::Velocity.pretty_to(speed, 3), Dimension::Ratio.pretty_to(mach, 2)];
+        let (shown, mach) =
+            (Dimension::Velocity.pretty_to(speed, 3), Dimension::Ratio.pretty_to(mach_number, 2));
         let remark = |advice| {
             Remark::warning(format!(
                 "makes the air as fast as {shown}, which is Mach {mach}: the model's air has a constant density, as \
                  air has up to about Mach {SLOW}{advice}"
             ))
+            .outside_by(mach_number / SLOW)
         };
         let note = match (&air.flow, air.records.is_empty()) {
             (Flow::Uniform, true) => {
@@ -179,10 +188,11 @@ impl Case {
             Flow::Profile(_) => "if it is in per cent, call the column turbulence_intensity_percent",
             Flow::Uniform => "check the mean velocity",
         };
-        let intensity = Dimension::Ratio.pretty_to(intensity, 2);
-        self.note_of_file(Remark::warning(format!(
-            "makes the rms of the fluctuation {intensity} times the mean velocity along the fibre; {advice}"
-        )))
+        let shown = Dimension::Ratio.pretty_to(intensity, 2);
+        let text = format!(
+            "makes the rms of the fluctuation {shown} times the mean velocity along the fibre; {advice}"
+        );
+        self.note_of_file(Remark::warning(text).outside_by(intensity))
     }
 
     /// A profile whose distances seem to have another unit.

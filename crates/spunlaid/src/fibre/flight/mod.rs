@@ -20,6 +20,7 @@
 //! charge   the electric field of charged fibres, and where their charge is
 //! guard    which fibres are lost
 //! common   what fibres of one flight must have in common
+//! turbulence  what its turbulence is drawn from, which tells it from that of another flight
 //! start    flights at their start, straight and at rest
 //! steps    the steps, and what is seen between them
 //! set      keys of the case that change in flight
@@ -30,6 +31,7 @@ mod guard;
 mod set;
 mod start;
 mod steps;
+mod turbulence;
 
 use crate::air::{Atmosphere, Eddies, EddyField, Stream, StreamKey};
 use crate::fibre::case::Case;
@@ -69,8 +71,10 @@ impl<'a> Job<'a> {
         Some(Feed { line: self.case.line?, fibre, turn })
     }
 
-    /// The source of its turbulence.
-    pub(crate) fn stream(&self, eddies: &Eddies) -> Stream {
+    /// The source of its turbulence, where that is the same everywhere across.
+    ///
+    /// * `eddies` – along a fibre of fixed length; a fed one has those of its stations
+    pub fn stream(&self, eddies: &Eddies) -> Stream {
         let key = StreamKey { seed: self.case.run.seed, replicate: self.replicate };
         let eddies = match self.case.stations() {
             Some(stations) => self.case.air.turbulence_at(&stations),

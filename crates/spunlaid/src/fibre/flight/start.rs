@@ -1,10 +1,8 @@
 //! Flights at their start: what may fly together, and how the fibres and the air around them begin.
 
+use super::turbulence::Drawing;
 use super::{EndNodeStatistics, Entry, Flight, Job, Start, SurroundingRun};
-use crate::air::{
-    AirInSpace, Atmosphere, Eddies, EddyField, EddyWind, Sampling, Stations, StreamKey, Surroundings, Way,
-    Wind,
-};
+use crate::air::{AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Way, Wind};
 use crate::fibre::body::Fibre;
 use crate::fibre::case::Case;
 use crate::fibre::chain::work::WorkDone;
@@ -189,8 +187,8 @@ pub(super) fn surrounded(
     isa: Isa,
     air: SurroundingRun<'_>,
 ) -> Result<Atmosphere, Error> {
-    let Common { way, every, chain, .. } = common;
-    if let Some(cutoff) = common.lateral_cutoff {
+    let Common { way, every, chain, turbulence, .. } = common;
+    if let Some(cutoff) = turbulence.lateral_cutoff {
         let every = every.unwrap_or_else(|| way.as_ref().map_or(1, |way| way.every));
         let mut last: Option<(&Job<'_>, Arc<EddyField>)> = None;
         let lanes = jobs.iter().map(|job| {
@@ -220,13 +218,13 @@ pub(super) fn surrounded(
         return Ok(Atmosphere::Space(AirInSpace::new(&lanes, chain.elements, every)));
     }
     // Eddies of finer elements, if the air is that of finer elements.
-    let eddies = if way.is_some() { common.eddies.clone() } else { air.case.eddies() };
+    let eddies = if way.is_some() { turbulence.eddies.clone() } else { air.case.eddies() };
     let elements = air.case.fibre.elements;
     let streams = jobs.map(|job| {
         let case = Case { fibre: Fibre { elements, ..job.case.fibre }, ..job.case.clone() };
         Job { case: &case, ..*job }.stream(&eddies)
     });
-    let wind = Wind::sampled(isa, common.wind.clone().with_eddies(eddies.count()), streams, air.horizon);
+    let wind = Wind::sampled(isa, turbulence.wind.clone().with_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
         let air = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
         let lanes = PerLane::new(jobs.iter().filter_map(air).collect())?;
@@ -275,10 +273,7 @@ shared! {
         clock: Clock,
         scheme: Scheme = "run.scheme",
         way: Option<Way>,
-        eddies: Eddies = "which element lies in which eddy (air.length_scale, air.eddies)",
-        wind: Sampling,
-        /// Of turbulence that differs across the flow, `k_max L_T`.
-        lateral_cutoff: Option<Bits> = "how the turbulence differs across the flow (air.lateral, air.lateral_cutoff)",
+        turbulence: Drawing,
         /// Steps from one look at the flow around a fibre of fixed length to the next; none if the air is the
         /// same everywhere.
         every: Option<u64> = "how often the flow around the fibre is looked up (air.length_scale, \
@@ -291,7 +286,6 @@ impl Common {
         let Case { air, run, line, .. } = case;
         let looks = || case.steps_between_looks();
         let stations = case.stations();
-        let eddies = stations.as_ref().map_or_else(|| case.eddies(), |stations| stations.eddies());
         Self {
             chain: chain::Common::new(&case.strand(), line.as_ref()),
             clock: Clock {
@@ -302,9 +296,7 @@ impl Common {
             },
             scheme: run.scheme,
             way: stations.map(|stations| Way::from_air(air, &stations, looks())),
-            wind: Sampling::new(air, eddies.count()),
-            eddies,
-            lateral_cutoff: air.field_cutoff().map(Bits::from),
+            turbulence: Drawing::from_case(case),
             every: (line.is_none() && !air.is_uniform()).then(looks),
         }
     }

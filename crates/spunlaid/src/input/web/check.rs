@@ -143,11 +143,10 @@ impl Reading<'_> {
     /// Notes numbers that spunbond lines do not have, where they are written or else of the whole file.
     pub(super) fn doubt_numbers(&mut self, web: &WebSpec) {
         for found in implausible(web) {
-            let note = found.note();
-            let full = self.prefixes.get(found.layer).map(|prefix| format!("{prefix}{}", note.key));
+            let full = self.prefixes.get(found.layer).map(|prefix| format!("{prefix}{}", found.limit.key));
             let note = match full.filter(|full| self.is_written(full)) {
-                Some(key) => self.key_values.placed(Note { key, ..note }),
-                None => Note { place: self.key_values.whole(), ..note },
+                Some(key) => self.key_values.placed(Note { key, ..found.note(true) }),
+                None => Note { place: self.key_values.whole(), ..found.note(false) },
             };
             self.note(vec![note]);
         }

@@ -21,8 +21,8 @@ pub(super) use write::write_web_to_vary;
 use super::overrides::no_entry;
 use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, Resources, Source, document, file};
-use crate::fibre::Note;
 use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
+use crate::fibre::{Note, Remark};
 use crate::ground::{Error, Fault, FileKind, Problem};
 use crate::simulation::WebSpec;
 use crate::simulation::layers::keys::{WEB, WEB_FILE};
@@ -40,6 +40,24 @@ pub struct WebFile {
     pub notes: Vec<Note>,
     /// The file with every default written out.
     pub text: String,
+}
+
+impl WebFile {
+    /// The same, if it can be the file of a line.
+    ///
+    /// A file that somebody has is read with warnings: a study, a fit or a test may go far on purpose. This is for one
+    /// that is made of numbers that somebody has typed.
+    ///
+    /// # Errors
+    /// If a number is outside of what is usual by a factor of ten or more; it says which unit was probably meant.
+    pub fn within_reason(self) -> Result<Self, Error> {
+        if !self.notes.iter().any(|note| note.what.is_absurd()) {
+            return Ok(self);
+        }
+        // One that is less far outside may be why.
+        let unusual = self.notes.into_iter().filter(|note| note.what.is_unusual());
+        Err(unusual.map(Remark::problem).collect::<Vec<Problem>>().into())
+    }
 }
 
 /// Reads and checks a web, and the cases that it names.

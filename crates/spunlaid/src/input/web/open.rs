@@ -86,13 +86,12 @@ impl OpenWeb<'_> {
         }
         let Reading { mut key_values, notes, .. } = reading;
         if key_values.problems.is_empty() {
-            if let Some(problem) = web.air_beyond_memory() {
-                return Err(vec![key_values.placed(problem)].into());
-            }
-            return Ok((web, sorted(notes)));
+            let Some(problem) = web.air_beyond_memory() else { return Ok((web, sorted(notes))) };
+            key_values.problems.push(key_values.placed(problem));
         }
         // Unusual values may be why the web cannot be laid.
-        for note in unusual {
+        let absurd = notes.into_iter().filter(|note| note.what.is_absurd());
+        for note in absurd.chain(unusual) {
             if !key_values.problems.iter().any(|problem| problem.key == note.key) {
                 key_values.problems.push(Remark::problem(note));
             }

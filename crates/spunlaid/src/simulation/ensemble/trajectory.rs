@@ -218,7 +218,7 @@ fn fly_until_lost(
             computing.done.fetch_sub(step * jobs.len() as u64, Ordering::Relaxed);
             let good_steps = step - clock.output_steps.min(step);
             return Err(match error {
-                Error::Diverged { .. } => divergence(jobs, computing.isa, air, good_steps)?,
+                Error::Diverged { .. } => divergence(jobs, air, good_steps, computing)?,
                 adrift => FlightEnd::Lost { lane, error: adrift },
             });
         }
@@ -309,19 +309,51 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     Ok((started.elapsed().as_secs_f64() - time_before) / (done - done_before) as f64)
 }
 
+/// Steps that are repeated between two looks at whether to stop.
+const REPEATED: u64 = 1024;
+
 /// Finds where a fibre is first seen to be lost: repeats the flight, step by step after the last good instant.
 fn divergence(
     jobs: &[Job<'_>],
-    isa: Isa,
     air: SurroundingRun<'_>,
     good_steps: u64,
+    by: Control<'_>,
 ) -> Result<FlightEnd, Error> {
-    let mut flight = Flight::in_air(jobs, isa, air)?;
-    flight.advance(good_steps);
+    let mut flight = Flight::in_air(jobs, by.isa, air)?;
+    let mut left = good_steps;
     loop {
-        if let Some((lane, error)) = flight.lost() {
+        if by.stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted);
+        }
+        if let Some((lane, error)) = flight.lost().filter(|_| left == 0) {
             return Ok(FlightEnd::Lost { lane, error });
         }
-        flight.advance(1);
+        let steps = left.clamp(1, REPEATED);
+        flight.advance(steps);
+        left = left.saturating_sub(steps);
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::air::Air;
+    use crate::fibre::Fibre;
+    use std::sync::atomic::{AtomicBool, AtomicU64};
+
+    #[test]
+    fn a_lost_fibre_is_sought_until_somebody_stops_it() {
+        let mut case = Case::unset();
+        case.fibre = Fibre { diameter: 50e-6, density: 950.0, youngs_modulus: 2e9, ..Fibre::UNKNOWN };
+        case.fibre.span(1.0, 0.05);
+        case.air = Air::uniform(10.0, 0.1, 0.05, 100.0);
+        (case.run.time_step, case.run.steps, case.run.output_steps) = (20e-6, 10_000, 1000);
+        (case.run.gravity, case.run.damping) = (9.81, 0.0);
+        // This fibre is never lost.
+        let (stop, done) = (AtomicBool::new(true), AtomicU64::new(0));
+        let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        let found = divergence(&[Job::new(&case, 0)], SurroundingRun::run(&case), 5000, by);
+        assert!(matches!(found, Err(Error::Interrupted)), "{:?}", found.is_ok());
     }
 }

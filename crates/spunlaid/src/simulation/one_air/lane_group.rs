@@ -19,6 +19,12 @@ const STEPS_UNSEEN: u64 = 256;
 /// Fewest steps between two looks at the momentum of the filaments, each of which takes about as long as a step.
 const LEAST_BETWEEN: u64 = 16;
 
+/// Steps from one look to the next, without a common divisor with those to a birth: births are seen at all phases.
+fn steps_between_looks(to_birth: u64) -> u64 {
+    let has_none = |steps: &u64| (2..=*steps).all(|divisor| steps % divisor > 0 || to_birth % divisor > 0);
+    (LEAST_BETWEEN + 1..).find(has_none).unwrap_or(LEAST_BETWEEN)
+}
+
 /// The filaments of each pack: neighbours read the same part of the air.
 pub(super) fn side_by_side(places: &[Inlet]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
@@ -35,8 +41,9 @@ pub(super) struct Pack {
     filaments: Vec<Filament>,
     balance: StretchedBalance,
     spin_up: f64,
-    /// Number of steps from one look at the momentum of the filaments to the next.
+    /// Number of steps from one look at the momentum of the filaments to the next, and to the next one from now on.
     steps_between: u64,
+    until_look: u64,
 }
 
 impl Pack {
@@ -53,14 +60,14 @@ impl Pack {
         let filament =
             |number: &usize| Filament::new(*number, beam.places[*number], keeps_all || beam.keeps(*number));
         let flight = Flight::in_air(&jobs, isa, SurroundingRun { field, ..SurroundingRun::run(beam.case) })?;
-        // With no common divisor, births are seen at all of their phases.
-        let to_birth = beam.case.line.map_or(1, |line| line.steps_per_element.max(1));
+        let steps_between = steps_between_looks(beam.case.line.map_or(1, |line| line.steps_per_element));
         Ok(Self {
             flight,
             filaments: numbers.iter().map(filament).collect(),
             balance: StretchedBalance::new(beam.case),
             spin_up: beam.case.run.spin_up(),
-            steps_between: LEAST_BETWEEN.div_ceil(to_birth) * to_birth + 1,
+            steps_between,
+            until_look: steps_between,
         })
     }
 
@@ -104,16 +111,18 @@ impl Pack {
         reach
     }
 
-    /// Advances all filaments, and looks at their momentum in between.
+    /// Advances all filaments, and looks at their momentum in between; however few steps that are, the looks are as far
+    /// apart.
     fn advance_and_look(&mut self, steps: u64) {
         let mut left = steps;
         while left > 0 {
-            let now = left.min(self.steps_between);
+            let now = left.min(self.until_look);
             self.flight.advance(now);
-            left -= now;
-            if now < self.steps_between {
+            (left, self.until_look) = (left - now, self.until_look - now);
+            if self.until_look > 0 {
                 continue;
             }
+            self.until_look = self.steps_between;
             let time = self.flight.time() - self.spin_up;
             let tension = self.flight.chain().tension();
             let flies =

@@ -172,7 +172,8 @@ impl<'a> SharedAir<'a> {
                 self.advance(&groups, &mut flying, by)?;
             }
             spent.in_parallel += begun.elapsed();
-            until.get_or_insert(groups.first().map_or(0.0, |group| group.time * group.pace));
+            // Beams that have lost too many do not say for how long the others fly.
+            until = until.or(groups.first().map(|group| group.time * group.pace));
         }
         spent.whole = started.elapsed();
         let paces = self.airs.iter().map(|of_beam| self.pace(of_beam.maker) * of_beam.pace);
@@ -333,4 +334,44 @@ fn widening(air: &Air, distance: f64) -> f64 {
     let mut hint = Hint::default();
     let [inlet, belt] = [0.0, distance].map(|x| air.local(Vec3::new(x, 0.0, 0.0), &mut hint).velocity.x);
     if belt > 0.0 { (inlet / belt).max(1.0) } else { 1.0 }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::fibre::chain::Scheme;
+    use crate::fibre::{Case, Fibre, Line, Root};
+    use crate::ground::Isa;
+    use crate::ground::place::Inlet;
+    use std::sync::atomic::{AtomicBool, AtomicU64};
+
+    /// A line with a fibre of this stiffness [Pa].
+    fn line(youngs_modulus: f64) -> Case {
+        let mut case = Case::unset();
+        case.fibre =
+            Fibre { diameter: 18e-6, density: 910.0, youngs_modulus, root: Root::Clamped, ..Fibre::UNKNOWN };
+        case.fibre.span(0.1, 4e-3);
+        let (feed_speed, belt_speed, kept_length) = (50.0, 3.0, 0.03);
+        let line = Line { feed_speed, distance: 0.1, belt_speed, kept_length, ..Line::UNKNOWN };
+        case.line = Some(Line { steps_per_element: 2, ..line });
+        case.air = Air::uniform(60.0, 0.1, 0.016, 500.0);
+        (case.run.time_step, case.run.steps, case.run.output_steps) = (40e-6, 5000, 5);
+        case.run.spin_up_steps = 250;
+        (case.run.scheme, case.run.gravity, case.run.damping) = (Scheme::ImplicitTension, 9.81, 0.0);
+        case
+    }
+
+    /// A fibre of no stiffness does not fly, and so the first beam is not there to say for how long the next one does.
+    #[test]
+    fn beams_that_fly_after_one_that_does_not_go_on_lay_their_sheet() {
+        let (lost, good, sheet) = (line(0.0), line(2e9), Sheet::new(24e-3, 32e-3, 1e-3));
+        let places: Vec<Inlet> = (0..4).map(|i| Inlet { y: 0.0, z: 6e-3 * f64::from(i) }).collect();
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
+        let beams = [Beam::new(&lost, &places), Beam::new(&good, &places)];
+        // One after the other: there is no memory for two airs.
+        let found = fly_abreast(&beams, (&sheet, -1.0), by).unwrap();
+        assert!(found[0].is_err() && found[1].as_ref().unwrap().back.is_finite(), "{found:?}");
+    }
 }

@@ -22,7 +22,7 @@ pub struct Clouds {
     cell: f64,
     /// Variance of each tile by wave number, any direction; entry r holds waves from `side/(r + 1)` to `side/r` cells.
     tiles: Vec<Vec<f64>>,
-    /// Of each tile, the part of the variance of short waves whose crests lie along the machine direction.
+    /// Of each tile that has any, the part of the variance of short waves whose crests lie along the machine direction.
     along: Vec<f64>,
     /// Mean variance by wave number in cross and in machine direction, one-sided.
     directions: [Vec<f64>; 2],
@@ -43,11 +43,12 @@ struct Tile {
     powers: Powers,
     /// As an entry of [`Clouds::tiles`] and of [`Clouds::along`].
     radial: Vec<f64>,
-    along: f64,
+    along: Option<f64>,
 }
 
 impl Tile {
-    fn from_powers(powers: Powers, side: usize) -> Self {
+    /// * `is_flat` – whether all of its cells are equal, so that its waves are those of the window and of rounding
+    fn from_powers(powers: Powers, side: usize, is_flat: bool) -> Self {
         let mut radial = vec![0.0; side];
         let (mut short, mut along) = (0.0, 0.0);
         for (j, i) in powers.numbers().chain([(0, 0)]) {
@@ -62,7 +63,7 @@ impl Tile {
                 along += variance * (cd * cd) as f64 / squared;
             }
         }
-        Self { powers, radial, along: along / short }
+        Self { powers, radial, along: (!is_flat && short > 0.0).then(|| along / short) }
     }
 }
 
@@ -145,7 +146,9 @@ impl Clouds {
             let value = |i: usize, j: usize| {
                 (f64::from(map.row(row + i)[column + j]) / mean - 1.0) * window[i] * window[j]
             };
-            Tile::from_powers(Powers::new(side, side, 1, value), side)
+            let cells = || (row..row + side).flat_map(|row| &map.row(row)[column..column + side]);
+            let is_flat = cells().all(|cell| *cell == map.row(row)[column]);
+            Tile::from_powers(Powers::new(side, side, 1, value), side, is_flat)
         };
         // As many at a time as there are threads, because a tile takes megabytes.
         for some in tiles.chunks(threads.max(1)) {
@@ -163,7 +166,7 @@ impl Clouds {
             self.directions[1][i.unsigned_abs() as usize] += variance;
         }
         self.tiles.push(tile.radial);
-        self.along.push(tile.along);
+        self.along.extend(tile.along);
     }
 
     /// Longest wave that is told of: a quarter of the sheet's shorter side [m].
@@ -251,7 +254,7 @@ impl Clouds {
     }
 
     /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to
-    /// sixteen cells, ½ without orientation.
+    /// sixteen cells, ½ without orientation. It is NaN where no part of the sheet has such waves.
     pub fn texture_md(&self) -> Estimate {
         Estimate::new(self.along.clone())
     }

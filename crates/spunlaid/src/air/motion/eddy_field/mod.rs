@@ -108,6 +108,13 @@ impl EddyField {
         Self::in_room(air, &Room::alone(distance, extent), cutoff, key)
     }
 
+    /// What the pattern of a field follows from beside spectrum, cut-off and key, as a text.
+    ///
+    /// * as of [`EddyField::new`]
+    pub(crate) fn pattern(air: &Air, distance: f64, extent: Extent) -> String {
+        format!("{:?} {extent:?}", EddyPath::new(air, distance))
+    }
+
     /// A field that is as long and as wide as a room, and has as many generations.
     ///
     /// * `cutoff`, `key` – as of [`EddyField::new`]

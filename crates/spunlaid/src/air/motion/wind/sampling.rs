@@ -5,6 +5,7 @@ use crate::ground::random::stream;
 use crate::ground::{Bits, Error, Fault, PerLane};
 use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;
+use std::fmt;
 use std::ops::Deref;
 
 shared! {
@@ -18,13 +19,23 @@ shared! {
 }
 
 impl Sampling {
+    /// No wind is sampled in a field of eddies.
+    pub(crate) fn none() -> Self {
+        Self { eddies: 0, cutoff_frequency: Bits::from(0.0), harmonics: 0, records: Vec::new() }
+    }
+
     /// * `eddies` – number of eddies along the fibre
     pub(crate) fn new(air: &Air, eddies: usize) -> Self {
-        Self {
-            eddies,
-            cutoff_frequency: air.cutoff_frequency.into(),
-            harmonics: air.harmonics,
-            records: air.records.iter().cloned().map(Recording).collect(),
+        let records: Vec<_> = air.records.iter().cloned().map(Recording).collect();
+        match records.is_empty() {
+            true => Self {
+                eddies,
+                cutoff_frequency: air.cutoff_frequency.into(),
+                harmonics: air.harmonics,
+                records,
+            },
+            // No harmonics are drawn.
+            false => Self { eddies, records, ..Self::none() },
         }
     }
 
@@ -56,14 +67,20 @@ impl Sampling {
 }
 
 /// A record; two are equal if they are the same file, read in the same way.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct Recording(FileContent<Measured>);
 
 impl Recording {
-    fn identity(&self) -> impl Ord {
+    fn identity(&self) -> impl Ord + fmt::Debug {
         let Measured { interval, integral_time, components, layout, says: _ } = &*self.0;
         let read = (layout.skip, layout.columns.clone(), layout.velocity_unit.clone());
         (self.0.checksum(), Bits::from(*interval), Bits::from(*integral_time), components.len(), read)
+    }
+}
+
+impl fmt::Debug for Recording {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.identity().fmt(f)
     }
 }
 

@@ -18,6 +18,7 @@ use super::basis_weight::Map;
 use super::canvas::Canvas;
 use super::clouds::Clouds;
 use super::few_findings::{FewFilamentsCv, LayerFew};
+use super::laid_web::too_full;
 use super::uniformity::{boxes, places_of_patches, unevenness};
 use super::{Edges, Sheet};
 use crate::ground::Error;
@@ -97,7 +98,9 @@ impl FewFilaments<'_> {
         let count = self.count();
         let halves = [self.map(Some(0))?, self.map(Some(1))?];
         let mut cells = halves[0].cells.clone();
-        cells.iter_mut().zip(&halves[1].cells).for_each(|(cell, other)| *cell += other);
+        for (cell, other) in cells.iter_mut().zip(&halves[1].cells) {
+            *cell = cell.checked_add(*other).ok_or_else(|| too_full(self.sheet.cell))?;
+        }
         let [even, odd] = halves;
         let maps = [Map { cells, ..even.clone() }, even, odd];
         let sides: Vec<usize> = self.sheet.patches.iter().map(|patch| self.side(*patch)).collect();

@@ -324,3 +324,17 @@ fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
     assert!(wrong.by_pitch > 0.8 * (wrong.cv - alone.cv), "{alone:?} {wrong:?}");
     assert!(right.by_pitch < alone.by_pitch, "{alone:?} {right:?}");
 }
+
+/// Both halves of the filaments fit into a cell, and their sum does not.
+#[test]
+fn rejects_a_cell_that_is_too_full_for_the_sum_of_both_halves() {
+    let sheet = sheet(&[8.0]);
+    let curve =
+        |points: usize| (0..points).map(|i| [0.05 * WIDTH, 0.5 * LENGTH + 1e-5 * (i % 2) as f64]).collect();
+    let heaped =
+        (1..30).map(|power| few(&sheet, Arrangement::Rows, 2, (0..2).map(move |_| Some(curve(1 << power)))));
+    let is_full = |half| move |few: &FewFilaments<'_>| few.map(half).is_err();
+    let first = { heaped }.find(is_full(None)).unwrap();
+    assert!(!is_full(Some(0))(&first) && !is_full(Some(1))(&first));
+    assert!(first.tell(None, 1).unwrap_err().to_string().contains("more fibre than can be counted"));
+}
