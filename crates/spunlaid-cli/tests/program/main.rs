@@ -12,6 +12,7 @@ mod check;
 mod commands;
 mod compare;
 mod compared_webs;
+mod errors_of_webs;
 mod field_axes;
 mod figures;
 mod fit;

@@ -13,7 +13,6 @@ mod common;
 mod fits;
 mod flights;
 mod mechanics;
-mod one_air;
 #[path = "../../tests/common/scans.rs"]
 mod pictures;
 mod scans;
@@ -24,12 +23,6 @@ fn main() {
     let asked = |what: &str| std::env::args().any(|word| word == what);
     if asked("webs") {
         return webs::intervals();
-    }
-    if asked("one-air") {
-        return one_air::errors();
-    }
-    if asked("few-and-all") {
-        return one_air::few_and_all();
     }
     if asked("advice") {
         return advice::changes();

@@ -1,0 +1,30 @@
+//! The errors that are told of a web, against the scatter of webs that differ by their seed.
+
+#[allow(dead_code)]
+#[path = "../../examples/told/draw.rs"]
+mod draw;
+#[allow(dead_code)]
+#[path = "../../examples/told/numbers.rs"]
+mod numbers;
+#[path = "../../examples/told/webs.rs"]
+mod webs;
+
+use draw::{Family, line};
+use numbers::{BOUNDS, Numbers, scatter};
+use spunlaid::ground::threads::each;
+
+/// All numbers of `summary.json` that have an error. Chance moves the scatter of twelve webs by as much as a chi-square
+/// distribution says: three and a half standard deviations of it are allowed beyond the bounds of the bench.
+#[test]
+fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
+    let web = line(Family::Known, 1, 3);
+    let webs: Vec<Numbers> = each(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+    let found = scatter(3, &webs);
+    assert!(found.len() > 50, "{}", found.len());
+    let wrong = found.iter().filter(|(_, found)| {
+        let [low, high] = found.by_chance(3.5);
+        !(BOUNDS[0] * low..BOUNDS[1] * high).contains(&found.ratio)
+    });
+    let wrong: Vec<String> = wrong.map(|(name, of)| format!("{name} {}: {:.2}", of.of, of.ratio)).collect();
+    assert!(wrong.is_empty(), "scatter over error: {}", wrong.join(", "));
+}
