@@ -25,6 +25,7 @@ mod schemes;
 mod slack;
 mod spinline;
 mod spinline_following;
+mod spinline_published;
 mod spinline_trends;
 mod statics;
 mod turbulence;

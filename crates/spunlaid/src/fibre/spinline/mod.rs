@@ -6,15 +6,18 @@
 //!
 //! ```text
 //! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die)
-//!   → shooting (the tension that meets the end) → Solution
+//!   → shooting (the tension that meets the end), or boundary (all places together) → Solution
 //! curtain: row after row, each in the air that the one before has warmed and dragged
 //! ```
 
+mod boundary;
 mod cooling;
+mod elimination;
 mod integration;
 mod material;
 mod measures;
 mod shooting;
+mod shot;
 mod solution;
 mod steady;
 mod surroundings;

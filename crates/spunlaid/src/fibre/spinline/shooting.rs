@@ -1,8 +1,10 @@
 //! Finds the tension at the die with which the thread meets what is known at the end of the line.
 
-use super::integration::{Step, Stepper};
-use super::thread::{LN_SPEED, Phase, State, TEMPERATURE, TENSION, Thread};
-use super::{End, FreezingCause, Station};
+use super::End;
+use super::boundary::{Arrival, Branch, Run, Varies, largest_tension};
+use super::integration::Step;
+use super::shot::{FASTEST, Outcome, Shot, shoot};
+use super::thread::{LN_SPEED, Phase, TEMPERATURE, TENSION, Thread};
 
 /// The tensions between which the one at the die is sought [N].
 const TENSIONS: [f64; 2] = [1e-8, 1e2];
@@ -15,6 +17,10 @@ const MOST_OF_SECOND: f64 = 1.0;
 /// How closely `ln F_0` is found, and how closely that of a state that is followed, whose steps have errors of 1e-8.
 const CLOSE: f64 = 1e-12;
 const CLOSE_ENOUGH: f64 = 1e-10;
+/// By how much the end may be missed, as a share of the speed or of the largest tension.
+pub(super) const MISSED: f64 = 1e-6;
+/// The draw ratio with which a continuation begins.
+const EASY_DRAW_RATIO: f64 = 20.0;
 /// How far `ln F_0` of a followed state may move at most, and how far it moves first.
 const REACH: f64 = 0.5;
 const FIRST_MOVE: f64 = 2e-3;
@@ -28,6 +34,14 @@ pub(super) enum Miss {
     Slack,
     /// Between a slack thread and one that is too fast, none reaches the end.
     NoThread,
+    /// Followed from a slow line on, the threads turn back here: at this speed [m/s] or tension [N] at the end.
+    TurnsBack(f64),
+    /// Followed from a slow line on, the threads end where the melt cools no further before it is solid.
+    StaysLiquid,
+    /// The melt is pushed, first at this distance from the die [m].
+    Pushed(f64),
+    /// None was found, and whether there is one is not known.
+    NotFound,
     /// The thread is still liquid at the end, at this temperature [K].
     Liquid(f64),
     /// The melt is too elastic.
@@ -41,6 +55,9 @@ pub(super) struct Hit {
     /// Whether a larger tension meets it too.
     pub(super) has_second: bool,
 }
+
+/// Why shooting has found no thread, and the closest one that reaches the end.
+type Missed = (Miss, Option<Box<Run>>);
 
 struct Shooting<'t, 'a> {
     thread: &'t Thread<'a>,
@@ -60,7 +77,7 @@ impl Shooting<'_, '_> {
             Outcome::RunsAway => Some(Miss::NoThread),
             Outcome::ElasticWave => Some(Miss::ElasticWave),
         };
-        let miss = match (shot.outcome, self.thread.line.end) {
+        let miss = match (shot.outcome, self.thread.end) {
             (Outcome::Slack, _) => f64::NEG_INFINITY,
             (Outcome::RunsAway | Outcome::ElasticWave, _) => f64::INFINITY,
             (Outcome::Complete, End::Tension(tension) | End::Flown(tension)) => shot.end[TENSION] - tension,
@@ -107,25 +124,36 @@ impl Shooting<'_, '_> {
         None
     }
 
-    /// The shot between two tensions.
-    fn hit(&self, bracket: [(f64, f64); 2], close: f64) -> Result<(f64, Shot), Miss> {
-        let x = brent(|x| self.miss(x).0, self.narrow(bracket)?, close);
-        let shot = self.shot(x).filter(|shot| shot.outcome == Outcome::Complete).ok_or(Miss::NoThread)?;
-        Ok((x, shot))
+    /// The shot between two tensions; with what it misses if it is not the one.
+    fn hit(&self, bracket: [(f64, f64); 2], close: f64) -> Result<Run, Missed> {
+        let at_die = brent(|x| self.miss(x).0, self.narrow(bracket)?, close);
+        let run = self.run(at_die).ok_or((Miss::NoThread, None))?;
+        if meets(self.thread, &run.shot) { Ok(run) } else { Err((Miss::NotFound, Some(Box::new(run)))) }
+    }
+
+    /// The thread under a tension, if it reaches the end.
+    fn run(&self, at_die: f64) -> Option<Run> {
+        let shot = self.shot(at_die).filter(|shot| shot.outcome == Outcome::Complete)?;
+        Some(Run { at_die, shot })
     }
 
     /// Halves the interval until the thread reaches the end from both of its ends.
-    fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Miss> {
+    ///
+    /// # Errors
+    /// If it does not, with the thread closest to it that reaches the end.
+    fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Missed> {
         let (mut of_slack, mut of_fast) = (None, None);
         while !(low.1.is_finite() && high.1.is_finite()) {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
                 // A thread that gets to the end tells more than one that does not.
-                return Err(match (of_slack, of_fast) {
+                let near = self.run(low.0).or_else(|| self.run(high.0)).map(Box::new);
+                let miss = match (of_slack, of_fast) {
                     (Some(liquid @ Miss::Liquid(_)), _) | (_, Some(liquid @ Miss::Liquid(_))) => liquid,
                     (_, Some(Miss::ElasticWave)) => Miss::ElasticWave,
                     _ => Miss::NoThread,
-                });
+                };
+                return Err((miss, near));
             }
             let (miss, reason) = self.miss(x);
             if miss < 0.0 {
@@ -153,9 +181,91 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
     if looks_on {
         bracket = shooting.bracket(least, bracket[1].0, SHORT_STRIDE).unwrap_or(bracket);
     }
-    let (x, shot) = shooting.hit(bracket, CLOSE)?;
-    let has_second = looks_on && shooting.bracket(x + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
-    Ok(Hit { tension: libm::exp(x), shot, has_second })
+    let found = shooting.hit(bracket, CLOSE);
+    let Run { at_die, shot } = found.or_else(|missed| continued(thread, missed))?;
+    let has_second =
+        looks_on && shooting.bracket(at_die + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
+    Ok(Hit { tension: libm::exp(at_die), shot, has_second })
+}
+
+/// The thread that no single tension leads to: by continuation from one that is known.
+///
+/// * `near` – the closest one that shooting has found, if any
+fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
+    let by_end = |run: Run| Branch::new(thread, Varies::End, &run).walk(run);
+    let is_beyond = match thread.end {
+        End::TakeUp(speed) => speed > FASTEST,
+        End::Tension(tension) | End::Flown(tension) => !(0.0..=TENSIONS[1]).contains(&tension),
+    };
+    if is_beyond {
+        return Err(miss);
+    }
+    let mut found = near.map_or(Arrival::Lost, |near| by_end(*near));
+    if matches!(found, Arrival::Lost) {
+        let shares = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
+        let is_free = thread.end == End::Tension(0.0);
+        let free = eased(thread, End::Tension(0.0), &shares[usize::from(is_free)..]);
+        let is_slow =
+            |run: &Run| matches!(thread.end, End::TakeUp(speed) if libm::log(speed) < run.shot.end[LN_SPEED]);
+        if free.as_ref().is_some_and(is_slow) {
+            return Err(Miss::TooMuch);
+        }
+        let slow = End::TakeUp(EASY_DRAW_RATIO * thread.die_speed());
+        found = free.or_else(|| eased(thread, slow, &[0.0])).map_or(Arrival::Lost, by_end);
+    }
+    match found {
+        Arrival::Met(run) if meets(thread, &run.shot) => match pushed(thread, &run.shot) {
+            Some(distance) => Err(Miss::Pushed(distance)),
+            None => Ok(*run),
+        },
+        Arrival::TurnsBack(value) => Err(Miss::TurnsBack(value)),
+        Arrival::RunsAway => Err(miss),
+        Arrival::StaysLiquid => Err(Miss::StaysLiquid),
+        Arrival::Lost | Arrival::Met(_) => Err(if miss == Miss::NoThread { Miss::NotFound } else { miss }),
+    }
+}
+
+/// A thread of this line with another end, found with little of inertia, weight, friction and surface tension first.
+///
+/// * `shares` – of these forces, the first with which shooting finds a thread
+fn eased(thread: &Thread<'_>, end: End, shares: &[f64]) -> Option<Run> {
+    let [least, most] = TENSIONS.map(libm::log);
+    let of = |forces: &f64| Thread { end, forces: *forces, ..thread.clone() };
+    let run = |eased: Thread<'_>| {
+        let shooting = Shooting { thread: &eased };
+        let found = shooting.hit(shooting.bracket(least, most, STRIDE).ok()?, CLOSE);
+        let run = found.map_or_else(|(_, near)| along(&eased, Varies::End, *near?), Some)?;
+        Some((eased.forces, run))
+    };
+    let (forces, run) = shares.iter().map(of).find_map(run)?;
+    if forces == 1.0 { Some(run) } else { along(&of(&forces), Varies::Forces, run) }
+}
+
+/// The thread that a continuation leads to.
+fn along(thread: &Thread<'_>, varies: Varies, run: Run) -> Option<Run> {
+    match Branch::new(thread, varies, &run).walk(run) {
+        Arrival::Met(run) => Some(*run),
+        _ => None,
+    }
+}
+
+/// Where the melt of a shot is pushed first [m].
+fn pushed(thread: &Thread<'_>, shot: &Shot) -> Option<f64> {
+    let mut melt = shot.steps.iter().filter(|step| step.phase == Phase::Melt);
+    let distance = |step: &Step| step.end() * step.end();
+    let is_pushed =
+        |step: &&Step| thread.rates(distance(step), &step.to, Phase::Melt, &mut 0).station.stress <= 0.0;
+    melt.find(is_pushed).map(distance)
+}
+
+/// Whether a shot meets what is known at the end.
+fn meets(thread: &Thread<'_>, shot: &Shot) -> bool {
+    match thread.end {
+        End::TakeUp(speed) => (shot.end[LN_SPEED] - libm::log(speed)).abs() < MISSED,
+        End::Tension(tension) | End::Flown(tension) => {
+            (shot.end[TENSION] - tension).abs() < MISSED * largest_tension(shot)
+        }
+    }
 }
 
 /// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the
@@ -164,8 +274,8 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
 /// * `known` – the tension at the die of the other line [N], and whether that has a second state
 pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
     let shooting = Shooting { thread };
-    let (x, shot) = shooting.hit(shooting.bracket_near(libm::log(tension))?, CLOSE_ENOUGH).ok()?;
-    Some(Hit { tension: libm::exp(x), shot, has_second })
+    let run = shooting.hit(shooting.bracket_near(libm::log(tension))?, CLOSE_ENOUGH).ok()?;
+    Some(Hit { tension: libm::exp(run.at_die), shot: run.shot, has_second })
 }
 
 /// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization
@@ -219,125 +329,4 @@ fn brent(
         }
     }
     b
-}
-
-/// A thread that is faster runs away [m/s].
-const FASTEST: f64 = 2000.0;
-/// Most steps of a shot; it takes some sixty.
-const MOST_STEPS: usize = 5_000;
-
-/// How a shot ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Outcome {
-    /// The thread reaches the end of the line.
-    Complete,
-    /// The melt is no longer pulled.
-    Slack,
-    /// The thread gets faster without bound.
-    RunsAway,
-    /// The thread gets as fast as its own elastic wave.
-    ElasticWave,
-}
-
-/// A thread under one tension at the die.
-pub(super) struct Shot {
-    pub(super) outcome: Outcome,
-    /// The state at the end.
-    pub(super) end: State,
-    /// The point at which it becomes solid: what makes it solid, and the thread there.
-    pub(super) freezing: Option<(FreezingCause, Station, f64)>,
-    /// Its steps.
-    pub(super) steps: Vec<Step>,
-}
-
-/// Follows the thread from a state at the die to the end of the line.
-pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
-    let mut shot = Shot { outcome: Outcome::Complete, end: die, freezing: None, steps: Vec::new() };
-    let mut stepper = Stepper::new(thread, die[TENSION]);
-    let length = thread.line.length;
-    // The air may have a kink in each of its rows.
-    let rows = thread.air.rows().iter().copied().filter(|row| (1e-9 * length..length).contains(row));
-    let ends = rows.chain([length]).map(libm::sqrt);
-    let (mut s, mut state) = (0.0, die);
-    let mut wanted = 0.02 * libm::sqrt(length);
-    for end in ends {
-        while s < end {
-            if shot.steps.len() >= MOST_STEPS || wanted < 1e-13 * end {
-                shot.outcome = Outcome::RunsAway;
-                return shot;
-            }
-            // A remnant that is much shorter than a step would cost as much as one.
-            let left = end - s;
-            let length =
-                if wanted >= left { left } else { wanted.min(0.5 * left).max(wanted.min(left) * 0.6) };
-            let mut step = stepper.step(s, length, &state);
-            wanted = step.next_length();
-            if step.error > 1.0 || step.error.is_nan() {
-                if stepper.is_elastic_wave && wanted < 1e-9 * end {
-                    shot.outcome = Outcome::ElasticWave;
-                    return shot;
-                }
-                continue;
-            }
-            let is_melt = stepper.phase == Phase::Melt;
-            if is_melt && thread.until_solid(&step.to) <= 0.0 {
-                step = freeze(thread, &mut stepper, &step);
-            }
-            let reaches = step.length == left;
-            s = if reaches { end } else { step.end() };
-            state = step.to;
-            shot.steps.push(step);
-            let rates = stepper.rates(s, &state);
-            if is_melt && thread.until_solid(&state) <= 0.0 {
-                let by = if thread.is_cold(&state) {
-                    FreezingCause::Temperature
-                } else {
-                    FreezingCause::Crystallisation
-                };
-                let cooling_rate = -rates.slopes[super::thread::TEMPERATURE] * rates.station.speed;
-                shot.freezing = Some((by, rates.station, cooling_rate));
-                let orientation = thread.orientation(rates.station.stress);
-                stepper.phase = Phase::Solid { orientation };
-            } else if is_melt && rates.station.stress <= 0.0 {
-                shot.outcome = Outcome::Slack;
-                return shot;
-            } else if is_melt && rates.is_elastic_wave {
-                shot.outcome = Outcome::ElasticWave;
-                return shot;
-            }
-            // What the conformation gives in the melt goes on as the balance of forces tells.
-            state[TENSION] = rates.station.tension;
-            if libm::exp(state[LN_SPEED]) > FASTEST {
-                shot.outcome = Outcome::RunsAway;
-                return shot;
-            }
-        }
-    }
-    shot.end = state;
-    shot
-}
-
-/// The part of a step in which the melt becomes solid: it ends where the thread is solid, by regula falsi (Illinois).
-fn freeze(thread: &Thread<'_>, stepper: &mut Stepper<'_, '_>, step: &Step) -> Step {
-    let (mut melt, mut solid) = (0.0, step.length);
-    let (mut above, mut below) = (thread.until_solid(&step.from), thread.until_solid(&step.to));
-    let mut last = *step;
-    for _ in 0..60 {
-        if below == 0.0 || solid - melt <= 1e-15 * step.end() || above <= 0.0 {
-            break;
-        }
-        let share = above / (above - below);
-        let length = melt + share.clamp(0.001, 0.999) * (solid - melt);
-        let part = stepper.step(step.start, length, &step.from);
-        let left = thread.until_solid(&part.to);
-        if left > 0.0 {
-            (melt, above, below) = (length, left, 0.5 * below);
-        } else {
-            (solid, below, last, above) = (length, left, part, 0.5 * above);
-        }
-        if left.abs() < 1e-14 && left <= 0.0 {
-            break;
-        }
-    }
-    last
 }

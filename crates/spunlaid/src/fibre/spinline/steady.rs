@@ -1,6 +1,8 @@
 //! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
 
-use super::shooting::{Hit, Miss, Shot, find, follow};
+use super::boundary::largest_tension;
+use super::shooting::{Hit, MISSED, Miss, find, follow};
+use super::shot::Shot;
 use super::solution::{Freezing, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
 use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};
@@ -59,14 +61,38 @@ fn hit_near(thread: &Thread<'_>, near: &Solution) -> Result<Hit, Failure> {
     // A state that differs much is another one: only a search tells which of them a line runs in.
     let is_near = |hit: &Hit| (hit.shot.end[LN_SPEED] - libm::log(near.final_speed)).abs() < FAR;
     match follow(thread, (near.force_at_die, near.has_second)).filter(is_near) {
-        Some(hit) => Ok(hit),
+        Some(hit) => pulled(thread, hit),
         None => seek(thread),
     }
 }
 
 /// The shot that meets the end.
 fn seek(thread: &Thread<'_>) -> Result<Hit, Failure> {
-    find(thread, thread.line.crystallisation).map_err(|miss| shooting_failure(thread, miss))
+    let found = find(thread, thread.line.crystallisation);
+    pulled(thread, found.map_err(|miss| shooting_failure(thread, miss))?)
+}
+
+/// A thread that no godet pushes.
+fn pulled(thread: &Thread<'_>, hit: Hit) -> Result<Hit, Failure> {
+    match thread.end {
+        End::TakeUp(speed) if hit.shot.end[TENSION] < -MISSED * largest_tension(&hit.shot) => {
+            Err(slow_godet(thread, speed))
+        }
+        _ => Ok(hit),
+    }
+}
+
+/// A take-up that is slower than the thread would run without it.
+fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
+    let free = Thread { end: End::Tension(0.0), ..thread.clone() };
+    let free =
+        find(&free, false).ok().map(|hit| libm::exp(hit.shot.end[LN_SPEED])).filter(|free| *free > speed);
+    let faster = free.map_or(String::new(), |free| {
+        format!(": without a godet it runs at {}", Dimension::Velocity.pretty(free))
+    });
+    let message = format!("is slower than the filament gets by its weight and the air alone{faster}");
+    let remedy = "raise it, or leave out spinline.end, which makes the end free";
+    Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
 }
 
 /// Why no thread can run in this line, as far as this is known before it is solved.
@@ -118,6 +144,10 @@ fn key_of_air(air: &Surroundings, value: f64, key: &'static str) -> (&'static st
 const NO_THREAD: &str =
     "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
 
+const NOT_FOUND: &str = "is not solved: no steady state was found, and it is not known whether there is one";
+const STAYS_LIQUID: &str = "has no steady state: followed from slower ones, the threads end where the melt cools no further before it is solid";
+const CHECK_PULL: &str = "check the viscosity of the melt, the air and the throughput";
+
 /// Why no tension at the die meets the end of the line.
 fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
     let (line, air) = (thread.line, thread.air);
@@ -131,26 +161,22 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
                 "raise spinline.material.modulus, or leave spinline.law out",
             ),
         ),
-        (Miss::TooMuch, End::TakeUp(speed)) => Failure::new(
-            "spinline.take_up_speed",
-            Some(speed),
-            Fault::new(
-                "is slower than the filament gets by its weight and the air alone",
-                "raise it, or leave out spinline.end, which makes the end free",
-            ),
-        ),
+        (Miss::TooMuch | Miss::Pushed(_), End::TakeUp(speed)) => slow_godet(thread, speed),
+        (Miss::Pushed(distance), _) => {
+            let place = Dimension::Length.pretty(distance);
+            let message =
+                format!("has no steady state: the melt is no longer pulled at {place} from the die");
+            Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, CHECK_PULL))
+        }
         _ if !thread.is_computable() => {
             let message = "leads to numbers that are too large or too small to compute with";
             let remedy = "check it, and all other values of the line, and their units";
             Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, remedy))
         }
-        (Miss::NoThread | Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
-            let remedy = "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"";
-            Failure::new("spinline.end_tension", Some(tension), Fault::new(NO_THREAD, remedy))
-        }
-        (Miss::NoThread | Miss::Slack, End::TakeUp(speed)) => {
-            let remedy = "lower it, heat the die, or write a higher melt flow rate";
-            Failure::new("spinline.take_up_speed", Some(speed), Fault::new(NO_THREAD, remedy))
+        (Miss::NoThread | Miss::TurnsBack(_) | Miss::StaysLiquid | Miss::NotFound, _)
+        | (Miss::Slack, End::TakeUp(_)) => no_thread(thread, miss),
+        (Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
+            no_thread(thread, miss)
         }
         (Miss::TooMuch | Miss::Slack, _) => {
             let velocity = match air {
@@ -162,12 +188,41 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
                 "has no steady state: the air does not pull, it is slower than the filament everywhere";
             Failure::new(key, value, Fault::new(message, "check the direction and the speed of the air"))
         }
-        (Miss::NoThread, _) => Failure::new(
-            "spinline.throughput",
-            Some(line.throughput),
-            Fault::new(NO_THREAD, "check the viscosity of the melt, the air and the throughput"),
-        ),
     }
+}
+
+/// That no tension at the die meets the end, and how this is known.
+fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
+    let end = thread.end;
+    let message = match (miss, end) {
+        (Miss::NotFound, _) => NOT_FOUND.to_owned(),
+        (Miss::StaysLiquid, _) => STAYS_LIQUID.to_owned(),
+        (Miss::TurnsBack(speed), End::TakeUp(_)) => {
+            let speed = Dimension::Velocity.pretty(speed);
+            format!(
+                "has no steady state: followed from slower ones, the threads end at {speed} and turn back"
+            )
+        }
+        (Miss::TurnsBack(tension), _) => {
+            let tension = Dimension::Force.pretty(tension);
+            format!(
+                "has no steady state: followed from slower ones, the threads end with {tension} and turn back"
+            )
+        }
+        _ => NO_THREAD.to_owned(),
+    };
+    let (key, value, remedy) = match end {
+        End::TakeUp(speed) => {
+            ("spinline.take_up_speed", speed, "lower it, heat the die, or write a higher melt flow rate")
+        }
+        End::Tension(tension) | End::Flown(tension) if tension != 0.0 => (
+            "spinline.end_tension",
+            tension,
+            "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"",
+        ),
+        _ => ("spinline.throughput", thread.line.throughput, CHECK_PULL),
+    };
+    Failure::new(key, Some(value), Fault::new(message, remedy))
 }
 
 /// The thread is not solid at the end of the line.

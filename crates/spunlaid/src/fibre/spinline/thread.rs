@@ -1,7 +1,7 @@
 //! The thread at a place: how its state changes with the distance from the die.
 
 use super::material::{Crystals, Material};
-use super::{AirChange, Law, Melt, Spinline, Station, Surroundings};
+use super::{AirChange, End, Law, Melt, Spinline, Station, Surroundings};
 use crate::air::motion::{density_at, kinematic_viscosity_at};
 use crate::fibre::drag::FrictionLaw;
 use std::f64::consts::PI;
@@ -29,6 +29,8 @@ pub(super) const HEAT: usize = 7;
 /// `∫ A N_1 dv` [W].
 pub(super) const WORK: usize = 8;
 
+/// Relative error of a step.
+const TOLERANCE: f64 = 1e-8;
 /// Acceleration of gravity [m/s²].
 pub(super) const GRAVITY: f64 = 9.81;
 /// Stefan–Boltzmann constant [W/(m² K⁴)].
@@ -47,9 +49,11 @@ pub(super) enum Phase {
 }
 
 /// A thread in its surroundings.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Thread<'a> {
     pub(super) line: &'a Spinline,
+    /// What is known at the end.
+    pub(super) end: End,
     pub(super) friction: FrictionLaw,
     pub(super) air: &'a Surroundings,
     pub(super) air_change: AirChange,
@@ -59,6 +63,12 @@ pub(super) struct Thread<'a> {
     pub(super) heat_transfer: Option<f64>,
     /// Viscosity at the reference temperature `η_r` [Pa s].
     pub(super) viscosity: f64,
+    /// Factor on inertia, weight, friction and surface tension [-]; a continuation begins with little of them.
+    pub(super) forces: f64,
+    /// Whether a shot ends where the melt goes slack.
+    pub(super) ends_slack: bool,
+    /// Relative error of a step.
+    pub(super) tolerance: f64,
 }
 
 /// The rates of a state, and what they are made of.
@@ -79,7 +89,19 @@ impl<'a> Thread<'a> {
             Surroundings::Uniform(_) | Surroundings::Behind(_) => AirChange::NONE,
         };
         let viscosity = line.viscosity();
-        Self { line, friction, air, air_change, gravity: GRAVITY, heat_transfer: None, viscosity }
+        Self {
+            line,
+            end: line.end,
+            friction,
+            air,
+            air_change,
+            gravity: GRAVITY,
+            heat_transfer: None,
+            viscosity,
+            forces: 1.0,
+            ends_slack: true,
+            tolerance: TOLERANCE,
+        }
     }
 
     /// Whether the rates at the die are finite, under a usual tension.
@@ -126,7 +148,7 @@ impl<'a> Thread<'a> {
     /// A viscoelastic melt is stretched without memory there: `c_rr = c_zz^(−1/2)`.
     pub(super) fn at_die(&self, tension: f64) -> Option<State> {
         let (line, d) = (self.line, self.die_diameter());
-        let pulled = tension - 0.5 * PI * self.material().surface_tension * d;
+        let pulled = tension - 0.5 * PI * self.forces * self.material().surface_tension * d;
         if pulled <= 0.0 {
             return None;
         }
@@ -159,6 +181,27 @@ impl<'a> Thread<'a> {
         self.viscosity * libm::exp(material.activation_energy / GAS_CONSTANT * inverse + hardening)
     }
 
+    /// Relaxation times that a viscoelastic melt takes for a stretch, with the state at its start [-].
+    ///
+    /// * `start`, `end` – roots of the distance from the die [√m]
+    pub(super) fn relaxations(&self, state: &State, start: f64, end: f64) -> f64 {
+        if self.line.law == Law::Newtonian {
+            return 0.0;
+        }
+        let viscosity = self.viscosity_at(state[TEMPERATURE], self.transformed(state));
+        (end * end - start * start) * self.material().modulus / (viscosity * libm::exp(state[LN_SPEED]))
+    }
+
+    /// By how much a change of the tension grows on a stretch by inertia, `ln`: `∫ ρv/(3η) dz`, with the state at its
+    /// start.
+    ///
+    /// * `start`, `end` – roots of the distance from the die [√m]
+    pub(super) fn growth(&self, state: &State, start: f64, end: f64) -> f64 {
+        let viscosity = self.viscosity_at(state[TEMPERATURE], self.transformed(state));
+        let density = self.material().melt_density(state[TEMPERATURE]);
+        self.forces * density * libm::exp(state[LN_SPEED]) / (3.0 * viscosity) * (end * end - start * start)
+    }
+
     /// The share `θ = 1 − exp(−y^n)` that has crystallised [-].                                    theory.md (94)
     pub(super) fn transformed(&self, state: &State) -> f64 {
         let progress = state[PROGRESS].max(0.0);
@@ -173,6 +216,14 @@ impl<'a> Thread<'a> {
             Some(crystals) => cooling.min(1.0 - self.transformed(state) / crystals.freezing_share),
             None => cooling,
         }
+    }
+
+    /// By how much the air is faster than the thread, along it, and its velocity across [m/s].
+    ///
+    /// * `hint` – the row of the air's table above which the last look was
+    pub(super) fn faster_air(&self, distance: f64, state: &State, hint: &mut usize) -> [f64; 2] {
+        let air = self.air_change.apply(self.air.at(distance, hint));
+        [air.velocity - libm::exp(state[LN_SPEED]), air.cross_velocity]
     }
 
     /// Whether the temperature makes the state solid.
@@ -249,8 +300,8 @@ impl<'a> Thread<'a> {
         let [convection, radiation] =
             self.heat(diameter, faster, air.cross_velocity, temperature, air.temperature);
         let heat = convection + radiation;
-        let pull = mass_flow * gravity / v + friction;
-        let surface = PI * material.surface_tension * radius;
+        let (inertia, pull) = (self.forces * mass_flow, self.forces * (mass_flow * gravity / v + friction));
+        let surface = PI * self.forces * material.surface_tension * radius;
         let is_melt = phase == Phase::Melt;
         let viscoelastic = is_melt && line.law != Law::Newtonian;
         let (along, across) = (state[ALONG], state[ACROSS]);
@@ -287,7 +338,7 @@ impl<'a> Thread<'a> {
             let denser = -(stretched + 0.5 * surface) * material.specific_volume_slope * density;
             let force = elastic * (relax_along - relax_across) / v + denser * cooling - pull;
             let stiffness =
-                (elastic * (along + 2.0 * across) - 0.5 * surface) / v - mass_flow - denser * heating;
+                (elastic * (along + 2.0 * across) - 0.5 * surface) / v - inertia - denser * heating;
             is_elastic_wave = stiffness <= 0.0;
             strain_rate = force / stiffness;
             conformation =
@@ -299,7 +350,7 @@ impl<'a> Thread<'a> {
         let mut slopes = [0.0; SIZE];
         slopes[LN_SPEED] = strain_rate / v;
         slopes[TEMPERATURE] = cooling + heating * strain_rate;
-        slopes[TENSION] = mass_flow * strain_rate - pull;
+        slopes[TENSION] = inertia * strain_rate - pull;
         slopes[PROGRESS] = progress;
         [slopes[ALONG], slopes[ACROSS]] = conformation;
         slopes[PULL] = pull;

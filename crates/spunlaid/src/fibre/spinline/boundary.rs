@@ -1,0 +1,436 @@
+//! The thread as a boundary-value problem, for lines whose end the tension at the die does not tell.
+//!
+//! Where inertia outweighs viscosity, two tensions that differ in the last digit lead to different ends. Then the
+//! states at many places are sought together, and the thread is followed from each place to the next only
+//! (multiple shooting). A known solution is moved to the wanted one in steps along the arc of the solutions, so
+//! that it gets around turning points.
+
+use super::End;
+use super::elimination::Factors;
+use super::integration::Step;
+use super::shot::{FASTEST, FIRST_STEP, Leg, Outcome, Shot};
+use super::thread::{
+    ACROSS, ALONG, HEAT, LN_SPEED, PROGRESS, PULL, Phase, SIZE, State, TEMPERATURE, TENSION,
+};
+use super::thread::{Thread, WORK};
+use std::cell::Cell;
+
+/// Steps of the integration from one place to the next: few, so that an error does not grow by much.
+const STEPS: usize = 8;
+/// By how much a change may grow from one place to the next, `ln`.
+const GROWTH: f64 = 3.0;
+/// Steps between the last place and the freezing point, which moves.
+const LAST_STEPS: usize = 4;
+/// By how much an unknown is changed to see what depends on it, as a share of its size.
+const CHANGE: f64 = 1e-5;
+/// What is left of the equations, as a share of the sizes: aimed at, and enough.
+const CLOSE: f64 = 1e-11;
+const CLOSE_ENOUGH: f64 = 1e-7;
+/// Most rounds of Newton's method, and most moves along the arc.
+const MOST_ROUNDS: usize = 8;
+const MOST_MOVES: usize = 150;
+/// Most steps of the integration, some seconds of a processor.
+const MOST_STEPS: usize = 1_000_000;
+/// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the freezing point by no
+/// more than this share of what others do.
+const LEAST_COOLING: f64 = 0.1;
+/// The first move along the arc, the longest and the shortest.
+const MOVES: [f64; 3] = [0.02, 0.5, 1e-5];
+
+/// A thread between its ends.
+#[derive(Clone)]
+pub(super) struct Run {
+    /// `ln F_0`, `F_0` in N.
+    pub(super) at_die: f64,
+    pub(super) shot: Shot,
+}
+
+/// What is changed along the arc.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Varies {
+    /// The share of inertia, weight, friction and surface tension, up to one.
+    Forces,
+    /// What is known at the end, up to what is asked for.
+    End,
+}
+
+/// Where the way along the arc leads.
+pub(super) enum Arrival {
+    /// To what was asked for.
+    Met(Box<Run>),
+    /// Around a turning point, at this speed [m/s] or tension [N] at the end, and back beyond its start.
+    TurnsBack(f64),
+    /// To threads that are too fast.
+    RunsAway,
+    /// To a melt that cools no further before it is solid.
+    StaysLiquid,
+    /// No further.
+    Lost,
+}
+
+/// A place between die and end, at which the state is unknown.
+struct Place {
+    /// Root of the distance from the die [√m].
+    s: f64,
+    state: State,
+    /// What the values of the state are measured by.
+    sizes: State,
+    /// Length of the first step from here [√m].
+    wanted: f64,
+}
+
+/// A solution on the arc.
+#[derive(Clone)]
+struct Point {
+    run: Run,
+    /// What is changed along the arc.
+    value: f64,
+}
+
+/// Threads of a line along the arc.
+pub(super) struct Branch<'a> {
+    thread: Thread<'a>,
+    varies: Varies,
+    /// The values of a state that change by themselves.
+    active: &'static [usize],
+    /// Size of the tensions [N], and how far the melt cools [K].
+    tension: f64,
+    cooling: f64,
+    places: Vec<Place>,
+    /// Steps of the integration so far.
+    steps: Cell<usize>,
+}
+
+/// The unknowns of all places, and what is changed along the arc as the last.
+type Unknowns = Vec<f64>;
+
+impl<'a> Branch<'a> {
+    pub(super) fn new(thread: &Thread<'a>, varies: Varies, run: &Run) -> Self {
+        use super::Law;
+        let active: &[usize] = match (thread.line.law == Law::Newtonian, thread.line.crystallisation) {
+            (true, false) => &[LN_SPEED, TEMPERATURE, TENSION],
+            (true, true) => &[LN_SPEED, TEMPERATURE, TENSION, PROGRESS],
+            (false, false) => &[LN_SPEED, TEMPERATURE, ALONG, ACROSS],
+            (false, true) => &[LN_SPEED, TEMPERATURE, ALONG, ACROSS, PROGRESS],
+        };
+        let thread = Thread { ends_slack: false, ..thread.clone() };
+        let tension = largest_tension(&run.shot);
+        let cooling = (thread.line.die_temperature - run.shot.end[TEMPERATURE]).clamp(0.1, 50.0);
+        Self { thread, varies, active, tension, cooling, places: Vec::new(), steps: Cell::new(0) }
+    }
+
+    /// Moves a solution along the arc to the one that is asked for.
+    pub(super) fn walk(mut self, run: Run) -> Arrival {
+        let (value, goal) = match self.varies {
+            Varies::Forces => (self.thread.forces, 1.0),
+            Varies::End => (self.end_of(&run.shot), self.wanted_end()),
+        };
+        let towards = (goal - value).signum();
+        let (mut here, mut before) = (Point { run, value }, None::<Point>);
+        let (mut turn, mut length, mut most_cooling) = (None, MOVES[0], 0.0);
+        for _ in 0..MOST_MOVES {
+            self.settle(&here.run, here.value);
+            let at = self.unknowns(&here).unwrap_or_default();
+            let last = before.as_ref().and_then(|before| self.unknowns(before));
+            let direction = self.direction(&at, last.as_ref(), towards);
+            let cooling = here.run.shot.freezing.map_or(f64::INFINITY, |(_, _, cooling)| cooling);
+            most_cooling = if cooling.is_finite() { cooling.max(most_cooling) } else { most_cooling };
+            let Some(next) = self.next(&at, &direction, &mut length, goal) else {
+                let stays_liquid = cooling < LEAST_COOLING * most_cooling;
+                return if stays_liquid { Arrival::StaysLiquid } else { Arrival::Lost };
+            };
+            let is_met = next.value == goal;
+            if is_met {
+                return Arrival::Met(Box::new(next.run));
+            }
+            if libm::exp(next.run.shot.end[LN_SPEED]) > 0.5 * FASTEST {
+                return Arrival::RunsAway;
+            }
+            if (next.value - here.value) * towards < 0.0 {
+                let turned = *turn.get_or_insert(here.value);
+                if (next.value - value) * towards < 0.0 {
+                    return Arrival::TurnsBack(self.known_at_end(turned));
+                }
+            }
+            before = Some(std::mem::replace(&mut here, next));
+        }
+        Arrival::Lost
+    }
+
+    /// The next solution along the arc, or the wanted one if that is not beyond it. Moves that fail are shortened.
+    fn next(&self, at: &Unknowns, direction: &Unknowns, length: &mut f64, goal: f64) -> Option<Point> {
+        let last = at.len() - 1;
+        let on = |along: &[f64], share: f64| -> Unknowns {
+            at.iter().zip(along).map(|(at, along)| at + share * along).collect()
+        };
+        while *length > MOVES[2] && self.steps.get() < MOST_STEPS {
+            if let Some((unknowns, point, rounds)) = self.solve(on(direction, *length), direction) {
+                if (point.value - goal) * (at[last] - goal) > 0.0 {
+                    *length = (*length * if rounds <= 4 { 1.6 } else { 0.8 }).min(MOVES[1]);
+                    return Some(point);
+                }
+                let moved: Unknowns = unknowns.iter().zip(at).map(|(next, at)| next - at).collect();
+                let mut guess = on(&moved, (goal - at[last]) / moved[last]);
+                guess[last] = goal;
+                if let Some((_, point, _)) = self.solve(guess, &self.along_value(1.0, at.len())) {
+                    return Some(Point { value: goal, ..point });
+                }
+            }
+            *length *= 0.4;
+        }
+        None
+    }
+
+    /// A direction in which only what is changed along the arc changes.
+    fn along_value(&self, towards: f64, unknowns: usize) -> Unknowns {
+        let mut direction = vec![0.0; unknowns];
+        direction[unknowns - 1] = towards;
+        direction
+    }
+
+    /// The direction from the last solution to this one, of length one; places count as one together.
+    fn direction(&self, at: &Unknowns, last: Option<&Unknowns>, towards: f64) -> Unknowns {
+        let Some(last) = last else { return self.along_value(towards, at.len()) };
+        let mut direction: Unknowns = at.iter().zip(last).map(|(at, last)| at - last).collect();
+        let length = libm::sqrt(self.product(&direction, &direction));
+        direction.iter_mut().for_each(|part| *part /= length);
+        direction
+    }
+
+    /// Scalar product in which the places count as one together.
+    fn product(&self, a: &Unknowns, b: &Unknowns) -> f64 {
+        let last = a.len() - 1;
+        let places: f64 = a[1..last].iter().zip(&b[1..last]).map(|(a, b)| a * b).sum();
+        a[0] * b[0] + a[last] * b[last] + places / self.places.len().max(1) as f64
+    }
+
+    /// What a shot has at its end, in the measure of what is known there.
+    fn end_of(&self, shot: &Shot) -> f64 {
+        match self.thread.end {
+            End::TakeUp(_) => shot.end[LN_SPEED],
+            End::Tension(_) | End::Flown(_) => shot.end[TENSION] / self.tension,
+        }
+    }
+
+    fn wanted_end(&self) -> f64 {
+        match self.thread.end {
+            End::TakeUp(speed) => libm::log(speed),
+            End::Tension(tension) | End::Flown(tension) => tension / self.tension,
+        }
+    }
+
+    /// A speed [m/s] or a tension [N] in the measure of what is known at the end.
+    fn known_at_end(&self, value: f64) -> f64 {
+        match self.thread.end {
+            End::TakeUp(_) => libm::exp(value),
+            End::Tension(_) | End::Flown(_) => value * self.tension,
+        }
+    }
+
+    /// Chooses the places by the steps of a shot: after so many of them, and where a small change has grown.
+    fn settle(&mut self, run: &Run, value: f64) {
+        let thread = self.thread(value);
+        let melt: Vec<&Step> = run.shot.steps.iter().take_while(|step| step.phase == Phase::Melt).collect();
+        self.places.clear();
+        let (mut steps, mut grown) = (0, 0.0);
+        for (i, step) in melt.iter().enumerate() {
+            let growth = thread.growth(&step.from, step.start, step.end());
+            let is_due = steps >= STEPS && i + LAST_STEPS < melt.len();
+            if i > 0 && (is_due || grown + growth > GROWTH) {
+                self.places.push(self.place(step, 0.0));
+                (steps, grown) = (0, 0.0);
+            }
+            let parts = (growth / GROWTH).ceil().max(1.0);
+            for part in 1..parts as usize {
+                self.places.push(self.place(step, part as f64 / parts));
+            }
+            (steps, grown) = (steps + 1, grown + growth / parts);
+        }
+    }
+
+    fn place(&self, step: &Step, share: f64) -> Place {
+        let s = step.start + share * step.length;
+        let state = if share == 0.0 { step.from } else { step.at(s) };
+        let strain = (state[ALONG] - 1.0).abs().max((state[ACROSS] - 1.0).abs()).max(1e-6);
+        let mut sizes = [1.0; SIZE];
+        (sizes[TEMPERATURE], sizes[TENSION]) = (self.cooling, self.tension);
+        (sizes[ALONG], sizes[ACROSS]) = (strain, strain);
+        Place { s, state, sizes, wanted: step.length }
+    }
+
+    /// The unknowns of a solution; none if it is solid at a place.
+    fn unknowns(&self, point: &Point) -> Option<Unknowns> {
+        let mut unknowns = vec![point.run.at_die];
+        let mut steps = point.run.shot.steps.iter().peekable();
+        for place in &self.places {
+            while steps.next_if(|step| step.end() <= place.s).is_some() {}
+            let step = steps.peek().filter(|step| step.phase == Phase::Melt)?;
+            let state = step.at(place.s);
+            unknowns.extend(self.active.iter().map(|i| state[*i] / place.sizes[*i]));
+        }
+        unknowns.push(point.value);
+        Some(unknowns)
+    }
+
+    /// The thread with what is changed along the arc.
+    fn thread(&self, value: f64) -> Thread<'a> {
+        let forces = if self.varies == Varies::Forces { value } else { self.thread.forces };
+        Thread { forces, ..self.thread.clone() }
+    }
+
+    /// Follows the thread from a place, or from the die, to the next one. None if it does not get there.
+    fn leg(&self, number: usize, unknowns: &[f64], thread: &Thread<'a>) -> Option<Shot> {
+        let length = libm::sqrt(thread.line.length);
+        let end = self.places.get(number).map_or(length, |place| place.s);
+        let leg = match number.checked_sub(1).map(|before| &self.places[before]) {
+            None => {
+                let first = FIRST_STEP * length;
+                Leg::new(thread, (0.0, thread.at_die(libm::exp(unknowns[0]))?), first, self.tension)
+            }
+            Some(place) => {
+                let mut state = place.state;
+                let first = 1 + (number - 1) * self.active.len();
+                for (i, value) in self.active.iter().zip(&unknowns[first..]) {
+                    state[*i] = value * place.sizes[*i];
+                }
+                Leg::new(thread, (place.s, state), place.wanted, self.tension)
+            }
+        };
+        let shot = leg.follow(end);
+        self.steps.set(self.steps.get() + shot.steps.len());
+        let is_last = number == self.places.len();
+        (shot.outcome == Outcome::Complete && (is_last || shot.freezing.is_none())).then_some(shot)
+    }
+
+    /// All parts of the thread.
+    fn legs(&self, unknowns: &Unknowns) -> Option<Vec<Shot>> {
+        let thread = self.thread(unknowns[unknowns.len() - 1]);
+        (0..=self.places.len()).map(|number| self.leg(number, unknowns, &thread)).collect()
+    }
+
+    /// What the end of a part adds to the equations: the gap to the place there, or what the end of the line misses.
+    fn ends(&self, number: usize, shot: &Shot) -> Vec<f64> {
+        match self.places.get(number) {
+            Some(place) => self.active.iter().map(|i| shot.end[*i] / place.sizes[*i]).collect(),
+            None => vec![self.end_of(shot)],
+        }
+    }
+
+    /// What is left of the equations: the gaps between the parts, what the end misses, and how far the solution is
+    /// from the plane across the arc that it is sought in.
+    fn residual(
+        &self,
+        unknowns: &Unknowns,
+        legs: &[Shot],
+        (guess, across): (&Unknowns, &Unknowns),
+    ) -> Vec<f64> {
+        let last = unknowns.len() - 1;
+        let mut left: Vec<f64> =
+            legs.iter().enumerate().flat_map(|(number, shot)| self.ends(number, shot)).collect();
+        for (left, known) in left.iter_mut().zip(&unknowns[1..last]) {
+            *left -= known;
+        }
+        left[last - 1] -= if self.varies == Varies::End { unknowns[last] } else { self.wanted_end() };
+        let moved: Unknowns = unknowns.iter().zip(guess).map(|(now, guess)| now - guess).collect();
+        left.push(self.product(&moved, across));
+        left
+    }
+
+    /// How the equations change with the unknowns, row by row.
+    fn derivatives(&self, unknowns: &Unknowns, legs: &[Shot], across: &Unknowns) -> Option<Vec<f64>> {
+        let (size, width) = (unknowns.len(), self.active.len());
+        let mut rows = vec![0.0; size * size];
+        let thread = self.thread(unknowns[size - 1]);
+        for (number, shot) in legs.iter().enumerate() {
+            let here = self.ends(number, shot);
+            let of_start = if number == 0 { 0..1 } else { 1 + (number - 1) * width..1 + number * width };
+            let of_value = (self.varies == Varies::Forces).then_some(size - 1);
+            for column in of_start.chain(of_value) {
+                let mut near = unknowns.clone();
+                // Back rather than on: a thread that gets faster may run away.
+                near[column] -= CHANGE;
+                let there = match column == size - 1 {
+                    true => self.leg(number, &near, &self.thread(near[column])),
+                    false => self.leg(number, &near, &thread),
+                };
+                for (i, (here, there)) in here.iter().zip(self.ends(number, &there?)).enumerate() {
+                    rows[(number * width + i) * size + column] = (here - there) / CHANGE;
+                }
+            }
+        }
+        for i in 0..size - 2 {
+            rows[i * size + i + 1] -= 1.0;
+        }
+        if self.varies == Varies::End {
+            rows[(size - 2) * size + size - 1] -= 1.0;
+        }
+        let weight = 1.0 / self.places.len().max(1) as f64;
+        for (i, across) in across.iter().enumerate() {
+            rows[(size - 1) * size + i] = if i == 0 || i == size - 1 { *across } else { weight * across };
+        }
+        Some(rows)
+    }
+
+    /// Solves the equations by Newton's method from a guess, in the plane through it across the arc. None if they
+    /// have no solution near it. With the number of rounds.
+    fn solve(&self, guess: Unknowns, across: &Unknowns) -> Option<(Unknowns, Point, usize)> {
+        let left_of = |unknowns: &Unknowns| {
+            let legs = self.legs(unknowns)?;
+            let left = self.residual(unknowns, &legs, (&guess, across));
+            let size = left.iter().fold(0.0, |most: f64, left| most.max(left.abs()));
+            size.is_finite().then_some((legs, left, size))
+        };
+        let mut unknowns = guess.clone();
+        let (mut legs, mut left, mut size) = left_of(&unknowns)?;
+        let mut rounds = 0;
+        while size > CLOSE && rounds < MOST_ROUNDS {
+            rounds += 1;
+            let rows = self.derivatives(&unknowns, &legs, across)?;
+            let count = unknowns.len();
+            let mut change = left.clone();
+            Factors::of(count, |row, column| rows[row * count + column]).solve(&mut change);
+            let shorter = [1.0, 0.5, 0.25, 0.1].into_iter().find_map(|share| {
+                let next: Unknowns =
+                    unknowns.iter().zip(&change).map(|(now, change)| now - share * change).collect();
+                let (legs, left, smaller) = left_of(&next)?;
+                (smaller < (1.0 - 0.3 * share) * size).then_some((next, legs, left, smaller))
+            });
+            let Some(next) = shorter else { break };
+            (unknowns, legs, left, size) = next;
+        }
+        if size > CLOSE_ENOUGH {
+            return None;
+        }
+        let run = Run { at_die: unknowns[0], shot: joined(legs) };
+        let point = Point { run, value: unknowns[unknowns.len() - 1] };
+        Some((unknowns, point, rounds))
+    }
+}
+
+/// The parts of a thread as one.
+fn joined(legs: Vec<Shot>) -> Shot {
+    const SUMS: [usize; 3] = [PULL, HEAT, WORK];
+    let mut whole: Option<Shot> = None;
+    for mut leg in legs {
+        let Some(whole) = whole.as_mut() else {
+            whole = Some(leg);
+            continue;
+        };
+        // Each part, but the first, begins with the sums of the place as it was chosen.
+        let first = leg.steps.first().map_or(leg.end, |step| step.from);
+        let add = |state: &mut State, end: &State| SUMS.iter().for_each(|i| state[*i] += end[*i] - first[*i]);
+        for step in &mut leg.steps {
+            add(&mut step.from, &whole.end);
+            add(&mut step.to, &whole.end);
+        }
+        add(&mut leg.end, &whole.end);
+        whole.steps.append(&mut leg.steps);
+        (whole.end, whole.freezing) = (leg.end, leg.freezing);
+    }
+    whole.unwrap_or(Shot { outcome: Outcome::RunsAway, end: [0.0; SIZE], freezing: None, steps: Vec::new() })
+}
+
+/// The largest tension in a shot [N].
+pub(super) fn largest_tension(shot: &Shot) -> f64 {
+    shot.steps.iter().map(|step| step.from[TENSION].abs()).fold(shot.end[TENSION].abs(), f64::max)
+}
