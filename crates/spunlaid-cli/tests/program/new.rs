@@ -222,10 +222,10 @@ fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
         ("--dtex", "2 kg/m", "2 dtex?"),
         ("--basis-weight", "20 kg/m²", "did you mean 20 g/m²?"),
         ("--air-speed", "60000", "mm/s"),
-        ("--slot-depth", "25 m", "did you mean 25 mm?"),
-        ("--width", "3200 m", "did you mean 3200 mm"),
+        ("--slot-depth", "25 m", "25 mm?"),
+        ("--width", "3200 m", "3200 mm"),
         ("--distance", "500 m", "did you mean"),
-        ("--thickness", "3 m", "did you mean 3 mm"),
+        ("--thickness", "3 m", "3 mm?"),
     ] {
         let kept = LINE.chunks(2).filter(|pair| pair[0] != option).flatten();
         let mut command = desk.spunlaid("new --web line.toml");

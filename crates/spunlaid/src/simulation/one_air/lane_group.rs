@@ -21,8 +21,9 @@ const LEAST_BETWEEN: u64 = 16;
 
 /// Steps from one look to the next, without a common divisor with those to a birth: births are seen at all phases.
 fn steps_between_looks(to_birth: u64) -> u64 {
-    let has_none = |steps: &u64| (2..=*steps).all(|divisor| steps % divisor > 0 || to_birth % divisor > 0);
-    (LEAST_BETWEEN + 1..).find(has_none).unwrap_or(LEAST_BETWEEN)
+    let shares =
+        |steps: u64| (2..=steps).any(|part| steps.is_multiple_of(part) && to_birth.is_multiple_of(part));
+    (LEAST_BETWEEN + 1..).find(|steps| !shares(*steps)).unwrap_or(LEAST_BETWEEN)
 }
 
 /// The filaments of each pack: neighbours read the same part of the air.

@@ -454,14 +454,18 @@ fn stat_the_errors_of_a_fabric_with_random_streaks() {
     // Numbers of rare places are not there in each web.
     found.retain(|_, numbers| numbers.len() as u64 == SEEDS);
     assert!(found.len() > 25, "{:?}", found.keys());
+    let mut outside = Vec::new();
     for (name, numbers) in found {
         let scatter =
             Estimate::new(numbers.iter().map(|(value, _)| *value).collect()).standard_error.unwrap();
         let told = numbers.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
         let ratio = scatter * (SEEDS as f64).sqrt() / told;
         println!("{name}: {ratio:.2}");
-        assert!((0.6..1.6).contains(&ratio), "{name}: {ratio:.2}");
+        if !(0.6..1.6).contains(&ratio) {
+            outside.push(format!("{name}: {ratio:.2}"));
+        }
     }
+    assert!(outside.is_empty(), "{outside:?}");
 }
 
 fn told_of<T>(measures: &'static [Measure<T>], found: &T, of: &str) -> Vec<(String, Option<Known>)> {
