@@ -12,6 +12,7 @@ use std::time::Instant;
 /// The numbers of a web with another seed; none of one that cannot be laid, which is said.
 ///
 /// * `simulated` – the filaments that are simulated, `auto` or `all`
+#[allow(clippy::print_stderr)]
 pub fn numbers_of(web: &WebFile, seed: u64, simulated: &str) -> Option<Numbers> {
     let set = [("web.seed", seed.to_string()), ("web.flown", simulated.to_owned())];
     let set = set.map(|(key, value)| (key.to_owned(), value));
