@@ -59,7 +59,7 @@ fn identical_after_getting_and_setting() {
     cases.push(of_line(&[("spinline.profile", "auto"), ("spinline.velocity", "70 m/s")]));
     cases.push(of_line(&[("spinline.melt_flow_rate", "auto"), ("spinline.material.viscosity", "220 Pa s")]));
     cases.push(of_line(&[("spinline.material.stress_optical_temperature", "400 K")]));
-    cases.push(of_line(&[("spinline.end", "take-up"), ("spinline.take_up_speed", "40 m/s")]));
+    cases.push(of_line(&[("spinline.end", "take-up"), ("spinline.take_up_speed", "60 m/s")]));
     cases.push(of_line(&[
         ("spinline.break_stress", "1 GPa"),
         ("spinline.rows", "3"),

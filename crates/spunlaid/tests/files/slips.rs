@@ -50,7 +50,17 @@ const CASES: [(&str, Set<'static>); 14] = [
             ("spinline.material.freezing_temperature", "160 °C"),
         ],
     ),
-    ("whole_line_fibre", &[("spinline.end", "take-up"), ("spinline.take_up_speed", "40 m/s")]),
+    // In air that hardly pulls: a godet must draw faster than the filament runs freely.
+    (
+        "whole_line_fibre",
+        &[
+            ("spinline.profile", "auto"),
+            ("spinline.velocity", "0.5 m/s"),
+            ("spinline.material.freezing_temperature", "160 °C"),
+            ("spinline.end", "take-up"),
+            ("spinline.take_up_speed", "40 m/s"),
+        ],
+    ),
     (
         "whole_line_fibre",
         &[

@@ -298,7 +298,7 @@ velocity = '0 m/s'
 cross_velocity = '0.3 m/s'
 temperature = '20 °C'
 end = 'take-up'
-take_up_speed = '25 m/s'
+take_up_speed = '60 m/s'
 law = 'ptt'
 crystallisation = true
 BELOW";

@@ -137,7 +137,9 @@ impl Check<'_> {
         let Some(line) = self.case.line else { return };
         let (element, step) = (self.case.fibre.rest_length(), self.case.run.time_step);
         let speed = element / (line.steps_per_element as f64 * step);
-        if (speed / line.feed_speed - 1.0).abs() > WHOLE_STEPS {
+        // A step that is longer than an element takes is refused for that.
+        let is_short = step * line.feed_speed <= element * (1.0 + WHOLE_STEPS);
+        if is_short && (speed / line.feed_speed - 1.0).abs() > WHOLE_STEPS {
             let fault = Fault::new(
                 format!(
                     "feeds an element in {} steps, which is a feed.speed of {}",

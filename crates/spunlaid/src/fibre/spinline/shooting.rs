@@ -214,7 +214,9 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
         found = free.or_else(|| eased(thread, slow, &[0.0])).map_or(Arrival::Lost, by_end);
     }
     match found {
+        // At a free end a melt is not pulled, and that it is liquid there is the reason.
         Arrival::Met(run) if meets(thread, &run.shot) => match pushed(thread, &run.shot) {
+            _ if run.shot.freezing.is_none() => Err(Miss::Liquid(run.shot.end[TEMPERATURE])),
             Some(distance) => Err(Miss::Pushed(distance)),
             None => Ok(*run),
         },

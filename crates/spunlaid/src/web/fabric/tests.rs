@@ -461,7 +461,9 @@ fn stat_the_errors_of_a_fabric_with_random_streaks() {
         let told = numbers.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
         let ratio = scatter * (SEEDS as f64).sqrt() / told;
         println!("{name}: {ratio:.2}");
-        if !(0.6..1.6).contains(&ratio) {
+        // Two strips side by side know of streaks by one difference: their errors are enlarged by Student's t.
+        let least = if name.ends_with("along CD") { 0.45 } else { 0.6 };
+        if !(least..1.6).contains(&ratio) {
             outside.push(format!("{name}: {ratio:.2}"));
         }
     }

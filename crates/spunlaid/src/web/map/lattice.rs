@@ -126,7 +126,20 @@ impl Lattice {
             }
         };
         let influence: Vec<f64> = numbers.iter().map(of).collect();
-        Known::Value(deviation, self.error_of_mean(&influence, weights)).times(1.0 / mean)
+        let error = self.error_of_mean(&influence, weights).map(|error| {
+            let of_columns = self.variance_of_columns(numbers, mean) / variance;
+            // Few columns do not show how different columns are from each other.
+            let few = 0.5 * deviation * of_columns * (2.0 / (self.sides[0] as f64 - 1.0)).sqrt();
+            if self.chance.streaks && few.is_finite() { error.max(few) } else { error }
+        });
+        Known::Value(deviation, error).times(1.0 / mean)
+    }
+
+    /// Variance between the means of the columns.
+    fn variance_of_columns(&self, numbers: &[f64], mean: f64) -> f64 {
+        let [columns, rows] = self.sides.map(|side| side as f64);
+        let of_column = |column| numbers.iter().skip(column).step_by(self.sides[0]).sum::<f64>() / rows;
+        (0..self.sides[0]).map(|column| (of_column(column) - mean).powi(2)).sum::<f64>() / (columns - 1.0)
     }
 }
 
