@@ -35,7 +35,10 @@ fn main() {
         if let Some(folder) = word_after("--write") {
             std::fs::write(format!("{folder}/line_{number}.toml"), &web.text).expect("a file");
         }
-        let of = |seed: usize, flown: &str| webs::numbers_of(&web, 1 + seed as u64, flown);
+        let of = |seed: usize, simulated: &str| {
+            let found = webs::numbers_of(&web, 1 + seed as u64, simulated);
+            found.inspect_err(|error| eprintln!("line {number}, seed {}: {error}", 1 + seed)).ok()
+        };
         let first = of(0, "auto");
         // What cannot be laid once is tried no further.
         let seeds = if first.is_some() { seeds as usize } else { 0 };

@@ -175,17 +175,21 @@ impl Weights {
     }
 
     /// Standard error of the share below an edge by chance: by the blocks, and as of a normal field, which is the
-    /// larger one in the tails, of which a map holds few clouds. Where all is heavier, so are the edges, which
-    /// follow the mean.
+    /// larger one in the tails, of which a map holds few clouds.
     fn error(&self, edge: f64) -> Option<f64> {
+        let share = Self::at(&self.all, edge);
+        // Of a rare share it is no more than the share: rare patches of one map say little of the density there.
+        let of_normal = (self.of_normal(edge) * self.density(edge)).min(share.min(1.0 - share));
+        Some(self.by_blocks(edge)?.max(of_normal))
+    }
+
+    /// The first of these errors. Where all is heavier, so are the edges, which follow the mean.
+    fn by_blocks(&self, edge: f64) -> Option<f64> {
         let share = Self::at(&self.all, edge);
         let per_mean = edge * self.density(edge);
         let off = |(block, mean): (&Vec<f64>, &f64)| Self::at(block, edge) - share + per_mean * mean;
         let influence: Vec<f64> = self.blocks.iter().zip(&self.means).map(off).collect();
-        let by_blocks = self.lattice.error_of_mean(&influence, &self.means)?;
-        // Of a rare share it is no more than the share: rare patches of one map say little of the density there.
-        let of_normal = (self.of_normal(edge) * self.density(edge)).min(share.min(1.0 - share));
-        Some(by_blocks.max(of_normal))
+        self.lattice.error_of_mean(&influence, &self.means)
     }
 
     /// Standard error of the weight below which a normal field has a fixed share [classes]. The share is a sum over
@@ -248,14 +252,15 @@ impl Weights {
         Deviations::add(self.deviations, Known::Value(share(edge), by_chance), change)
     }
 
-    /// The weight over the mean of which a share is lighter. Its error is that of the share over the density
-    /// of the weights there.
+    /// The weight over the mean of which a share is lighter. Its error is that of the share over the density of the
+    /// weights there, and that of a normal field.
     fn quantile(&self, share: f64) -> Known {
         let number = self.all.partition_point(|below| *below < share).clamp(1, CLASSES) - 1;
         let [low, high] = [self.all[number], self.all[number + 1]];
         let edge = number as f64 + if high > low { (share - low) / (high - low) } else { 0.0 };
         let density = self.density(edge);
-        let error = self.error(edge).filter(|_| density > 0.0).map(|error| error / density);
+        let by_blocks = self.by_blocks(edge).filter(|_| density > 0.0);
+        let error = by_blocks.map(|error| (error / density).max(self.of_normal(edge)));
         let change = |by: f64| (edge - CLASSES_PER_MEAN) * by;
         Deviations::add(self.deviations, Known::Value(edge, error), change).times(1.0 / CLASSES_PER_MEAN)
     }

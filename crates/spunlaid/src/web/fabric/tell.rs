@@ -203,8 +203,13 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         air,
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
-            let heavier = keys.opacity_weight.map_or(1.0, |weight| map.basis_weight() / weight);
-            opacity(laid, map, scattering * heavier)
+            match keys.opacity_weight {
+                None => opacity(laid, map, (scattering, 0.0)),
+                // It follows the weight of this sheet, and so has its error.
+                Some(weight) => {
+                    opacity(laid, map, (scattering * map.basis_weight() / weight, laid.error_of_weight))
+                }
+            }
         }),
         is_of_map_alone: laid.orientation.is_none(),
         notes,
@@ -308,10 +313,20 @@ fn air(
     Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread: Some(cv.times(factor)) })
 }
 
-fn opacity(laid: &Laid<'_>, map: &Map, scattering: f64) -> Option<Opacity> {
+/// * `scattering` – of the mean weight, with its error as a share of it
+fn opacity(laid: &Laid<'_>, map: &Map, (scattering, error): (f64, f64)) -> Option<Opacity> {
     let of = |weight| light::opacity(scattering * weight);
     let (mean, cv) = over_patches(laid, map, OPACITY_PATCH, of)?;
-    Some(Opacity { mean, spread: cv.times(mean.value()) })
+    let spread = cv.times(mean.value());
+    let by_weight = 0.5 * (of(1.0 + error) - of(1.0 - error)).abs();
+    let with = |number: Known, off: f64| match number {
+        Known::Value(value, Some(error)) => Known::Value(value, Some(error.hypot(off))),
+        other => other,
+    };
+    // The spread is that of the weights times the slope, which falls as the opacity rises.
+    let slope = |weight: f64| of(weight * (1.0 + 1e-4)) - of(weight * (1.0 - 1e-4));
+    let of_spread = 0.5 * spread.value() * (slope(1.0 + error) - slope(1.0 - error)).abs() / slope(1.0);
+    Some(Opacity { mean: with(mean, by_weight), spread: with(spread, of_spread) })
 }
 
 /// Mean and CV over patches side by side of what follows from their weight. What deviations take from the mean grows
