@@ -45,8 +45,9 @@ fn exponent(amplitudes: [f64; 4]) -> f64 {
     product(1) / product(0)
 }
 
-/// Where eddies grow as a jet spreads, the amplitude grows in proportion to the distance, as it was measured; where they
-/// stay as large, it grows more slowly. The level depends on assumptions. Bounds: three standard errors of these flights.
+/// Where eddies grow as a jet spreads, the amplitude grows in proportion to the distance, as it was measured; where
+/// they stay as large, it grows more slowly. The level depends on assumptions. Bounds: three standard errors of these
+/// flights.
 #[test]
 fn published_the_amplitude_below_a_slot_die_grows_in_proportion_to_the_distance() {
     let (case, _) = read_case(Path::new("../../cases/published/melt_blowing.toml"), &[]).unwrap();

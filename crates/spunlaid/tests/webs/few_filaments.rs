@@ -71,7 +71,8 @@ fn line(line: &str, web: &str) -> String {
     before.replace("30 mm", "60 mm") + &web
 }
 
-const DEFECT: &str = "[line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\ndefects = [{ from = \"60 mm\", to = \"72 mm\" }]";
+const DEFECT: &str = "[line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\n\
+    defects = [{ from = \"60 mm\", to = \"72 mm\" }]";
 
 /// The few were told to be as even as filaments at any random places, without defects, and in layers that have nothing
 /// in common: up to two fifths off, and a note said that the map was wrong.

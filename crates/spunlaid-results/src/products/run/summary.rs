@@ -6,7 +6,7 @@ use crate::files::origin::Performance;
 use crate::files::versioned_json;
 use crate::products::load;
 use crate::products::spinline::files as spinline;
-use serde_json::{Map, Value as Json, json};
+use serde_json::{Value as Json, json};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::case::keys::{Content, Value};
@@ -25,7 +25,7 @@ pub fn summary(
     let about = json!({
         "case": resolved(case),
         // By what it depends on: runs that agree in all of it flew in the same eddies.
-        "turbulence": case.turbulence().into_iter().map(|(what, sum)| (what.to_owned(), sum.into())).collect::<Map<_, _>>(),
+        "turbulence": turbulence(case),
         // Of a case that is fed from a spinline, and what the filaments do to their air where it has a curtain.
         "spinline": spinline::part_of_case(case),
         "curtain": load::load_of_spinline(case, &results.way()).as_ref().map(load::summary),
@@ -50,6 +50,12 @@ pub fn summary(
         "notes": notes,
     });
     versioned_json(4, joined([known(about), measures, rest]))
+}
+
+/// The identity of the turbulence, by its parts.
+fn turbulence(case: &Case) -> Json {
+    let parts = case.turbulence().into_iter().map(|(what, sum)| (what.to_owned(), sum.into()));
+    Json::Object(parts.collect())
 }
 
 /// Fibres that were lost, counted from 1.

@@ -145,7 +145,8 @@ const NO_THREAD: &str =
     "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
 
 const NOT_FOUND: &str = "is not solved: no steady state was found, and it is not known whether there is one";
-const STAYS_LIQUID: &str = "has no steady state: followed from slower ones, the threads end where the melt cools no further before it is solid";
+const STAYS_LIQUID: &str = "has no steady state: followed from slower lines, the melt cools no further before it \
+    is solid";
 const CHECK_PULL: &str = "check the viscosity of the melt, the air and the throughput";
 
 /// Why no tension at the die meets the end of the line.

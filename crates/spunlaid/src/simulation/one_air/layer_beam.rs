@@ -171,7 +171,8 @@ impl LayerBeam<'_> {
         Ok(kept)
     }
 
-    /// Finds what the places of the filaments and their defects do to the CV of a sheet of pieces: that of the same pieces with an even row, or without defects, is known too.
+    /// Finds what the places of the filaments and their defects do to the CV of a sheet of pieces: that of the same
+    /// pieces with an even row, or without defects, is known too.
     fn see_places(
         &self,
         (spec, number): (&WebSpec, usize),

@@ -18,7 +18,7 @@ const APART: f64 = 0.618_033_988_749_895;
 /// The filaments of a sheet, made of pieces of a library along the fibre and across.          theory.md (83h)
 ///
 /// ```text
-/// along the fibre  |‹fade›—— piece ——‹fade›|          each follows the one before, shifted across and mirrored at random;
+/// along the fibre  |‹fade›—— piece ——‹fade›|          each follows the one before, shifted and mirrored at random;
 ///                             |‹fade›—— piece ——‹fade›|     the variance is the same in fades and between them
 /// ```
 #[derive(Clone, Debug)]

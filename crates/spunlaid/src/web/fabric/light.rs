@@ -62,7 +62,7 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 pub fn bare_area(local: &[f64], (length, error): (f64, f64), diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
-    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV, and all of it falls with τd.     theory.md (113)
+    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV, and all of it falls with τd.   theory.md (113)
     let by_clouds = |error: f64| libm::exp(-covered) * covered * covered * found.cv * error;
     Known::Value(share, found.standard_error.map(|chance| by_clouds(chance).hypot(share * covered * error)))
 }

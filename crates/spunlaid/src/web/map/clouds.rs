@@ -383,8 +383,8 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
 mod tests {
     use super::*;
 
-    /// Another map whose deviations are two tenths larger has 44 % more variance in each octave, which is in the error of
-    /// every band.
+    /// Another map whose deviations are two tenths larger has 44 % more variance in each octave, which is in the
+    /// error of every band.
     #[test]
     fn analytic_what_a_filling_does_is_in_the_error_of_the_clouds() {
         const CELLS: usize = 64;

@@ -87,11 +87,11 @@ pub struct LayerFew {
     pub missing: [f64; 2],
     /// CV over patches of each size.
     pub cvs: Vec<FewFilamentsCv>,
-    /// What the places of all filaments, in place of usual ones, and their defects add to each CV² on a sheet of pieces;
-    /// empty without them, and where the few have laid the whole sheet.
+    /// What the places of all filaments, in place of usual ones, and their defects add to each CV² on a sheet of
+    /// pieces; empty without them, and where the few have laid the whole sheet.
     pub by_places: Vec<f64>,
-    /// Of octaves of wavelength [m], how far the variance of the map is off that is filled in from every second one, as a
-    /// part of it.
+    /// Of octaves of wavelength [m], how far the variance of the map is off that is filled in from every second one, as
+    /// a part of it.
     pub octaves: Vec<([f64; 2], f64)>,
     /// For each of these sizes, how much the blocks of the sheet vary: the mean square of the deviations of
     /// the patches of the few filaments in each block from the mean of all, over that mean. Two webs in the

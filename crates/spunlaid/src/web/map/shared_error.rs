@@ -173,8 +173,8 @@ mod tests {
         for (of_place, kept) in [(0.0, 0.0), (0.3, 0.0), (1.0, 0.0), (0.0, 0.4)] {
             let ([held, alone], ratio) = covered(of_place, kept);
             println!("{of_place} {kept}: {held:.3}, {alone:.3} as independent ones; variance {ratio:.2}");
-            // 600 seeds: 0.9 % by chance, and 6 % of the ratio. Gusts of ten filaments hardly reach from cell to cell, so
-            // a tenth of the variance is told too much; where two fifths are kept, what reaches farther is missing.
+            // 600 seeds: 0.9 % by chance, and 6 % of the ratio. Gusts of ten filaments hardly reach from cell to cell,
+            // so a tenth of the variance is told too much; where two fifths are kept, what reaches farther is missing.
             let (least, least_ratio) = if kept > 0.0 { (0.87, 0.5) } else { (0.92, 0.8) };
             assert!((least..=0.99).contains(&held), "{held}");
             assert!((least_ratio..1.3).contains(&ratio), "{ratio}");

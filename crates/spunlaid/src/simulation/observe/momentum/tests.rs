@@ -135,8 +135,8 @@ fn analytic_a_thread_without_drag_drives_no_air() {
 }
 
 /// Values of which each keeps half of the one before: over many series the errors that are told are as large as the
-/// scatter of the means where nothing is kept, and seven tenths of it where a half is; as of independent values they are
-/// little more than a half.
+/// scatter of the means where nothing is kept, and seven tenths of it where a half is; as of independent values they
+/// are little more than a half.
 #[test]
 fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
     const SERIES: usize = 4000;
