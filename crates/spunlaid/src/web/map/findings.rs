@@ -209,8 +209,10 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         };
         patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
     }
+    let seen = nearest_to_seen(patches.iter().map(|patch| patch.map.patch));
+    let side = seen.map_or(1, |i| (patches[i].map.patch / sheet.cell).round() as usize);
     let variance =
-        variance_of_mean(&map, width / sheet.width, &web.places(width)) + web.variance_by_defects();
+        variance_of_mean(&map, side, width / sheet.width, &web.places(width)) + web.variance_by_defects();
     let error_of_weight = Some(variance.sqrt()).filter(|error| error.is_normal());
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     // The layer of which the filling knows least.

@@ -100,11 +100,16 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
 /// has crossed a place is the mass up to it less that of an even web. For filaments at random places that is a
 /// random walk from edge to edge, of a third of the variance that their number gives the mean.    theory.md (103b)
 ///
+/// The ends of a sheet that is no ring along the machine cut clouds: the power of the longest waves along it.
+///
+/// * `side` – of the patches whose waves are looked at [cells]
 /// * `share` – of the sheet's width
 /// * `places` – of the filaments
-pub(crate) fn variance_of_mean(map: &Map, share: f64, places: &Places) -> f64 {
+pub(crate) fn variance_of_mean(map: &Map, side: usize, share: f64, places: &Places) -> f64 {
+    let waves = if map.closed[1] { None } else { deviations(map, side).and_then(|(_, powers)| powers) };
+    let ends = waves.map_or(0.0, |powers| powers.variance_of_mean([true, false]));
     if map.closed[0] {
-        return 0.0;
+        return ends;
     }
     let (profile, mean) = (map.profile_cd(), map.basis_weight());
     let mut up_to = 0.0;
@@ -117,7 +122,7 @@ pub(crate) fn variance_of_mean(map: &Map, share: f64, places: &Places) -> f64 {
         Places::AtRandom(streaks) => streaks.variance_of_mean,
         _ => 0.0,
     };
-    by_number * (1.0 - share).max(0.0) + (crossed - by_number / 3.0).max(0.0)
+    ends + by_number * (1.0 - share).max(0.0) + (crossed - by_number / 3.0).max(0.0)
 }
 
 /// The mean square of the deviations of the patches of one side from the mean, over it, and the powers of their
