@@ -369,7 +369,12 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         density: DENSITY,
         basis_weight: findings.map.basis_weight(),
     });
-    // What makes a CV doubtful does so to its patches: a guess of the lamp, blur, a small sheet.
+    // What makes a CV doubtful does so to its patches: an assumed lamp, blur, a small sheet. Blur of other patches says
+    // nothing of larger ones.
+    let is_of_fabric = |side: f64| PATCHES.iter().any(|patch| (side / patch - 1.0).abs() < ABOUT);
+    let counts = |of: &&PatchFindings| {
+        findings.guess.is_some() || of.interval.is_ok() || is_of_fabric(of.unevenness.patch)
+    };
     let patch = |of: &PatchFindings| LaidPatch {
         patch: of.unevenness.patch,
         told: Some(of.unevenness),
@@ -381,7 +386,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         reach: None,
         filaments: filaments.into_iter().collect(),
         orientation: None,
-        patches: findings.patches.iter().map(patch).collect(),
+        patches: findings.patches.iter().filter(counts).map(patch).collect(),
         streaks: true,
         error_of_weight: 0.0,
         defects: Vec::new(),
