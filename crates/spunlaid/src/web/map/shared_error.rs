@@ -78,10 +78,15 @@ impl SharedError {
             .map(|of: fn(&Part) -> f64| cells.iter().map(of).sum::<f64>());
         let slope = if square > 0.0 { product / square } else { 0.0 };
         let left: Vec<f64> = cells.iter().map(|cell| cell.value - slope * cell.length).collect();
-        let [products, weights, squares] = sums_of_near([count, stretches], &left);
-        let all = (cells.len() as f64).powi(2);
-        let (degrees, known) = (all / squares - FOUND, all - FOUND * weights);
-        let by_chance = all / known * products.max(0.0);
+        let lengths: Vec<f64> = cells.iter().map(|cell| cell.length).collect();
+        let near = |cells: &[f64]| sums_of_near([count, stretches], cells);
+        let ([products, weights, squares], [of_lengths, ..]) = (near(&left), near(&lengths));
+        let number_of_cells = cells.len() as f64;
+        let degrees = number_of_cells.powi(2) / squares - FOUND;
+        // Of independent cells the products are these times their variance: the mean and the line are taken out.
+        let of_line = if square > 0.0 { of_lengths / square } else { 0.0 };
+        let known = number_of_cells - weights / number_of_cells - of_line;
+        let by_chance = number_of_cells / known * products.max(0.0);
         let of_place = |fibre: &Vec<Part>| {
             let rest = |part: &Part| (part.value - mean - slope * (part.length - length)) / filaments;
             let rests: Vec<f64> = fibre.iter().map(rest).collect();
@@ -173,11 +178,11 @@ mod tests {
         for (of_place, kept) in [(0.0, 0.0), (0.3, 0.0), (1.0, 0.0), (0.0, 0.4)] {
             let ([held, alone], ratio) = covered(of_place, kept);
             println!("{of_place} {kept}: {held:.3}, {alone:.3} as independent ones; variance {ratio:.2}");
-            // 600 seeds: 0.9 % by chance, and 6 % of the ratio. Gusts of ten filaments hardly reach from cell to cell,
-            // so a tenth of the variance is told too much; where two fifths are kept, what reaches farther is missing.
+            // 600 seeds: 0.9 % of sampling error, and 6 % of the ratio. Where two fifths are kept, what reaches farther
+            // than to the next cell is missing.
             let (least, least_ratio) = if kept > 0.0 { (0.87, 0.5) } else { (0.92, 0.8) };
-            assert!((least..=0.99).contains(&held), "{held}");
-            assert!((least_ratio..1.3).contains(&ratio), "{ratio}");
+            assert!((least..=0.98).contains(&held), "{held}");
+            assert!((least_ratio..1.25).contains(&ratio), "{ratio}");
             assert!(of_place >= 1.0 || alone < 0.8, "{alone}");
         }
     }

@@ -134,9 +134,8 @@ fn analytic_a_thread_without_drag_drives_no_air() {
     assert!((last - 1.0 / (1.0 + 2.0 * 9.81 * 0.965_f64).sqrt()).abs() < 2e-3, "{last}");
 }
 
-/// Values of which each keeps half of the one before: over many series the errors that are told are as large as the
-/// scatter of the means where nothing is kept, and seven tenths of it where a half is; as of independent values they
-/// are little more than a half.
+/// Over many series of values, each of which keeps a part of the one before, the variance that is told of the mean is
+/// that of the weighted sums of the known covariances `kᵈ`, and its scatter the sum of all.
 #[test]
 fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
     const SERIES: usize = 4000;
@@ -144,23 +143,36 @@ fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
     let mut state = 1_u64;
     let mut uniform = move || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / 9_007_199_254_740_992.0 - 0.5
+        // Of variance one.
+        ((state >> 11) as f64 / 9_007_199_254_740_992.0 - 0.5) * 12f64.sqrt()
     };
-    for (kept, memory, least, most) in [(0.0, 1, 0.95, 1.05), (0.5, 2, 0.68, 1.05), (0.5, 0, 0.0, 0.62)] {
+    for (kept, memory) in [(0.0_f64, 1), (0.5, 2), (0.5, 0)] {
+        let all: Vec<(usize, usize)> = (0..VALUES).flat_map(|i| (0..VALUES).map(move |j| (i, j))).collect();
+        let covariance = |i: usize, j: usize| kept.powi(i.abs_diff(j) as i32);
+        let with_mean = |i: usize| (0..VALUES).map(|j| covariance(i, j)).sum::<f64>() / VALUES as f64;
+        let of_mean = (0..VALUES).map(with_mean).sum::<f64>() / VALUES as f64;
+        let weight = |i: usize, j: usize| (1.0 - i.abs_diff(j) as f64 / (memory as f64 + 1.0)).max(0.0);
+        let left = |&(i, j): &(usize, usize)| {
+            weight(i, j) * (covariance(i, j) - with_mean(i) - with_mean(j) + of_mean)
+        };
+        let weights = all.iter().map(|&(i, j)| weight(i, j)).sum::<f64>();
+        let expected = all.iter().map(left).sum::<f64>() / ((VALUES * VALUES) as f64 - weights);
         let (mut squares, mut told) = (0.0, 0.0);
         for _ in 0..SERIES {
-            let mut value = uniform() / libm::sqrt(1.0 - kept * kept);
+            let mut value = uniform();
             let values: Vec<f64> = (0..VALUES)
                 .map(|_| {
-                    value = kept * value + uniform();
+                    value = kept * value + (1.0 - kept * kept).sqrt() * uniform();
                     value
                 })
                 .collect();
-            squares += (values.iter().sum::<f64>() / VALUES as f64).powi(2);
-            told += error_of_series(&values, memory).unwrap().powi(2);
+            squares += (values.iter().sum::<f64>() / VALUES as f64).powi(2) / SERIES as f64;
+            told += error_of_series(&values, memory).unwrap().powi(2) / SERIES as f64;
         }
-        let ratio = (told / squares).sqrt();
-        assert!((least..most).contains(&ratio), "{kept} {memory}: {ratio}");
+        // Four standard errors of a mean of 4000 squares, whose deviations are about √2 of their mean.
+        let allowed = 4.0 * (2.0 / SERIES as f64).sqrt();
+        assert!((told / expected - 1.0).abs() < allowed, "{kept} {memory}: {told} {expected}");
+        assert!((squares / of_mean - 1.0).abs() < allowed, "{kept}: {squares} {of_mean}");
     }
     assert_eq!(error_of_series(&[1.0], 1), None);
 }
