@@ -63,9 +63,8 @@ fn memory_is_flat() {
         let stays = (0..3).any(|_| quantity(&peak(points, replicates)) < bound);
         assert!(stays, "more than {bound} KiB for {points} points of {replicates} fibres");
     };
-    // A point is a case, its values, its results and what of them is in figures: less than 1.6 KiB. One more measure is
-    // 80 bytes.
-    stays_below(largest(|peak| peak.whole) + 9000 * 8 / 5, 10_000, 2, |peak| peak.whole);
+    // A point is a case, its values, its results and what of them is in figures: less than 1.5 KiB.
+    stays_below(largest(|peak| peak.whole) + 9000 * 3 / 2, 10_000, 2, |peak| peak.whole);
     // A fibre is an index of 4 bytes. If its 272 bytes of results were kept, this would be 4,800 KiB.
     stays_below(largest(|peak| peak.flying) + 2000, 1000, 20, |peak| peak.flying);
 }

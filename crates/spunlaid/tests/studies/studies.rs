@@ -89,7 +89,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
                 let i = study.quantity(number.measure.name).unwrap();
                 // A number that is defined for no fibre has no mean.
                 let known = |mean: f64| Some(mean).filter(|mean| !mean.is_nan());
-                assert_eq!(known(of_point.mean[i]), known(number.estimate.mean));
+                assert_eq!(known(of_point.mean(i)), known(number.estimate.mean));
                 assert_eq!(of_point.standard_error(i), number.estimate.standard_error);
             }
         }
@@ -166,7 +166,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
     for (point, count) in counts.iter().enumerate() {
         let results = results_of_point(&study, &mut journal, point).unwrap();
         let is_small =
-            |i: usize, fraction: f64| results.standard_error(i).unwrap() <= fraction * results.mean[i];
+            |i: usize, fraction: f64| results.standard_error(i).unwrap() <= fraction * results.mean(i);
         assert!(*count == 40 || is_small(0, 0.1) && is_small(2, 0.5), "{count} of point {point}");
         assert!(*count > 3);
     }
@@ -216,7 +216,7 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     assert!(lost.iter().all(|record| matches!(record.outcome, ReplicateOutcome::Lost { .. })), "{lost:?}");
     let results: PointResults = results_of_point(&study, &mut journal, 1).unwrap();
     assert_eq!((results.n, results.lost), (0, 3));
-    assert!(results.mean[0].is_nan() && results.standard_error(0).is_none());
+    assert!(results.mean(0).is_nan() && results.standard_error(0).is_none());
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
 /// The quantities that tables show and that some point has.
 fn quantities_with_values(study: &Study, results: &[PointResults]) -> Vec<usize> {
     let mut shown = shown::quantities(study);
-    shown.retain(|quantity| results.iter().any(|point| point.mean[*quantity].is_finite()));
+    shown.retain(|quantity| results.iter().any(|point| point.mean(*quantity).is_finite()));
     shown
 }
 
@@ -288,10 +288,10 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let all: Vec<usize> =
         (0..study.quantities.len()).filter(|i| study.quantities[*i].figure.name == "cv").collect();
     let quantity = *all.get(all.len() / 2)?;
-    if !results.iter().all(|point| point.mean[quantity].is_finite()) {
+    if !results.iter().all(|point| point.mean(quantity).is_finite()) {
         return None;
     }
-    let order = |a: &usize, b: &usize| results[*a].mean[quantity].total_cmp(&results[*b].mean[quantity]);
+    let order = |a: &usize, b: &usize| results[*a].mean(quantity).total_cmp(&results[*b].mean(quantity));
     let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
     let words = |point: usize| {
         let values = study.inputs().zip(&study.points[point].values);

@@ -137,7 +137,7 @@ fn points_along(study: &Study, results: &[PointResults], quantity: usize, factor
         let mut others = values(*point).iter().zip(values(0)).enumerate().filter(|(i, _)| *i != factor);
         others.all(|(_, (here, first))| here.to_bits() == first.to_bits())
     };
-    let is_known = |point: &usize| results[*point].mean[quantity].is_finite();
+    let is_known = |point: &usize| results[*point].mean(quantity).is_finite();
     let mut along: Vec<usize> = (0..results.len()).filter(differs_alone).filter(is_known).collect();
     along.sort_by(|a, b| values(*a)[factor].total_cmp(&values(*b)[factor]));
     along.dedup_by(|a, b| values(*a)[factor].to_bits() == values(*b)[factor].to_bits());
@@ -158,7 +158,7 @@ impl Differences<'_> {
         let [from, to] = [from, to].map(|i| self.points[i]);
         let known = |point: usize| {
             let results = &self.results[point];
-            (results.mean[self.quantity], results.errors[self.quantity])
+            (results.mean(self.quantity), results.error(self.quantity))
         };
         let ((before, error_before), (after, error_after)) = (known(from), known(to));
         if [from, to].iter().all(|point| self.study.points[*point].experiment.is_exact()) {
@@ -208,7 +208,7 @@ fn follows(
         };
         return Ok((evidence, verdict));
     }
-    let mean = |i: usize| of.results[of.points[i]].mean[of.quantity];
+    let mean = |i: usize| of.results[of.points[i]].mean(of.quantity);
     let between = || 1..last;
     let greatest = between().max_by(|a, b| mean(*a).total_cmp(&mean(*b)));
     let least = between().min_by(|a, b| mean(*a).total_cmp(&mean(*b)));

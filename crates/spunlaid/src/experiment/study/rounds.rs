@@ -14,30 +14,53 @@ pub struct PointResults {
     pub n: u64,
     /// Fibres lost: their computation diverged, or they did not reach the belt.
     pub lost: u64,
-    /// Mean of each of the study's quantities; NaN without any replicate.
-    pub mean: Box<[f64]>,
-    /// Standard error of each mean; NaN if it is not known. Kept without `Option`, which would take twice the memory: a
-    /// study has many points.
-    pub errors: Box<[f64]>,
+    /// Index of each of the study's quantities that is known, with its mean and standard error, which is NaN if it is not
+    /// known. A study has many points, and many quantities that apply to none of them.
+    known: Box<[u16]>,
+    numbers: Box<[[f64; 2]]>,
 }
 
 impl PointResults {
+    /// * `mean` – of each of the study's quantities; NaN without any replicate
+    /// * `errors` – standard error of each mean; NaN if it is not known
+    pub fn new(n: u64, lost: u64, mean: &[f64], errors: &[f64]) -> Self {
+        let is_known = |i: &usize| !mean[*i].is_nan();
+        let known: Vec<usize> = (0..mean.len()).filter(is_known).collect();
+        let numbers = known.iter().map(|&i| [mean[i], errors[i]]).collect();
+        Self { n, lost, known: known.iter().map(|&i| i as u16).collect(), numbers }
+    }
+
+    fn numbers(&self, quantity: usize) -> [f64; 2] {
+        let at = self.known.binary_search_by_key(&quantity, |known| usize::from(*known));
+        at.map_or([f64::NAN; 2], |at| self.numbers[at])
+    }
+
+    /// Mean of a quantity, by its index; NaN without any replicate.
+    pub fn mean(&self, quantity: usize) -> f64 {
+        self.numbers(quantity)[0]
+    }
+
+    /// Standard error of the mean of a quantity; NaN if it is not known.
+    pub fn error(&self, quantity: usize) -> f64 {
+        self.numbers(quantity)[1]
+    }
+
     /// Mean and standard error of a measure of fibres. None without a measure of this name.
     pub(crate) fn find(&self, name: &str) -> Option<(f64, Option<f64>)> {
         let index = MEASURES.iter().position(|measure| measure.name == name)?;
-        Some((*self.mean.get(index)?, self.standard_error(index)))
+        Some((self.mean(index), self.standard_error(index)))
     }
 
     /// Standard error of the mean of a quantity, by its index; `None` if it is not known, as that of a single fibre.
     pub fn standard_error(&self, quantity: usize) -> Option<f64> {
-        Some(self.errors[quantity]).filter(|error| !error.is_nan())
+        Some(self.error(quantity)).filter(|error| !error.is_nan())
     }
 
     /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has
     /// no other than the standard error.
     pub fn whole_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
         let further = || quantities[quantity].further_errors();
-        let whole = further().map(|error| self.mean[error]).fold(self.errors[quantity], f64::hypot);
+        let whole = further().map(|error| self.mean(error)).fold(self.error(quantity), f64::hypot);
         Some(whole).filter(|whole| further().next().is_some() && whole.is_finite())
     }
 }
@@ -71,12 +94,9 @@ fn results_of(
         let of_one = of_one.map(|error| error / count.sqrt());
         of_one.unwrap_or_else(|| scatter(i))
     };
-    Ok(PointResults {
-        n: measured.len() as u64,
-        lost: (records.len() - measured.len()) as u64,
-        mean: estimates.iter().map(|estimate| estimate.mean).collect(),
-        errors: (0..quantities.len()).map(error).collect(),
-    })
+    let mean: Vec<f64> = estimates.iter().map(|estimate| estimate.mean).collect();
+    let errors: Vec<f64> = (0..quantities.len()).map(error).collect();
+    Ok(PointResults::new(measured.len() as u64, (records.len() - measured.len()) as u64, &mean, &errors))
 }
 
 /// The rounds of a study. In each round, all points get the replicates that they are known to need.
@@ -143,7 +163,7 @@ fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) 
     }
     let needed = |&(measure, fraction): &(usize, f64)| {
         let error = results.standard_error(measure).unwrap_or(f64::INFINITY);
-        let allowed = fraction * results.mean[measure].abs();
+        let allowed = fraction * results.mean(measure).abs();
         if error <= allowed { 0.0 } else { results.n as f64 * (error / allowed).powi(2) }
     };
     let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
@@ -161,12 +181,7 @@ mod tests {
     #[test]
     fn replicates_grow_to_what_the_error_asks_for() {
         let replicates = Replicates { at_least: 4, at_most: 100, until: vec![(0, 0.1)] };
-        let results = |n: u64, mean: f64, error: f64| PointResults {
-            n,
-            lost: 0,
-            mean: vec![mean].into(),
-            errors: vec![error].into(),
-        };
+        let results = |n: u64, mean: f64, error: f64| PointResults::new(n, 0, &[mean], &[error]);
         assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.1), 4), None);
         assert_eq!(more_replicates(&replicates, &results(4, -1.0, 0.1), 4), None);
         assert_eq!(more_replicates(&replicates, &results(4, 1.0, 0.12), 4), Some(6));

@@ -35,7 +35,7 @@ pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Ve
 fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, label: &str) -> Figure {
     let [up, along] = [0, 1].map(|i| study.factors[i].values());
     let value = |i: usize, j: usize| {
-        results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean[measure] * group.unit.per_si)
+        results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean(measure) * group.unit.per_si)
     };
     let all: Vec<f64> = (0..up.len() * along.len())
         .map(|k| value(k / along.len(), k % along.len()))

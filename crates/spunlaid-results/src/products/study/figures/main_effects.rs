@@ -30,7 +30,7 @@ pub(super) fn figure(
         let spot = |(index, point): (usize, &PointResults)| {
             let (mean, error) = group.value(point, *measure);
             let adjusted =
-                ranking.map(|ranking| ranking.adjusted(study, index, factor, point.mean[*measure]));
+                ranking.map(|ranking| ranking.adjusted(study, index, factor, point.mean(*measure)));
             let value = adjusted.map_or(mean, |value| value * group.unit.per_si);
             let shift = along.aside(position, group.members.len());
             (along.place(study.points[index].values[factor]) + shift, value, error)

@@ -71,14 +71,14 @@ impl Group {
     /// Leaves out results that apply to no point, as the work check does with implicit tension. None if no
     /// result is left.
     pub(super) fn applying(mut self, results: &[PointResults]) -> Option<Self> {
-        self.members.retain(|(measure, _)| results.iter().any(|point| point.mean[*measure].is_finite()));
+        self.members.retain(|(measure, _)| results.iter().any(|point| point.mean(*measure).is_finite()));
         if self.members.is_empty() { None } else { Some(self) }
     }
 
     /// Mean and standard error of one of its measures at a point, in the units of the axis.
     pub(super) fn value(&self, results: &PointResults, measure: usize) -> (f64, Option<f64>) {
         let error = results.standard_error(measure).map(|error| error * self.unit.per_si);
-        (results.mean[measure] * self.unit.per_si, error)
+        (results.mean(measure) * self.unit.per_si, error)
     }
 }
 

@@ -40,7 +40,7 @@ fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> 
     row.extend(inputs_of(study, index));
     row.extend([Value::Whole(results.n as i64), Value::Whole(results.lost as i64)]);
     for (index, quantity) in study.quantities.iter().enumerate() {
-        row.extend([results.mean[index], results.errors[index]].map(Value::Number));
+        row.extend([results.mean(index), results.error(index)].map(Value::Number));
         if quantity.further_errors().next().is_some() {
             let whole = results.whole_error(&study.quantities, index);
             row.push(Value::Number(whole.unwrap_or(f64::NAN)));

@@ -39,7 +39,7 @@ pub fn head(quantity: &Quantity) -> String {
 pub fn cell(study: &Study, results: &PointResults, quantity: usize) -> String {
     let whole = results.whole_error(&study.quantities, quantity);
     let error = whole.or_else(|| results.standard_error(quantity));
-    in_unit(&study.quantities[quantity], results.mean[quantity], error)
+    in_unit(&study.quantities[quantity], results.mean(quantity), error)
 }
 
 /// A value ± its error, in the unit of a quantity.

@@ -53,7 +53,8 @@ fn deviations(results: &PointResults, records: &[Record]) -> Vec<(usize, PerMeas
     let scale = if n > 1.0 { 1.0 / (n * (n - 1.0)).sqrt() } else { 0.0 };
     let numbers = |record: &Record| {
         let measured = record.outcome.measured()?;
-        let deviation = measured.iter().zip(&results.mean).map(|(one, mean)| (one - mean) * scale).collect();
+        let deviation =
+            (measured.iter().enumerate()).map(|(i, one)| (one - results.mean(i)) * scale).collect();
         Some((record.replicate as usize, deviation))
     };
     records.iter().filter_map(numbers).collect()
@@ -85,8 +86,8 @@ impl FittedCoefficients {
             }
             replicated &= results.n > 1;
             let row = fit.row(point);
-            for (sums, y) in xy.iter_mut().zip(&results.mean) {
-                add(sums, *y, &row);
+            for (m, sums) in xy.iter_mut().enumerate() {
+                add(sums, results.mean(m), &row);
             }
             if fit.study.common_phases {
                 for (replicate, deviation) in deviations(&results, &journal.records(point, u64::MAX)?) {
@@ -175,7 +176,7 @@ impl Rest {
             let solved = fit.solve(&row);
             let leverage = dot(&row, &solved);
             for (m, rest) in rest.iter_mut().enumerate() {
-                let (y, b) = (results.mean[m], &fitted.coefficients[m]);
+                let (y, b) = (results.mean(m), &fitted.coefficients[m]);
                 let lines = (1..).zip(&fit.terms).filter(|(_, term)| term.is_main());
                 rest.squares += (y - dot(&row, b)).powi(2);
                 rest.about_mean.add(y - fitted.mean[m]);
