@@ -258,7 +258,7 @@ impl Study {
         })?;
         let all = PyDict::new(py);
         let numbers = self.file.study.quantities.len();
-        let mean = results.iter().flat_map(|point| point.mean.iter().copied()).collect();
+        let mean = results.iter().flat_map(|point| (0..numbers).map(|i| point.mean(i))).collect();
         let errors = (results.iter())
             .flat_map(|point| (0..numbers).map(|i| point.standard_error(i).unwrap_or(f64::NAN)));
         for (name, values) in [("mean", mean), ("standard_error", errors.collect())] {

@@ -1,20 +1,20 @@
-//! The errors that are told of a web, against the scatter of webs that differ by their seed.
+//! The reported errors of a web, against the scatter of webs that differ by their seed.
 
 #[allow(dead_code)]
-#[path = "../../examples/told/draw.rs"]
+#[path = "../../examples/web_errors/draw.rs"]
 mod draw;
 #[allow(dead_code)]
-#[path = "../../examples/told/numbers.rs"]
+#[path = "../../examples/web_errors/numbers.rs"]
 mod numbers;
-#[path = "../../examples/told/webs.rs"]
+#[path = "../../examples/web_errors/webs.rs"]
 mod webs;
 
 use draw::{Family, line};
 use numbers::{BOUNDS, Numbers, scatter};
 use spunlaid::ground::threads::each;
 
-/// All numbers of `summary.json` that have an error. Chance moves the scatter of twelve webs by as much as a chi-square
-/// distribution says: three and a half standard deviations of it are allowed beyond the bounds of the bench.
+/// All numbers of `summary.json` that have an error. Sampling moves the scatter of twelve webs by as much as a
+/// chi-square distribution says: three and a half standard deviations of it are allowed beyond the bounds of the bench.
 #[test]
 fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
     let web = line(Family::Known, 1, 6);

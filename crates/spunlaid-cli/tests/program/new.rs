@@ -217,7 +217,7 @@ fn analytic_each_of_two_beams_says_what_it_gives_and_what_all_give() {
 #[test]
 fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
     let desk = Desk::new();
-    for (option, absurd, told) in [
+    for (option, absurd, meant) in [
         ("--throughput", "0.5 g/s", "did you mean 0.5 g/min?"),
         ("--dtex", "2 kg/m", "2 dtex?"),
         ("--basis-weight", "20 kg/m²", "did you mean 20 g/m²?"),
@@ -230,7 +230,7 @@ fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
         let kept = LINE.chunks(2).filter(|pair| pair[0] != option).flatten();
         let mut command = desk.spunlaid("new --web line.toml");
         let said = refusal(command.args(kept).args([option, absurd]), 1);
-        assert!(said.contains(told), "{option} {absurd}: {said}");
+        assert!(said.contains(meant), "{option} {absurd}: {said}");
         assert!(!desk.path("line.toml").exists() && !desk.path("line_air.csv").exists(), "{option}");
     }
     // A filament twice as fast as any that is known.

@@ -139,7 +139,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     assert!(found.standard_error.unwrap() < 0.01, "{found:?}");
 }
 
-/// The check of the mesh flies the same line with elements of half the length: what it tells is what anybody finds who
+/// The check of the mesh flies the same line with elements of half the length: it finds what anybody finds who
 /// halves them by hand. An element that is half as long is fed in half as many steps.
 #[test]
 fn invariant_the_mesh_check_of_a_fed_fibre_tells_what_halving_by_hand_does() {

@@ -81,11 +81,13 @@ fn of_every_key(name: &str, text: &str) -> (BTreeSet<&'static str>, Vec<String>)
             }
             let Some(of_changed) = (!to_field).then(|| drawn(&changed)).flatten() else { continue };
             let has_air = agree(&air, &of_changed);
-            // The cut-off across chooses whole waves, and is told as it is; so is how a record was read.
+            // The cut-off across chooses whole waves, and counts as it is written; so does how a record was read.
             let is_told = key.name == "air.lateral_cutoff" || key.name.starts_with("air.record_");
             if has_air != has_identity && (has_identity || !is_told) {
-                wrong
-                    .push(format!("{name}: {} = {value}: same air {has_air}, told {has_identity}", key.name));
+                wrong.push(format!(
+                    "{name}: {} = {value}: same air {has_air}, identity {has_identity}",
+                    key.name
+                ));
             }
         }
     }

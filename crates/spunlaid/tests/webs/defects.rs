@@ -143,8 +143,8 @@ fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
 }
 
 /// The basis weight of webs scatters by what its error says: by the holes that chance blocks, between cut edges by
-/// what crosses these, and by the number of filaments at random places that lie between them. A slot was told two to
-/// four times too much, and chance defects nothing.
+/// what crosses these, and by the number of filaments at random places that lie between them. The error of a slot
+/// was two to four times too large, and random defects had none.
 #[test]
 fn stat_the_error_of_the_basis_weight() {
     const SEEDS: u64 = 40;
@@ -169,9 +169,9 @@ fn stat_the_error_of_the_basis_weight() {
         let found: Vec<(f64, f64)> = (0..SEEDS).map(of_seed).collect();
         let weights = Estimate::new(found.iter().map(|(weight, _)| *weight).collect());
         let scatter = weights.standard_error.unwrap() * (SEEDS as f64).sqrt();
-        let told = found.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
-        println!("{filaments}: {:.2}", scatter / told);
+        let reported = found.iter().map(|(_, error)| error).sum::<f64>() / SEEDS as f64;
+        println!("{filaments}: {:.2}", scatter / reported);
         // The scatter of 40 seeds is known to 11 %.
-        assert!((0.7..1.5).contains(&(scatter / told)), "{filaments}: {scatter} {told}");
+        assert!((0.7..1.5).contains(&(scatter / reported)), "{filaments}: {scatter} {reported}");
     }
 }

@@ -74,8 +74,8 @@ fn line(line: &str, web: &str) -> String {
 const DEFECT: &str = "[line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\n\
     defects = [{ from = \"60 mm\", to = \"72 mm\" }]";
 
-/// The few were told to be as even as filaments at any random places, without defects, and in layers that have nothing
-/// in common: up to two fifths off, and a note said that the map was wrong.
+/// The few were taken to be as uniform as filaments at any random places, without defects, and in layers that have
+/// nothing in common: up to two fifths off, and a note said that the map was wrong.
 #[test]
 fn identical_the_cv_of_few_is_that_of_their_map_with_its_places_defects_and_layers() {
     let layers = "[[layer]]\n[layer.line]\nrows = [{ pitch = \"0.16 mm\", filaments = 1000 }]\n[[layer]]\n\
@@ -93,7 +93,7 @@ fn identical_the_cv_of_few_is_that_of_their_map_with_its_places_defects_and_laye
     }
 }
 
-/// On a sheet of pieces a defect changes the told CV² as it changes that of the map, which has the same pieces.
+/// On a sheet of pieces a defect changes the reported CV² as it changes that of the map, which has the same pieces.
 #[test]
 fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
     let [with, without] = [DEFECT, DEFECT.split_once("\ndefects").unwrap().0].map(|words| {
@@ -101,10 +101,13 @@ fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
         found(&line(words, sheet).replace("3 m/s", "10 m/s").replace("= 500", "= 100")).patches
     });
     for (with, without) in with.iter().zip(&without) {
-        let [told, map] =
+        let [reported, map] =
             [|patch: &PatchFindings| patch.few.unwrap().cv, |patch: &PatchFindings| patch.of_map]
                 .map(|cv: fn(&PatchFindings) -> f64| cv(with).powi(2) - cv(without).powi(2));
         // Quanta are rounded.
-        assert!((told / map - 1.0).abs() < 1e-3 && map > 0.05 * without.of_map.powi(2), "{told} {map}");
+        assert!(
+            (reported / map - 1.0).abs() < 1e-3 && map > 0.05 * without.of_map.powi(2),
+            "{reported} {map}"
+        );
     }
 }

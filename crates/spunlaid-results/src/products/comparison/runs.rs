@@ -91,7 +91,7 @@ impl ComparedRun {
     fn turbulence_mismatch<'a>(&'a self, other: &'a Self) -> Option<&'a str> {
         let parts = |run: &'a Self| run.summary["turbulence"].as_object();
         let (Some(own), Some(others)) = (parts(self), parts(other)) else {
-            return Some("something that an older folder does not tell");
+            return Some("something that an older folder does not record");
         };
         let differs = |what: &&String| own.get(*what) != others.get(*what);
         own.keys().chain(others.keys()).find(differs).map(String::as_str)

@@ -95,7 +95,7 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
     }
 }
 
-/// All that a check tells beyond its limit; none if there is nothing.
+/// All that a check finds beyond its limit; none if there is nothing.
 fn all_told(check: &FinerCheck, case: &Case) -> Option<String> {
     let each: Vec<String> = beyond(check, true).map(|change| told(check, change, case)).collect();
     let is_open = |change: &Change| check.error_over(change).is_none() && change.from_quarter.is_some();
@@ -193,8 +193,8 @@ pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
     format!("{}: not checked: {why}", refined.name())
 }
 
-/// An estimate of a run with its whole error: by chance, and by step and mesh as the checks found them. One that has
-/// not converged has no error. What chance does to a single replicate is not known, nor is its error.
+/// An estimate of a run with its total standard error: by sampling, and by step and mesh as the checks found them. One
+/// that has not converged has no error. What chance does to a single replicate is not known, nor is its error.
 ///                                                                                             theory.md (58)
 pub fn with_error_of_checks(estimate: Estimate, measure: &str, checks: &FinerChecks) -> Estimate {
     let square = |check: &FinerCheck| {
@@ -273,7 +273,7 @@ mod tests {
         assert_eq!(sentences(&whole, &case), " The mesh is not checked.");
         assert!(notes(&whole, &case)[0].contains("spread differs by −66"), "{:?}", notes(&whole, &case));
         assert!(notes(&whole, &case)[1].starts_with("mesh: not checked: it would take 12 times"));
-        // A part of a fed fibre's run is told as one, and is in the error too.
+        // A part of a fed fibre's run is named as one, and is in the error too.
         let part = checks(1.17, 0.05, 0.1 * run);
         assert!((error(&part) - 2.778 / 2.17 * 1.17).abs() < 0.01, "{}", error(&part));
         assert!(notes(&part, &case)[0].contains("in the first "));

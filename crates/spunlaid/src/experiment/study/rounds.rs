@@ -14,8 +14,8 @@ pub struct PointResults {
     pub n: u64,
     /// Fibres lost: their computation diverged, or they did not reach the belt.
     pub lost: u64,
-    /// Index of each of the study's quantities that is known, with its mean and standard error, which is NaN if it is not
-    /// known. A study has many points, and many quantities that apply to none of them.
+    /// Index of each of the study's quantities that is known, with its mean and standard error, which is NaN if it is
+    /// not known. A study has many points, and many quantities that apply to none of them.
     known: Box<[u16]>,
     numbers: Box<[[f64; 2]]>,
 }

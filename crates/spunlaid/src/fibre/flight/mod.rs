@@ -20,7 +20,7 @@
 //! charge   the electric field of charged fibres, and where their charge is
 //! guard    which fibres are lost
 //! common   what fibres of one flight must have in common
-//! turbulence  what its turbulence is drawn from, which tells it from that of another flight
+//! turbulence  what its turbulence is drawn from, which distinguishes it from that of another flight
 //! start    flights at their start, straight and at rest
 //! steps    the steps, and what is seen between them
 //! set      keys of the case that change in flight

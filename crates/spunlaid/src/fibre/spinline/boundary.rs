@@ -1,4 +1,4 @@
-//! The thread as a boundary-value problem, for lines whose end the tension at the die does not tell.
+//! The thread as a boundary-value problem, for lines whose end does not follow from the tension at the die.
 //!
 //! Where inertia outweighs viscosity, two tensions that differ in the last digit lead to different ends. Then the
 //! states at many places are sought together, and the thread is followed from each place to the next only
@@ -101,6 +101,15 @@ pub(super) struct Branch<'a> {
     steps: Cell<usize>,
 }
 
+/// The plane in which a solution is sought.
+#[derive(Clone, Copy)]
+struct Plane<'p> {
+    /// A point of it.
+    through: &'p Unknowns,
+    /// The direction across it.
+    across: &'p Unknowns,
+}
+
 /// The unknowns of all places, and what is changed along the arc as the last.
 type Unknowns = Vec<f64>;
 
@@ -170,9 +179,9 @@ impl<'a> Branch<'a> {
                     return Some(point);
                 }
                 let moved: Unknowns = unknowns.iter().zip(at).map(|(next, at)| next - at).collect();
-                let mut guess = on(&moved, (goal - at[last]) / moved[last]);
-                guess[last] = goal;
-                if let Some((_, point, _)) = self.solve(guess, &self.along_value(1.0, at.len())) {
+                let mut start = on(&moved, (goal - at[last]) / moved[last]);
+                start[last] = goal;
+                if let Some((_, point, _)) = self.solve(start, &self.along_value(1.0, at.len())) {
                     return Some(Point { value: goal, ..point });
                 }
             }
@@ -285,7 +294,7 @@ impl<'a> Branch<'a> {
         let leg = match number.checked_sub(1).map(|before| &self.places[before]) {
             None => {
                 let first = FIRST_STEP * length;
-                Leg::new(thread, (0.0, thread.at_die(libm::exp(unknowns[0]))?), first, self.tension)
+                Leg::new(thread, 0.0, thread.at_die(libm::exp(unknowns[0]))?, first, self.tension)
             }
             Some(place) => {
                 let mut state = place.state;
@@ -293,7 +302,7 @@ impl<'a> Branch<'a> {
                 for (i, value) in self.active.iter().zip(&unknowns[first..]) {
                     state[*i] = value * place.sizes[*i];
                 }
-                Leg::new(thread, (place.s, state), place.wanted, self.tension)
+                Leg::new(thread, place.s, state, place.wanted, self.tension)
             }
         };
         let shot = leg.follow(end);
@@ -318,12 +327,7 @@ impl<'a> Branch<'a> {
 
     /// What is left of the equations: the gaps between the parts, what the end misses, and how far the solution is
     /// from the plane across the arc that it is sought in.
-    fn residual(
-        &self,
-        unknowns: &Unknowns,
-        legs: &[Shot],
-        (guess, across): (&Unknowns, &Unknowns),
-    ) -> Vec<f64> {
+    fn residual(&self, unknowns: &Unknowns, legs: &[Shot], plane: Plane<'_>) -> Vec<f64> {
         let last = unknowns.len() - 1;
         let mut left: Vec<f64> =
             legs.iter().enumerate().flat_map(|(number, shot)| self.ends(number, shot)).collect();
@@ -331,8 +335,8 @@ impl<'a> Branch<'a> {
             *left -= known;
         }
         left[last - 1] -= if self.varies == Varies::End { unknowns[last] } else { self.wanted_end() };
-        let moved: Unknowns = unknowns.iter().zip(guess).map(|(now, guess)| now - guess).collect();
-        left.push(self.product(&moved, across));
+        let moved: Unknowns = unknowns.iter().zip(plane.through).map(|(now, start)| now - start).collect();
+        left.push(self.product(&moved, plane.across));
         left
     }
 
@@ -371,16 +375,16 @@ impl<'a> Branch<'a> {
         Some(rows)
     }
 
-    /// Solves the equations by Newton's method from a guess, in the plane through it across the arc. None if they
+    /// Solves the equations by Newton's method from a start, in the plane through it across the arc. None if they
     /// have no solution near it. With the number of rounds.
-    fn solve(&self, guess: Unknowns, across: &Unknowns) -> Option<(Unknowns, Point, usize)> {
+    fn solve(&self, start: Unknowns, across: &Unknowns) -> Option<(Unknowns, Point, usize)> {
         let left_of = |unknowns: &Unknowns| {
             let legs = self.legs(unknowns)?;
-            let left = self.residual(unknowns, &legs, (&guess, across));
+            let left = self.residual(unknowns, &legs, Plane { through: &start, across });
             let size = left.iter().fold(0.0, |most: f64, left| most.max(left.abs()));
             size.is_finite().then_some((legs, left, size))
         };
-        let mut unknowns = guess.clone();
+        let mut unknowns = start.clone();
         let (mut legs, mut left, mut size) = left_of(&unknowns)?;
         let mut rounds = 0;
         while size > CLOSE && rounds < MOST_ROUNDS {

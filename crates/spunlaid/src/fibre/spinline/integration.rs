@@ -202,7 +202,8 @@ impl<'t, 'a> Stepper<'t, 'a> {
     /// How the slopes change with each value of the state, by differences, and with the place.
     fn derivatives(
         &mut self,
-        (start, length): (f64, f64),
+        start: f64,
+        length: f64,
         from: &State,
         slopes: &State,
     ) -> ([State; SIZE], State) {
@@ -224,7 +225,7 @@ impl<'t, 'a> Stepper<'t, 'a> {
     /// Tries a step by a linearly implicit method, which a fast relaxation does not hold up.
     fn stiff_step(&mut self, start: f64, length: f64, from: &State) -> Step {
         let first = self.slopes(start, from);
-        let (by_state, by_place) = self.derivatives((start, length), from, &first);
+        let (by_state, by_place) = self.derivatives(start, length, from, &first);
         let factors = Factors::of(SIZE, |row, column| {
             let diagonal = if row == column { 1.0 / (STIFF_GAMMA * length) } else { 0.0 };
             diagonal - by_state[row][column]

@@ -43,7 +43,7 @@ pub(super) struct Shot {
 /// Follows the thread from a state at the die to the end of the line.
 pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
     let length = libm::sqrt(thread.line.length);
-    Leg::new(thread, (0.0, die), FIRST_STEP * length, die[TENSION]).follow(length)
+    Leg::new(thread, 0.0, die, FIRST_STEP * length, die[TENSION]).follow(length)
 }
 
 /// A part of a thread: where it is, and what is behind.
@@ -62,7 +62,7 @@ impl<'t, 'a> Leg<'t, 'a> {
     /// * `start` – the root of its distance from the die [√m], and the state there
     /// * `wanted` – length of the first step [√m]
     /// * `tension` – size of the tensions that occur [N]
-    pub(super) fn new(thread: &'t Thread<'a>, (s, state): (f64, State), wanted: f64, tension: f64) -> Self {
+    pub(super) fn new(thread: &'t Thread<'a>, s: f64, state: State, wanted: f64, tension: f64) -> Self {
         let shot = Shot { outcome: Outcome::Complete, end: state, freezing: None, steps: Vec::new() };
         Self { stepper: Stepper::new(thread, tension), shot, s, state, wanted }
     }
@@ -144,7 +144,7 @@ impl<'t, 'a> Leg<'t, 'a> {
                 return Some(Outcome::ElasticWave);
             }
         }
-        // What the conformation gives in the melt goes on as the balance of forces tells.
+        // What the conformation gives in the melt goes on as the balance of forces gives it.
         self.state[TENSION] = rates.station.tension;
         (libm::exp(self.state[LN_SPEED]) > FASTEST).then_some(Outcome::RunsAway)
     }

@@ -229,7 +229,7 @@ fn drawn_numbers(seed: u64) -> impl FnMut() -> f64 {
 
 /// A line that might be run: four polymers, four laws, godets and free ends, air of many speeds.
 ///
-/// * `inertia` – whether the melt is so thin that a single tension hardly tells the end
+/// * `inertia` – whether the melt is so thin that a single tension hardly fixes the end
 fn drawn_line(seed: u64, inertia: bool) -> (Spinline, FrictionLaw) {
     let mut next = drawn_numbers(seed);
     let mut between = |low: f64, high: f64| low * (high / low).powf(next());

@@ -19,7 +19,7 @@ impl WebSpec {
         });
         let laid_patch = |of: &PatchFindings| LaidPatch {
             patch: of.map.patch,
-            told: of.told_with_whole_error(),
+            reported: of.told_with_whole_error(),
             off: of.off_of_map(),
         };
         let laid = Laid {

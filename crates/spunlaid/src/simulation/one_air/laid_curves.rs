@@ -6,7 +6,7 @@
 //! ```
 
 use super::BeamFindings;
-use super::layer_beam::{LayerBeam, beam_on};
+use super::layer_beam::{FilledLayer, LayerBeam, beam_on};
 use super::sampled::FlownSheet;
 use crate::ground::{Control, Error, Isa};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
@@ -102,8 +102,8 @@ impl<'a> Flyer<'a> {
             let of_fibres = Fibres::Flown(Arc::new(gathered));
             if let (Some(curves), Some(few)) = (curves, &mut of_layer.few) {
                 let inner = inner_columns(&spec.alone(number).web([of_fibres.clone()]));
-                of_layer.strands =
-                    layer.fill_in((spec, number), (&curves, back), (few, inner), &brush, by)?;
+                let filled = FilledLayer { spec, number, inner };
+                of_layer.strands = layer.fill_in(&filled, (&curves, back), few, &brush, by)?;
             }
             fibres.push(of_fibres);
             flown.push(of_layer);

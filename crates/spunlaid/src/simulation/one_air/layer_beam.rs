@@ -42,6 +42,21 @@ const APART: f64 = 0.5;
 /// Length of fed fibre after which gusts are forgotten, in lengths of the fibre that hangs between inlet and belt.
 const MEMORY: f64 = 2.0;
 
+/// A layer of a web that is filled in from few of its filaments.
+pub(super) struct FilledLayer<'a> {
+    pub(super) spec: &'a WebSpec,
+    pub(super) number: usize,
+    /// Columns of the sheet that are not edges.
+    pub(super) inner: Range<usize>,
+}
+
+/// The library of a flight, from which sheets around a belt are made.
+struct Pieces<'a> {
+    library: &'a Library,
+    /// Width after which the sheet repeats itself [m].
+    around: f64,
+}
+
 /// The filaments of a layer before they fly.
 pub(super) struct LayerBeam<'a> {
     pub(super) path: &'a Path,
@@ -136,17 +151,17 @@ impl LayerBeam<'_> {
     /// laid, and pieces of it on any other sheet. Returns their parts in the window.
     ///
     /// * `back` – where the sheet that was flown begins on the belt [m]
-    /// * `few` – what these say, which takes the part of the variance that they do not tell, and on a sheet of
+    /// * `few` – what these say, which takes the part of the variance that is not known from them, and on a sheet of
     ///   pieces what places and defects of its filaments do to its CV
-    /// * `inner` – columns of the sheet that are not edges
     pub(super) fn fill_in(
         &self,
-        (spec, number): (&WebSpec, usize),
+        layer: &FilledLayer<'_>,
         (curves, back): (&FlownCurves, f64),
-        (few, inner): (&mut LayerFew, Range<usize>),
+        few: &mut LayerFew,
         brush: &Brush<'_>,
         by: (usize, &AtomicBool),
     ) -> Result<Vec<Strand>, Error> {
+        let FilledLayer { spec, number, .. } = *layer;
         let (sheet, window, flown) = (&spec.sheet, spec.window(), &self.sheet);
         let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);
         if [sheet.width, sheet.length] == [flown.width, flown.length] {
@@ -162,24 +177,25 @@ impl LayerBeam<'_> {
             Edges::Cut => sheet.width + flown.width,
         };
         few.missing = library.missing();
-        let tiles = library.tiles(places.clone(), around, sheet.length, [spec.seed, number as u64])?;
+        let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
         let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
         if filaments.are_at_random() || !defects.is_empty() {
-            self.see_places((spec, number), (&library, around, places), (few, inner), by)?;
+            few.by_places = self.changes_by_places(layer, &Pieces { library: &library, around }, few, by)?;
         }
         Ok(kept)
     }
 
-    /// Finds what the places of the filaments and their defects do to the CV of a sheet of pieces: that of the same
-    /// pieces with an even row, or without defects, is known too.
-    fn see_places(
+    /// Computes what the places of the filaments and their defects add to CV² of a sheet of pieces, over the patches of
+    /// each size: that of the same pieces with an even row, or without defects, is known too.
+    fn changes_by_places(
         &self,
-        (spec, number): (&WebSpec, usize),
-        (library, around, places): (&Library, f64, Vec<Inlet>),
-        (few, inner): (&mut LayerFew, Range<usize>),
+        layer: &FilledLayer<'_>,
+        pieces: &Pieces<'_>,
+        few: &LayerFew,
         by: (usize, &AtomicBool),
-    ) -> Result<(), Error> {
+    ) -> Result<Vec<f64>, Error> {
+        let FilledLayer { spec, number, .. } = *layer;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
         let mut sheet = spec.sheet.clone();
         if defects.iter().all(|defect| defect.after <= 0.0) {
@@ -188,15 +204,17 @@ impl LayerBeam<'_> {
         }
         let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
         let squares = |places: Vec<Inlet>, titres: Titres| {
-            let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
+            let tiles =
+                pieces.library.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
             let belt = Belt::within(&tiles, &sheet, window)?;
-            let (laid, _) = lay_with(&tiles, belt, (self.beam().element_mass(), titres), by)?;
-            let map = laid.map.between(inner.clone());
+            let (laid, _) = lay_with(&tiles, belt, self.beam().element_mass(), titres, by)?;
+            let map = laid.map.between(layer.inner.clone());
             let square = |few: &FewFilamentsCv| {
                 unevenness(&map, (few.patch / sheet.cell).round() as usize).map(|found| found.cv * found.cv)
             };
             Ok::<Vec<Option<f64>>, Error>(few.cvs.iter().map(square).collect())
         };
+        let places = inlets(&spec.sheet, spec.seed, number, filaments);
         let pitch = sheet.width / places.len() as f64;
         let even = (0..places.len()).map(|i| Inlet { z: (i as f64 + 0.5) * pitch, ..places[i] });
         let without: Vec<Inlet> = if filaments.are_at_random() { even.collect() } else { places.clone() };
@@ -207,8 +225,7 @@ impl LayerBeam<'_> {
         let more = |((cv, with), without): ((&FewFilamentsCv, Option<f64>), Option<f64>)| {
             with.zip(without).map_or(0.0, |(with, without)| with - without - expected(cv))
         };
-        few.by_places = few.cvs.iter().zip(with).zip(without).map(more).collect();
-        Ok(())
+        Ok(few.cvs.iter().zip(with).zip(without).map(more).collect())
     }
 
     /// How far some of its filaments hang together.

@@ -219,14 +219,15 @@ pub fn lay(
     element: f64,
     by: (usize, &AtomicBool),
 ) -> Result<(LaidWeb, Vec<Strand>), Error> {
-    lay_with(curtain, belt, (element, Titres::default()), by)
+    lay_with(curtain, belt, element, Titres::default(), by)
 }
 
 /// [`lay`] of filaments of which some have defects.
 pub(crate) fn lay_with(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
-    (element, titres): (f64, Titres),
+    element: f64,
+    titres: Titres,
     by: (usize, &AtomicBool),
 ) -> Result<(LaidWeb, Vec<Strand>), Error> {
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;

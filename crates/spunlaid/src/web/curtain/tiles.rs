@@ -305,7 +305,7 @@ mod tests {
     }
 
     /// Pieces that began anywhere within the library showed its ends half as often as its middle, and any part of
-    /// it by chance.
+    /// it at random.
     #[test]
     fn invariant_each_part_of_a_library_is_shown_as_often() {
         let field = Field { points: 300, ..field() };

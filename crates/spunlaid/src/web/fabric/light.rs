@@ -56,10 +56,11 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 ///                                                                                            theory.md (110)
 ///
 /// * `local` – of `local_weights`
-/// * `length` – of fibre per area of the sheet [1/m], with its error as a share of it
+/// * `length` – of fibre per area of the sheet [1/m]
+/// * `error` – of this length, as a fraction of it
 /// * `diameter` – of the fibres, the mean over their length [m]
 /// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share
-pub fn bare_area(local: &[f64], (length, error): (f64, f64), diameter: f64, found: &Unevenness) -> Known {
+pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
     // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV, and all of it falls with τd.   theory.md (113)

@@ -35,6 +35,7 @@ pub use tell::{AirThrough, Fabric, FabricPatch, Laid, LaidPatch, Opacity, of_sca
 pub use usable::{Usable, usable};
 
 use crate::ground::Known;
+use crate::web::map::lattice::Chance;
 
 /// What is given of the fabric and of its tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,17 +112,26 @@ pub fn about(word: &str) -> Option<&'static str> {
     WORDS.iter().find(|(words, _)| is_named(words)).map(|(_, sentence)| *sentence)
 }
 
+/// How far the numbers of a map may be from those of all such webs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapUncertainty {
+    /// What is known of the chance in the map.
+    pub chance: Chance,
+    /// How far its deviations are from those of the web; None if it is not known.
+    pub deviations: Option<Deviations>,
+}
+
 /// The shares by which the deviations of the weight of a map from its mean may have to be larger.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviations {
     /// The error of the CV.
     pub by_chance: f64,
-    /// The told CV over that of the map, less one.
+    /// The reported CV over that of the map, less one.
     pub of_map: f64,
 }
 
 impl Deviations {
-    /// A number with its error by chance, which is at least that of the deviations, and what the map is off; without an
+    /// A number with its sampling error, which is at least that of the deviations, and what the map is off; without an
     /// error where it is not known how far that is.
     ///
     /// * `number` – with the error that it has by itself

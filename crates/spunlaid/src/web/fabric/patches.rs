@@ -1,10 +1,10 @@
 //! Thin and thick places: how often a patch of the web is much lighter or heavier than the mean.
 
-use super::Deviations;
+use super::{Deviations, MapUncertainty};
 use crate::ground::Known;
 use crate::ground::statistics::dot;
 use crate::web::map::Map;
-use crate::web::map::lattice::{Chance, Lattice};
+use crate::web::map::lattice::Lattice;
 use crate::web::map::uniformity::{boxes, places_of_patches};
 
 /// Patches are counted that are lighter than these shares of the mean, and heavier than this one.
@@ -44,8 +44,8 @@ pub struct ThinPlaces {
 ///                                                                                            theory.md (103)
 ///
 /// * `side` – of a patch [cells]; None unless two fit on the map each way, and without any fibre
-/// * `of` – the chance in the map, and how far its deviations are from those of the web, if it is known
-pub fn thin_places(map: &Map, side: usize, of: (Chance, Option<Deviations>)) -> Option<ThinPlaces> {
+/// * `of` – what is known of the map
+pub fn thin_places(map: &Map, side: usize, of: MapUncertainty) -> Option<ThinPlaces> {
     let (places, mean) = places_of_patches(map, side).filter(|_| 2 * side <= map.columns.min(map.rows))?;
     let blocks = places.map(|places| (places / (BLOCK * side)).clamp(1, MOST_BLOCKS));
     let mut classes = vec![vec![0u32; CLASSES]; blocks[0] * blocks[1]];
@@ -59,12 +59,12 @@ pub fn thin_places(map: &Map, side: usize, of: (Chance, Option<Deviations>)) -> 
             }
         }
     });
-    let weights = Weights::new(classes, Lattice { sides: blocks, chance: of.0 }, of.1);
+    let weights = Weights::new(classes, Lattice { sides: blocks, chance: of.chance }, of.deviations);
     let patch = side as f64 * map.cell;
     let (area, whole) = (patch * patch, (map.columns * map.rows) as f64 * map.cell * map.cell);
     let per_area = |share: Known| match share {
         // Where the map may be too even, there are as many as if it were not.
-        Known::Value(0.0, error) if of.1.is_some() => {
+        Known::Value(0.0, error) if of.deviations.is_some() => {
             Known::AtMost(NONE_FOUND / whole + error.unwrap_or(0.0) / area)
         }
         // Less than one on the sheet is chance, as large as that of so small a count.
@@ -125,7 +125,7 @@ struct Weights {
     /// Deviation of the mean weight of each block from that of all, over it.
     means: Vec<f64>,
     lattice: Lattice,
-    /// Error of the CV by chance, as a share of it, and what the map is off.
+    /// Sampling error of the CV, as a fraction of it, and what the map is off.
     by_chance: f64,
     deviations: Option<Deviations>,
     /// Of the correlation.
@@ -174,7 +174,7 @@ impl Weights {
         (Self::at(&self.all, edge + NEAR) - Self::at(&self.all, edge - NEAR)) / (2.0 * NEAR)
     }
 
-    /// Standard error of the share below an edge by chance: by the blocks, and as of a normal field, which is the
+    /// Sampling error of the fraction below an edge: by the blocks, and as of a normal field, which is the
     /// larger one in the tails, of which a map holds few clouds.
     fn error(&self, edge: f64) -> Option<f64> {
         let share = Self::at(&self.all, edge);

@@ -1,11 +1,11 @@
 //! The weakest section of a strip, where a strip that is pulled would tear if its strength were that of its
 //! lightest section.
 
-use super::{Deviations, Marked};
+use super::{Deviations, MapUncertainty, Marked};
 use crate::ground::Known;
 use crate::ground::statistics::quantile;
 use crate::web::map::Map;
-use crate::web::map::lattice::{Chance, Lattice};
+use crate::web::map::lattice::Lattice;
 
 /// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
 pub(crate) const WEAK: f64 = 0.05;
@@ -42,8 +42,8 @@ pub struct Strips {
 /// All strips of the sheet along MD and along CD, side by side without overlap; none where no strip of two
 /// sections fits.                                                                             theory.md (104)
 ///
-/// * `of` – the chance in the map, and how far its deviations are from those of the web, if it is known
-pub fn strips(map: &Map, size: StripSize, of: (Chance, Option<Deviations>)) -> [Option<Strips>; 2] {
+/// * `of` – what is known of the map
+pub fn strips(map: &Map, size: StripSize, of: MapUncertainty) -> [Option<Strips>; 2] {
     [true, false].map(|is_along_md| along(map, size, is_along_md, of))
 }
 
@@ -127,7 +127,7 @@ fn along(
     map: &Map,
     size: StripSize,
     is_along_md: bool,
-    (chance, deviations): (Chance, Option<Deviations>),
+    MapUncertainty { chance, deviations }: MapUncertainty,
 ) -> Option<Strips> {
     let Cut { sums, in_strip, size } = cut(map, size, is_along_md)?;
     // Of each section: its weight over the mean of its strip.

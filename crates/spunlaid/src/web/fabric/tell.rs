@@ -7,7 +7,7 @@ use super::patches::{ThinPlaces, thin_places, weights};
 use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
-use super::{Deviations, FabricKeys, light};
+use super::{Deviations, FabricKeys, MapUncertainty, light};
 use crate::ground::threads::each;
 use crate::ground::{Dimension, Known};
 use crate::web::map::lattice::{Chance, Lattice};
@@ -57,8 +57,8 @@ pub struct Laid<'a> {
 pub struct LaidPatch {
     /// Their side [m].
     pub patch: f64,
-    /// What is told of the web; None if it is not known.
-    pub told: Option<Unevenness>,
+    /// The CV of the web; None if it is not known.
+    pub reported: Option<Unevenness>,
     /// The share by which the deviations of the map would have to be larger; None if it is not known.
     pub off: Option<f64>,
 }
@@ -71,8 +71,8 @@ impl Laid<'_> {
         let Some(nearest) = self.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b))) else {
             return Some(Deviations::default());
         };
-        let told = |told: Unevenness| told.standard_error.map_or(0.0, |error| error / told.cv);
-        nearest.off.map(|of_map| Deviations { by_chance: nearest.told.map_or(0.0, told), of_map })
+        let error = |of: Unevenness| of.standard_error.map_or(0.0, |error| error / of.cv);
+        nearest.off.map(|of_map| Deviations { by_chance: nearest.reported.map_or(0.0, error), of_map })
     }
 }
 
@@ -152,22 +152,22 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
     let told = |side: usize| {
         let same = |found: &&LaidPatch| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
-        laid.patches.iter().find(same)?.told
+        laid.patches.iter().find(same)?.reported
     };
     // The formation number is of the part of the sheet of which the CV beside it is, whatever is sold.
     let of_cv =
         of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
     let patches = each(threads, sides.len(), |i| {
         let deviations = laid.deviations(sides[i] as f64 * map.cell);
-        let thin = thin_places(map, sides[i], (chance, deviations))?;
+        let thin = thin_places(map, sides[i], MapUncertainty { chance, deviations })?;
         let found = told(sides[i]).filter(|_| length > 0.0);
         let formation = found.map(|found| formation_number(&found, at_random(&of_cv, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
     let uneven = |side: usize| match (keys.saleable_width, told(side)) {
         (None, Some(told)) => Some(told),
-        (_, told) => {
-            let found = with_error_of(unevenness(map, side)?, told);
+        (_, reported) => {
+            let found = with_error_of(unevenness(map, side)?, reported);
             let is_known = laid.deviations(found.patch).is_some();
             Some(Unevenness { standard_error: found.standard_error.filter(|_| is_known), ..found })
         }
@@ -179,13 +179,12 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     });
     let air = (!laid.filaments.is_empty()).then(|| {
         let given = keys.thickness.map(|thickness| (thickness, keys.pressure)).zip(local.as_ref());
-        let found = given.and_then(|(by, (local, _))| air(laid, map, (&filaments, local), by));
+        let found = given.and_then(|(by, (local, _))| air(laid, map, &filaments, local, by));
         notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
         found
     });
     let air = air.flatten();
-    let bare =
-        local.map(|(local, found)| bare_area(&local, (length, laid.error_of_weight), diameter, &found));
+    let bare = local.map(|(local, found)| bare_area(&local, length, laid.error_of_weight, diameter, &found));
     let of_sections = laid.deviations((keys.strip.width * keys.strip.section).sqrt());
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     notes.extend(usable.is_some().then(unknown_neck_in));
@@ -195,7 +194,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         trim: keys.saleable_width.zip(laid.reach).map(|(width, [from, to])| (to - from - width).max(0.0)),
         usable,
         patches: patches.into_iter().flatten().collect(),
-        strips: strips(map, keys.strip, (chance, of_sections)),
+        strips: strips(map, keys.strip, MapUncertainty { chance, deviations: of_sections }),
         marks: Marks::new(map, corner, keys.strip),
         streaks: streaks(map, corner, &laid.defects),
         stiffness_ratio: laid.orientation.map(|of| Known::Value(of.stiffness_ratio.0, of.stiffness_ratio.1)),
@@ -204,10 +203,10 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         opacity: keys.measured_opacity.and_then(|measured| {
             let scattering = light::scattering(measured);
             match keys.opacity_weight {
-                None => opacity(laid, map, (scattering, 0.0)),
+                None => opacity(laid, map, scattering, 0.0),
                 // It follows the weight of this sheet, and so has its error.
                 Some(weight) => {
-                    opacity(laid, map, (scattering * map.basis_weight() / weight, laid.error_of_weight))
+                    opacity(laid, map, scattering * map.basis_weight() / weight, laid.error_of_weight)
                 }
             }
         }),
@@ -304,7 +303,8 @@ fn lengths(filaments: &[Filaments]) -> (f64, f64) {
 fn air(
     laid: &Laid<'_>,
     map: &Map,
-    (filaments, local): (&[Filaments], &[f64]),
+    filaments: &[Filaments],
+    local: &[f64],
     by: (f64, f64),
 ) -> Option<AirThrough> {
     let permeability = air_permeability(filaments, local, by)?;
@@ -313,8 +313,9 @@ fn air(
     Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread: Some(cv.times(factor)) })
 }
 
-/// * `scattering` – of the mean weight, with its error as a share of it
-fn opacity(laid: &Laid<'_>, map: &Map, (scattering, error): (f64, f64)) -> Option<Opacity> {
+/// * `scattering` – of the mean weight
+/// * `error` – of this weight, as a fraction of it
+fn opacity(laid: &Laid<'_>, map: &Map, scattering: f64, error: f64) -> Option<Opacity> {
     let of = |weight| light::opacity(scattering * weight);
     let (mean, cv) = over_patches(laid, map, OPACITY_PATCH, of)?;
     let spread = cv.times(mean.value());
@@ -344,14 +345,14 @@ fn over_patches(laid: &Laid<'_>, map: &Map, patch: f64, of: impl Fn(f64) -> f64)
     (numbers.len() >= FEWEST).then(|| (with(mean, by_clouds), with(cv, cv.value())))
 }
 
-/// Over which patches it is not known how uneven the web is, so that nothing that follows has an error.
+/// Over which patches the CV of the web is not known, so that nothing that follows has an error.
 fn unknown(laid: &Laid<'_>) -> Option<String> {
     let sides = laid.patches.iter().filter(|of| of.off.is_none());
     let sides: Vec<String> = sides.map(|of| Dimension::Length.pretty_to(of.patch, 2)).collect();
     (!sides.is_empty()).then(|| {
         format!(
             "thin places, weights, strips, bare area and light have no error where they follow from patches of {}: \
-            the CV of the web over these is not known, and the map may be more or less uneven",
+            the CV of the web over these is not known, and the map may have another one",
             sides.join(", ")
         )
     })
@@ -377,7 +378,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     };
     let patch = |of: &PatchFindings| LaidPatch {
         patch: of.unevenness.patch,
-        told: Some(of.unevenness),
+        reported: Some(of.unevenness),
         off: (findings.guess.is_none() && of.interval.is_ok()).then_some(0.0),
     };
     let laid = Laid {

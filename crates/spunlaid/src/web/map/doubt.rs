@@ -38,14 +38,14 @@ pub enum Doubt {
         missing: f64,
         /// Sides of the patches over which the map has another CV [m].
         sides: Vec<f64>,
-        /// The CV of the map over the told one, less one, where they differ most.
+        /// The CV of the map over the reported one, less one, where they differ most.
         apart: f64,
     },
-    /// The map is made of pieces of the sheet that was flown, and is not as uneven as this by chance.
+    /// The map is made of pieces of the simulated sheet, and has another CV by sampling.
     Pieces {
         /// Sides of the patches over which the map has another CV [m].
         sides: Vec<f64>,
-        /// The CV of the map over the told one, less one, where they differ most.
+        /// The CV of the map over the reported one, less one, where they differ most.
         apart: f64,
     },
     /// The sheet that was flown is too small for these patches, or all filaments of another layer were flown.
@@ -156,7 +156,7 @@ impl Display for Doubt {
     }
 }
 
-/// How far a map is from what is told.
+/// How far a map is from what is reported.
 fn too_uneven(sides: &[f64], apart: f64) -> String {
     format!(
         "is too {} over patches of {}, by up to {} % of the CV",

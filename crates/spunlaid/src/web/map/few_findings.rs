@@ -19,7 +19,7 @@ pub struct FewFilamentsCv {
     /// CV of the few filaments alone.
     pub few: f64,
     /// What CV² of all has more than that of a map in which those between the few are filled in, each at its own place
-    /// and without a defect; of filaments at random places, that of an even row. Zero where such a map tells it.
+    /// and without a defect; of filaments at random places, that of an even row. Zero where such a map gives it.
     pub beyond_filling: f64,
 }
 

@@ -32,7 +32,7 @@ pub struct Findings {
     /// the edges of the sheet, which cut it or where it goes on [m].
     pub reach: [f64; 2],
     /// Standard error of the mean basis weight between the edges, as a share of it; none of a sheet that is closed to
-    /// a ring and has no defects by chance.
+    /// a ring and has no defects at random holes.
     pub error_of_weight: Option<f64>,
     /// How uneven it is, patch by patch.
     pub patches: Vec<PatchFindings>,
@@ -62,7 +62,8 @@ impl Findings {
     }
 
     /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web
-    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring and has no defects by chance.
+    /// is from the mean of all [kg/m²]; no error of a sheet that is closed to a ring and has no defects at random
+    /// holes.
     pub fn basis_weight(&self) -> (f64, Option<f64>) {
         let weight = self.within().basis_weight();
         (weight, self.error_of_weight.map(|error| error * weight))
@@ -250,7 +251,7 @@ fn straight(web: &Web, patch: f64) -> f64 {
 /// What the few filaments of all layers say together.
 ///
 /// Where they have laid the whole sheet, its map has what the places of the filaments, their defects and the layers
-/// do together by chance, and only what filling them in makes of it is taken away. On a sheet of pieces the layers,
+/// do together at random, and only what filling them in makes of it is taken away. On a sheet of pieces the layers,
 /// whose airs are independent of each other, add up their variances.
 fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilamentsCv> {
     let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
@@ -271,8 +272,8 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
     };
     let square = sum(&|few| few.cv * few.cv, 1);
     let cv = square.sqrt();
-    // The errors of sums of squares, as one of their root. What layers have in common by chance is as much as their
-    // waves are alike: at most, their errors by chance add up.
+    // The errors of sums of squares, as one of their root. What layers have in common at random is as much as their
+    // waves are alike: at most, their sampling errors add up.
     let by_chance = sum(&|few| few.cv * few.by_chance.unwrap_or(f64::NAN), 1) / cv;
     let told = FewFilamentsCv {
         patch: map.patch,

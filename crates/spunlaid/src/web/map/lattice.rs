@@ -8,9 +8,9 @@ use crate::ground::statistics::{dot, student_t_95_at};
 use crate::ground::{Known, NORMAL_95};
 use std::f64::consts::PI;
 
-/// Longest half waves either way that tell how strong the wave of infinite length is.
+/// Longest half waves either way, from which the strength of the wave of infinite length is estimated.
 const LONGEST: usize = 4;
-/// Fewest degrees of freedom for which an error is enlarged.
+/// Fewest degrees of freedom of an error. With less, as of streaks on two strips side by side, it is not known.
 const FEWEST: f64 = 2.0;
 
 /// Parts of equal size that lie side by side on a sheet; their numbers stand row by row.
@@ -95,9 +95,9 @@ impl Lattice {
             .filter(|(_, count)| *count > 0.0)
             .fold((0.0, 0.0), |(sum, squares), (part, count)| (sum + part, squares + part * part / count));
         let degrees = if squares > 0.0 { variance * variance / squares } else { f64::INFINITY };
-        let t = student_t_95_at(degrees.max(FEWEST)) / NORMAL_95;
         let are_known = streaks.count > 0.0 || !self.chance.streaks;
-        (are_known && own.len() > 1).then(|| t * variance.sqrt())
+        let t = || student_t_95_at(degrees) / NORMAL_95;
+        (are_known && own.len() > 1 && degrees >= FEWEST).then(|| t() * variance.sqrt())
     }
 
     /// The mean of numbers with its error.
@@ -116,7 +116,7 @@ impl Lattice {
         let (mean, count) = (mean(numbers), numbers.len() as f64);
         let variance = numbers.iter().map(|number| (number - mean).powi(2)).sum::<f64>() / (count - 1.0);
         let deviation = variance.sqrt();
-        // The deviation is that of all, of which the same numbers tell the mean.
+        // The deviation is that of all, of which the mean comes from the same numbers.
         let of = |number: &f64| {
             let off = number - mean;
             if deviation > 0.0 {

@@ -270,7 +270,7 @@ impl Web {
         Places::AtRandom(Streaks { variance_of_mean, powers })
     }
 
-    /// Variance of the mean basis weight over webs of this kind by the holes that have a defect by chance, over its
+    /// Variance of the mean basis weight over webs of this kind by the holes that have a defect at random, over its
     /// square.
     pub(crate) fn variance_by_defects(&self) -> f64 {
         let of_layer = |(number, layer): (usize, &Layer)| {

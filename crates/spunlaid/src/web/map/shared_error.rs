@@ -54,7 +54,7 @@ impl SharedError {
     /// A cell with more fibre has a larger sum, but all cells together have a fixed length. So the sums are
     /// compared with a line over the length. What is left of a cell is like that of the cells beside it, because
     /// gusts reach across: products with these count by half. What stays with a filament in all stretches, as its
-    /// place in the slot does, is told by the products of its other stretches.
+    /// place in the slot does, follows from the products of its other stretches.
     ///
     /// * `parts` – of each filament, in order across the web; all have as many stretches
     /// * `groups` – of each filament the number of its group of neighbours, from 0

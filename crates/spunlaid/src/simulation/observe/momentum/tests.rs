@@ -134,7 +134,7 @@ fn analytic_a_thread_without_drag_drives_no_air() {
     assert!((last - 1.0 / (1.0 + 2.0 * 9.81 * 0.965_f64).sqrt()).abs() < 2e-3, "{last}");
 }
 
-/// Over many series of values, each of which keeps a part of the one before, the variance that is told of the mean is
+/// Over many series of values, each of which keeps a part of the one before, the reported variance of the mean is
 /// that of the weighted sums of the known covariances `kᵈ`, and its scatter the sum of all.
 #[test]
 fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
@@ -157,7 +157,7 @@ fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
         };
         let weights = all.iter().map(|&(i, j)| weight(i, j)).sum::<f64>();
         let expected = all.iter().map(left).sum::<f64>() / ((VALUES * VALUES) as f64 - weights);
-        let (mut squares, mut told) = (0.0, 0.0);
+        let (mut squares, mut reported) = (0.0, 0.0);
         for _ in 0..SERIES {
             let mut value = uniform();
             let values: Vec<f64> = (0..VALUES)
@@ -167,11 +167,11 @@ fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
                 })
                 .collect();
             squares += (values.iter().sum::<f64>() / VALUES as f64).powi(2) / SERIES as f64;
-            told += error_of_series(&values, memory).unwrap().powi(2) / SERIES as f64;
+            reported += error_of_series(&values, memory).unwrap().powi(2) / SERIES as f64;
         }
         // Four standard errors of a mean of 4000 squares, whose deviations are about √2 of their mean.
         let allowed = 4.0 * (2.0 / SERIES as f64).sqrt();
-        assert!((told / expected - 1.0).abs() < allowed, "{kept} {memory}: {told} {expected}");
+        assert!((reported / expected - 1.0).abs() < allowed, "{kept} {memory}: {reported} {expected}");
         assert!((squares / of_mean - 1.0).abs() < allowed, "{kept}: {squares} {of_mean}");
     }
     assert_eq!(error_of_series(&[1.0], 1), None);

@@ -1,8 +1,8 @@
-//! Whether the errors that are told of a web are as large as its numbers scatter: all numbers of `summary.json` that
+//! Whether the reported errors of a web are as large as its numbers scatter: all numbers of `summary.json` that
 //! have an error, on lines drawn at random.
 //!
-//!     cargo run --release -p spunlaid-cli --example told -- --known
-//!     cargo run --release -p spunlaid-cli --example told -- --shared --lines 3 --seeds 10
+//!     cargo run --release -p spunlaid-cli --example web_errors -- --known
+//!     cargo run --release -p spunlaid-cli --example web_errors -- --shared --lines 3 --seeds 10
 //!
 //! `--against-all` compares simulated samples with all filaments in the same air. `--seed` draws other lines, `--write`
 //! puts their files into a folder, `--threads` is the number of webs at a time.
@@ -57,7 +57,7 @@ fn main() {
     }
     println!("\n{}", table(&all));
     untested.retain(|name| !all.iter().any(|(other, _)| other == name));
-    println!("Told by too few webs of each line: {untested:?}");
+    println!("In too few webs of each line: {untested:?}");
 }
 
 /// Prints a ratio that is out of bounds, with a mark if it is so beyond chance.

@@ -46,6 +46,9 @@ noise = "12.4 m^-0.5"
 feed_speed = "50 m/s"
 "#;
 
+/// Keeps the random numbers of lines apart from all others.
+const KEY: u64 = 0x646c6f7420656874;
+
 /// Random numbers of a line.
 struct Random<'a>(&'a mut dyn FnMut() -> f64);
 
@@ -67,7 +70,7 @@ impl Random<'_> {
 
 /// The web of a line with a number; equal numbers give equal webs.
 pub fn line(family: Family, seed: u64, number: u64) -> WebFile {
-    let mut stream = stream([seed, number, family as u64, u64::from_le_bytes(*b"the told")]);
+    let mut stream = stream([seed, number, family as u64, KEY]);
     let mut next = || uniform(&mut stream);
     let mut random = Random(&mut next);
     loop {

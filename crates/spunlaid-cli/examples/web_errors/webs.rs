@@ -23,7 +23,7 @@ pub fn numbers_of(web: &WebFile, seed: u64, simulated: &str) -> Result<Numbers, 
     let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut flown = Flyer::new(1, &stop, &|_, work| work()).web(&file.spec)?;
     let findings = flown.find(by)?;
-    let name = ("told".to_owned(), "told".to_owned());
+    let name = ("line".to_owned(), "line".to_owned());
     let summary = WebFolder::new(name, file, (flown, findings), (started, by)).summary();
     Ok(numbers(&serde_json::from_str(&summary).expect("a summary")))
 }

@@ -11,7 +11,7 @@ pub struct Reported {
     pub value: f64,
     /// Standard error by all causes.
     pub error: f64,
-    /// The part of it that comes of the sample of filaments, if it is told apart.
+    /// The part of it that comes of the sample of filaments, if it is reported separately.
     pub of_sample: Option<f64>,
     pub interval: [f64; 2],
 }
@@ -102,18 +102,18 @@ fn reported(entries: &Map<String, Json>, name: &str, error: Option<f64>) -> Opti
 pub struct Scatter {
     pub line: usize,
     pub of: String,
-    /// Mean of all webs that tell it, or mean difference.
+    /// Mean of all webs that report it, or mean difference.
     pub mean: f64,
     /// Scatter over the rms of the errors.
     pub ratio: f64,
-    /// Webs that tell it.
+    /// Webs that report it.
     pub webs: usize,
     /// Of which the 95 % interval holds the mean of the others, or of all filaments.
     pub hold: usize,
 }
 
 impl Scatter {
-    /// The range of the ratio of right errors by chance.
+    /// The range of the ratio of correct errors by sampling.
     pub fn by_chance(&self, deviations: f64) -> [f64; 2] {
         let part = 2.0 / (9.0 * (self.webs as f64 - 1.0));
         // The chi-square distribution after Wilson and Hilferty, PNAS 17 (1931) 684.
@@ -124,11 +124,12 @@ impl Scatter {
 /// A web with its number off the right one, the error of that, and whether its interval holds the right one.
 type Off = (f64, f64, bool);
 
-/// Each number of a line that at least half of its webs tell, none of which never changes and has no error.
+/// Each number of a line that at least half of its webs report, none of which never changes and has no error.
 ///
 /// * `off` – the mean, how far each web is off, and degrees of freedom that this has taken
 fn scatters<'a, W>(
-    (line, webs): (usize, &[W]),
+    line: usize,
+    webs: &[W],
     names: impl Iterator<Item = &'a Name>,
     off: impl Fn(&Name) -> (f64, Vec<Off>, f64),
 ) -> Vec<(String, Scatter)> {
@@ -146,7 +147,7 @@ fn scatters<'a, W>(
 
 /// How the numbers of the webs of a line scatter.
 pub fn scatter(line: usize, webs: &[Numbers]) -> Vec<(String, Scatter)> {
-    scatters((line, webs), webs.iter().flat_map(BTreeMap::keys), |name| {
+    scatters(line, webs, webs.iter().flat_map(BTreeMap::keys), |name| {
         let all: Vec<&Reported> = webs.iter().filter_map(|web| web.get(name)).collect();
         let count = all.len() as f64;
         let mean = all.iter().map(|of| of.value).sum::<f64>() / count;
@@ -160,7 +161,7 @@ pub fn scatter(line: usize, webs: &[Numbers]) -> Vec<(String, Scatter)> {
 
 /// How far samples of filaments are off all filaments, each pair in the same air.
 pub fn differences(line: usize, pairs: &[[Numbers; 2]]) -> Vec<(String, Scatter)> {
-    scatters((line, pairs), pairs.iter().flat_map(|[few, _]| few.keys()), |name| {
+    scatters(line, pairs, pairs.iter().flat_map(|[few, _]| few.keys()), |name| {
         let off = |[few, all]: &[Numbers; 2]| {
             let (few, all) = (few.get(name)?, all.get(name)?);
             let (off, error) = (few.value - all.value, few.of_sample.unwrap_or(few.error));
