@@ -29,8 +29,9 @@ const CLOSE_ENOUGH: f64 = 1e-7;
 /// Most rounds of Newton's method, and most moves along the arc.
 const MOST_ROUNDS: usize = 8;
 const MOST_MOVES: usize = 150;
-/// Most steps of the integration, some seconds of a processor.
-const MOST_STEPS: usize = 1_000_000;
+/// Most steps of the integration to find a line, some seconds of a processor. Lines that are found take 60,000 at most;
+/// to show that a line has none may take four times as many.
+const MOST_STEPS: usize = 400_000;
 /// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the freezing point by no
 /// more than this share of what others do.
 const LEAST_COOLING: f64 = 0.1;
@@ -87,6 +88,20 @@ struct Point {
     value: f64,
 }
 
+/// Steps of the integration that all continuations to one line have taken so far.
+#[derive(Default)]
+pub(super) struct Effort(Cell<usize>);
+
+impl Effort {
+    fn add(&self, steps: usize) {
+        self.0.set(self.0.get() + steps);
+    }
+
+    pub(super) fn is_too_much(&self) -> bool {
+        self.0.get() >= MOST_STEPS
+    }
+}
+
 /// Threads of a line along the arc.
 pub(super) struct Branch<'a> {
     thread: Thread<'a>,
@@ -97,8 +112,7 @@ pub(super) struct Branch<'a> {
     tension: f64,
     cooling: f64,
     places: Vec<Place>,
-    /// Steps of the integration so far.
-    steps: Cell<usize>,
+    effort: &'a Effort,
 }
 
 /// The plane in which a solution is sought.
@@ -114,7 +128,7 @@ struct Plane<'p> {
 type Unknowns = Vec<f64>;
 
 impl<'a> Branch<'a> {
-    pub(super) fn new(thread: &Thread<'a>, varies: Varies, run: &Run) -> Self {
+    pub(super) fn new(thread: &Thread<'a>, varies: Varies, run: &Run, effort: &'a Effort) -> Self {
         use super::Law;
         let active: &[usize] = match (thread.line.law == Law::Newtonian, thread.line.crystallisation) {
             (true, false) => &[LN_SPEED, TEMPERATURE, TENSION],
@@ -125,7 +139,7 @@ impl<'a> Branch<'a> {
         let thread = Thread { ends_slack: false, ..thread.clone() };
         let tension = largest_tension(&run.shot);
         let cooling = (thread.line.die_temperature - run.shot.end[TEMPERATURE]).clamp(0.1, 50.0);
-        Self { thread, varies, active, tension, cooling, places: Vec::new(), steps: Cell::new(0) }
+        Self { thread, varies, active, tension, cooling, places: Vec::new(), effort }
     }
 
     /// Moves a solution along the arc to the one that is asked for.
@@ -172,7 +186,7 @@ impl<'a> Branch<'a> {
         let on = |along: &[f64], share: f64| -> Unknowns {
             at.iter().zip(along).map(|(at, along)| at + share * along).collect()
         };
-        while *length > MOVES[2] && self.steps.get() < MOST_STEPS {
+        while *length > MOVES[2] && !self.effort.is_too_much() {
             if let Some((unknowns, point, rounds)) = self.solve(on(direction, *length), direction) {
                 if (point.value - goal) * (at[last] - goal) > 0.0 {
                     *length = (*length * if rounds <= 4 { 1.6 } else { 0.8 }).min(MOVES[1]);
@@ -306,7 +320,7 @@ impl<'a> Branch<'a> {
             }
         };
         let shot = leg.follow(end);
-        self.steps.set(self.steps.get() + shot.steps.len());
+        self.effort.add(shot.steps.len());
         let is_last = number == self.places.len();
         (shot.outcome == Outcome::Complete && (is_last || shot.freezing.is_none())).then_some(shot)
     }

@@ -1,7 +1,7 @@
 //! Finds the tension at the die with which the thread meets what is known at the end of the line.
 
 use super::End;
-use super::boundary::{Arrival, Branch, Run, Varies, largest_tension};
+use super::boundary::{Arrival, Branch, Effort, Run, Varies, largest_tension};
 use super::integration::Step;
 use super::shot::{FASTEST, Outcome, Shot, shoot};
 use super::thread::{LN_SPEED, Phase, TEMPERATURE, TENSION, Thread};
@@ -192,7 +192,8 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
 ///
 /// * `near` – the closest one that shooting has found, if any
 fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
-    let by_end = |run: Run| Branch::new(thread, Varies::End, &run).walk(run);
+    let effort = Effort::default();
+    let by_end = |run: Run| Branch::new(thread, Varies::End, &run, &effort).walk(run);
     let is_beyond = match thread.end {
         End::TakeUp(speed) => speed > FASTEST,
         End::Tension(tension) | End::Flown(tension) => !(0.0..=TENSIONS[1]).contains(&tension),
@@ -204,14 +205,14 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
     if matches!(found, Arrival::Lost) {
         let shares = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
         let is_free = thread.end == End::Tension(0.0);
-        let free = eased(thread, End::Tension(0.0), &shares[usize::from(is_free)..]);
+        let free = eased(thread, End::Tension(0.0), &shares[usize::from(is_free)..], &effort);
         let is_slow =
             |run: &Run| matches!(thread.end, End::TakeUp(speed) if libm::log(speed) < run.shot.end[LN_SPEED]);
         if free.as_ref().is_some_and(is_slow) {
             return Err(Miss::TooMuch);
         }
         let slow = End::TakeUp(EASY_DRAW_RATIO * thread.die_speed());
-        found = free.or_else(|| eased(thread, slow, &[0.0])).map_or(Arrival::Lost, by_end);
+        found = free.or_else(|| eased(thread, slow, &[0.0], &effort)).map_or(Arrival::Lost, by_end);
     }
     match found {
         // At a free end a melt is not pulled, and that it is liquid there is the reason.
@@ -230,22 +231,22 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
 /// A thread of this line with another end, found with little of inertia, weight, friction and surface tension first.
 ///
 /// * `shares` – of these forces, the first with which shooting finds a thread
-fn eased(thread: &Thread<'_>, end: End, shares: &[f64]) -> Option<Run> {
+fn eased(thread: &Thread<'_>, end: End, shares: &[f64], effort: &Effort) -> Option<Run> {
     let [least, most] = TENSIONS.map(libm::log);
     let of = |forces: &f64| Thread { end, forces: *forces, ..thread.clone() };
     let run = |eased: Thread<'_>| {
         let shooting = Shooting { thread: &eased };
         let found = shooting.hit(shooting.bracket(least, most, STRIDE).ok()?, CLOSE);
-        let run = found.map_or_else(|(_, near)| along(&eased, Varies::End, *near?), Some)?;
+        let run = found.map_or_else(|(_, near)| along(&eased, Varies::End, *near?, effort), Some)?;
         Some((eased.forces, run))
     };
-    let (forces, run) = shares.iter().map(of).find_map(run)?;
-    if forces == 1.0 { Some(run) } else { along(&of(&forces), Varies::Forces, run) }
+    let (forces, run) = shares.iter().take_while(|_| !effort.is_too_much()).map(of).find_map(run)?;
+    if forces == 1.0 { Some(run) } else { along(&of(&forces), Varies::Forces, run, effort) }
 }
 
 /// The thread that a continuation leads to.
-fn along(thread: &Thread<'_>, varies: Varies, run: Run) -> Option<Run> {
-    match Branch::new(thread, varies, &run).walk(run) {
+fn along(thread: &Thread<'_>, varies: Varies, run: Run, effort: &Effort) -> Option<Run> {
+    match Branch::new(thread, varies, &run, effort).walk(run) {
         Arrival::Met(run) => Some(*run),
         _ => None,
     }
