@@ -10,6 +10,8 @@ use crate::web::map::lattice::Lattice;
 /// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
 pub(crate) const WEAK: f64 = 0.05;
 const FEWEST: f64 = 20.0;
+/// Fewest strips that have a CV.
+const FEWEST_OF_CV: usize = 3;
 
 /// Sizes of a strip and of a section of it [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +33,7 @@ pub struct Strips {
     pub count: usize,
     /// Weight of the lightest section of a strip over the mean of its sections, over all strips.
     pub weakest: Known,
-    /// Standard deviation of that over strips, over its mean.
+    /// Standard deviation of that over strips, over its mean; none of two strips.
     pub scatter: Option<Known>,
     /// What 5 % of the strips are below; none of fewer than 20.
     pub low: Option<Known>,
@@ -163,7 +165,7 @@ fn along(
         size,
         count: weakest.len(),
         weakest: with(mean, mean.value() - 1.0),
-        scatter: (weakest.len() > 1).then(|| with(scatter, scatter.value())),
+        scatter: (weakest.len() >= FEWEST_OF_CV).then(|| with(scatter, scatter.value())),
         low: low(&weakest, &of_strips).map(|low| with(low, low.value() - 1.0)),
         sections: with(Known::Value(deviation, None), deviation),
     })

@@ -33,6 +33,8 @@ pub struct Clouds {
     longest: f64,
     /// Errors of the variance in some bands of wavelength, as a part of it.
     filling: Vec<BandError>,
+    /// Error of every variance by that of the mean basis weight, as a part of it.
+    of_weight: f64,
 }
 
 /// From the shortest to the longest wave of a band [m], and how far its variance may be off, as a part of it.
@@ -138,6 +140,7 @@ impl Clouds {
             from,
             longest: LONG * shorter as f64 * map.cell,
             filling: Vec::new(),
+            of_weight: 0.0,
         };
         let window: Vec<f64> = (0..side).map(|i| hann(i, side)).collect();
         let tiles: Vec<usize> = (0..across * along).step_by(stride).collect();
@@ -195,13 +198,20 @@ impl Clouds {
         let variance = short.standard_error.unwrap_or(0.0).powi(2) + of_long;
         let known =
             (short.mean == 0.0 || short.standard_error.is_some()) && 2.0 * mean * mean >= DEGREES * variance;
-        let error = || variance.sqrt().hypot(mean * self.error_of_filling(shortest, longest));
+        let of_all = self.error_of_filling(shortest, longest).hypot(self.of_weight);
+        let error = || variance.sqrt().hypot(mean * of_all);
         Estimate { mean, standard_error: known.then(error), values: Vec::new() }
     }
 
     /// With what filling filaments in may have done to bands of wavelength.
     pub(crate) fn with_filling(self, filling: Vec<BandError>) -> Self {
         Self { filling, ..self }
+    }
+
+    /// With the error of the mean basis weight, as a fraction of it. Independent filaments that are one per cent more
+    /// have one per cent less variance over the square of their mean.                            theory.md (103b)
+    pub(crate) fn with_error_of_weight(self, of_weight: f64) -> Self {
+        Self { of_weight, ..self }
     }
 
     /// Of the bands within these waves, as they share the range in octaves.

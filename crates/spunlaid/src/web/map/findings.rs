@@ -220,7 +220,9 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
     let off = |few: &&LayerFew| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
     let worst = laid.few().max_by(|a, b| off(a).total_cmp(&off(b)));
     let filling = worst.map_or_else(Vec::new, |few| few.octaves.clone());
-    let clouds = Clouds::at(&map, &places, by.threads).map(|clouds| clouds.with_filling(filling));
+    let of_weight = error_of_weight.filter(|_| evidence == Evidence::Known).unwrap_or(0.0);
+    let clouds = Clouds::at(&map, &places, by.threads)
+        .map(|clouds| clouds.with_filling(filling).with_error_of_weight(of_weight));
     let autocorrelation = autocorrelation(&map, lags, by.threads);
     let orientation = orientation(web, by)?;
     drop(map);

@@ -12,6 +12,8 @@ use std::f64::consts::PI;
 const LONGEST: usize = 4;
 /// Fewest degrees of freedom of an error. With less, as of streaks on two strips side by side, it is not known.
 const FEWEST: f64 = 2.0;
+/// Fewest numbers whose CV has an error.
+const FEWEST_NUMBERS: usize = 3;
 
 /// Parts of equal size that lie side by side on a sheet; their numbers stand row by row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,12 +128,16 @@ impl Lattice {
             }
         };
         let influence: Vec<f64> = numbers.iter().map(of).collect();
-        let error = self.error_of_mean(&influence, weights).map(|error| {
-            let of_columns = self.variance_of_columns(numbers, mean) / variance;
-            // Few columns do not show how different columns are from each other.
-            let few = 0.5 * deviation * of_columns * (2.0 / (self.sides[0] as f64 - 1.0)).sqrt();
-            if self.chance.streaks && few.is_finite() { error.max(few) } else { error }
-        });
+        let of_columns = self.variance_of_columns(numbers, mean) / variance;
+        // Few columns do not show how different columns are from each other.
+        let few = 0.5 * deviation * of_columns * (2.0 / (self.sides[0] as f64 - 1.0)).sqrt();
+        // A few numbers do not show how their own CV scatters: at least as that of so many independent ones.
+        let least = deviation / (2.0 * (count - 1.0)).sqrt();
+        let least = if self.chance.streaks && few.is_finite() { least.max(few) } else { least };
+        let error = match self.error_of_mean(&influence, weights) {
+            None => (numbers.len() >= FEWEST_NUMBERS).then_some(least),
+            Some(error) => Some(error.max(least)),
+        };
         Known::Value(deviation, error).times(1.0 / mean)
     }
 

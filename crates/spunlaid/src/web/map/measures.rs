@@ -79,9 +79,9 @@ pub const OF_WEBS: &[Measure<Findings>] = &[
         "basis_weight_kg_m2",
         "Basis weight",
         Unit { shown: "g/m²", per_si: 1e3 },
-        Number(|found| found.laid.map.basis_weight()),
+        Number(|found| found.basis_weight().0),
     )
-    .meaning("mean mass of the web per area")
+    .meaning("mean mass of the web per area, between its edges")
     .named("basis_weight")
     .main()
     .elsewhere()

@@ -93,13 +93,12 @@ pub fn summary_of_web(
     let edges = (web.sheet.edges == Edges::Cut).then(|| {
         json!({
             "margins_m": findings.margins,
-            "basis_weight_between_kg_m2": findings.within().basis_weight(),
             "basis_weight_sheet_kg_m2": findings.laid.map.basis_weight(),
         })
     });
+    let (weight, error_of_weight) = findings.basis_weight();
     let laid = known(json!({
-        // Of the mean between the edges, which is that of the whole sheet where none are cut.
-        "basis_weight_standard_error_kg_m2": findings.basis_weight().1,
+        "basis_weight_standard_error_kg_m2": error_of_weight,
         "fibre_length_m": findings.fibre_length,
         "cut_off_kg": findings.laid.cut,
         "lost_filaments": lost.reduce(|all, lost| all + lost),
@@ -109,7 +108,7 @@ pub fn summary_of_web(
     // The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer.
     let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
     let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
-    let map = of_map(&findings.laid.map, findings.clouds.as_ref(), patches.collect());
+    let map = of_map(&findings.laid.map, weight, findings.clouds.as_ref(), patches.collect());
     let charged = charged(findings, name);
     let parts = json!({
         "layers": (!layers.is_empty()).then_some(layers),
@@ -136,7 +135,8 @@ pub fn summary_of_scan(
         let interval = patch.interval.map_err(|doubt| doubt.to_string());
         numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
     });
-    let mut web = of_map(&findings.map, findings.clouds.as_ref(), patches.collect());
+    let mut web =
+        of_map(&findings.map, findings.map.basis_weight(), findings.clouds.as_ref(), patches.collect());
     if let Some(guess) = findings.guess {
         // Chance is not all that the error of a variance is made of.
         let octaves = web["clouds"].as_array_mut().into_iter().flatten();
@@ -162,7 +162,9 @@ pub fn summary_of_scan(
 }
 
 /// What any map says.
-fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Json) -> Json {
+///
+/// * `weight` – basis weight, which is that between the edges where a web has some [kg/m²]
+fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, patches: Json) -> Json {
     let cloudiness = clouds.map(|clouds| {
         let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
         // For all such webs; null if the map is too small to say, or if too few filaments were flown.
@@ -177,7 +179,7 @@ fn of_map(map: &Map, clouds: Option<&Clouds>, patches: Json) -> Json {
         json!({"from_m": from_m, "to_m": to_m, "variance": mean, "standard_error": standard_error})
     };
     json!({
-        "basis_weight_kg_m2": map.basis_weight(),
+        "basis_weight_kg_m2": weight,
         // In machine and in cross direction.
         "cells": [map.rows, map.columns],
         "cell_m": map.cell,
