@@ -1,6 +1,6 @@
 //! Reads a file into memory and says why it cannot be read.
 
-use crate::error::{Fault, FileError, FileKind};
+use crate::error::{Fault, FileError, FileKind, memory};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek};
 use std::path::Path;
@@ -59,13 +59,23 @@ pub fn read(path: &Path, kind: FileKind, most: u64) -> Result<Vec<u8>, FileError
     let stated = file.metadata().map_err(failed)?.len();
     let mut bytes = Vec::new();
     if stated <= most {
-        bytes.reserve_exact(usize::try_from(stated).unwrap_or_default());
+        bytes = with_room(stated).map_err(|fault| FileError::from(fault).path(path))?;
         file.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
     }
     if stated.max(bytes.len() as u64) > most {
         return Err(FileError::from(kind.too_large(most)).path(path));
     }
     Ok(bytes)
+}
+
+/// Memory for a file of a stated size, of which a sparse file may have less on the disk.
+fn with_room(stated: u64) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    let room = usize::try_from(stated).ok().filter(|room| bytes.try_reserve_exact(*room).is_ok());
+    let remedy = "write a smaller file, or read it on a machine with more memory";
+    let no_room =
+        || Fault::new(format!("has {}, for which there is not enough memory", memory(stated as f64)), remedy);
+    room.map(|_| bytes).ok_or_else(no_room)
 }
 
 /// The reason why the system cannot read a file.
@@ -76,4 +86,17 @@ pub fn unreadable(source: &io::Error, path: &Path, kind: FileKind) -> FileError 
         _ => Fault::unreadable(source),
     };
     FileError::from(fault).path(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rejects_a_size_for_which_there_is_no_memory() {
+        assert!(with_room(1 << 20).is_ok_and(|bytes| bytes.capacity() >= 1 << 20));
+        for size in [1 << 50, u64::MAX] {
+            assert!(with_room(size).unwrap_err().to_string().contains("not enough memory"));
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Saving the case under a name that the user gave, into the folder where the program was started.
 
 use super::message::Answer;
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
@@ -21,15 +21,24 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
         || name.starts_with('.')
         || name.len() > LONGEST
         || !name.chars().all(plain)
+        || is_device(&name)
     {
         return Err(format!(
             "\"{}\" cannot be the name of the file: the case is saved into the folder where the program was \
-            started, so a name has no / or \\ and does not begin with a full stop. Write letters, digits, \
-            spaces, - and _, at most {LONGEST} in all, as my_case",
+            started, so a name has no / or \\, does not begin with a full stop and is no device of Windows (NUL, \
+            COM1). Write letters, digits, spaces, - and _, at most {LONGEST} in all, as my_case",
             given.chars().take(LONGEST).map(|c| if c.is_control() { '?' } else { c }).collect::<String>()
         ));
     }
     Ok(name)
+}
+
+/// Whether Windows takes a name for a device, whatever its ending.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let is_port =
+        |port: &str| stem.strip_prefix(port).is_some_and(|number| matches!(number.as_bytes(), [b'0'..=b'9']));
+    ["CON", "PRN", "AUX", "NUL"].contains(&stem.as_str()) || is_port("COM") || is_port("LPT")
 }
 
 /// Writes a file into a folder. A file that is there is replaced only if `replace` says so, and only if it is a file.
@@ -42,14 +51,18 @@ pub(super) fn save(folder: &Path, name: &str, text: &str, replace: bool) -> Resu
     if metadata.as_ref().is_some_and(|metadata| !metadata.is_file()) {
         return Err(Answer::refused(format!("{name} exists and is not a plain file; give another name")));
     }
-    let mut options = OpenOptions::new();
-    options.write(true);
-    if replace && metadata.is_some() {
-        options.truncate(true);
-    } else {
-        options.create_new(true);
-    }
-    let written = options.open(&path).and_then(|mut file| file.write_all(text.as_bytes()));
+    let is_new = !replace || metadata.is_none();
+    // Whole or not at all: under another name first, while a new file has its name already.
+    let next = folder.join(format!(".{name}.next"));
+    let written = if is_new { File::create_new(&path).map(drop) } else { Ok(()) }.and_then(|()| {
+        let written = File::create(&next)
+            .and_then(|mut file| file.write_all(text.as_bytes()).and_then(|()| file.sync_all()))
+            .and_then(|()| fs::rename(&next, &path));
+        written.inspect_err(|_| {
+            let _ = fs::remove_file(&next);
+            let _ = if is_new { fs::remove_file(&path) } else { Ok(()) };
+        })
+    });
     written.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => Answer::Exists { name: name.to_owned() },
         _ => Answer::refused(format!("{name} cannot be written: {error}")),
@@ -75,6 +88,8 @@ mod tests {
             "/etc/passwd",
             ".bashrc",
             "c:a",
+            "NUL",
+            "com1.old",
             "a\0",
             "a\n.toml",
             &long,
@@ -95,6 +110,14 @@ mod tests {
         assert_eq!(read(), "long text");
         assert_eq!(save(folder.path(), "a.toml", "2", true), Ok(()));
         assert_eq!(read(), "2");
+        // The place for the new text is taken: the old one stays whole, and a new name is not left empty.
+        let next = |name: &str| folder.path().join(format!(".{name}.next"));
+        ["a.toml", "c.toml"].iter().for_each(|name| fs::create_dir(next(name)).unwrap());
+        assert!(
+            save(folder.path(), "a.toml", "3", true).is_err()
+                && save(folder.path(), "c.toml", "3", false).is_err()
+        );
+        assert!(read() == "2" && !folder.path().join("c.toml").exists());
         fs::create_dir(folder.path().join("b.toml")).unwrap();
         assert!(matches!(save(folder.path(), "b.toml", "2", true), Err(Answer::Refused { .. })));
     }

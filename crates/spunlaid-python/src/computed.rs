@@ -15,7 +15,7 @@ use spunlaid::ground::FileKind;
 use spunlaid::input::{Overrides, read_spinline, write_spinline};
 use spunlaid::simulation::{CurveValue, Trajectory};
 use spunlaid_results::Failure;
-use spunlaid_results::files::folder::Staging;
+use spunlaid_results::files::folder::{Staging, copy};
 use spunlaid_results::folders::Contents;
 use spunlaid_results::products::comparison::{ComparedFolders, Folders};
 use spunlaid_results::products::run::RunFolder;
@@ -25,6 +25,7 @@ use spunlaid_results::products::spinline::files::COLUMNS;
 use spunlaid_results::products::web::WebFolder;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 /// Results, which `spunlaid.Run` and others show.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
@@ -205,6 +206,12 @@ pub(crate) fn solve_spinline(
     let file = settled(py, None, |resources| read_spinline((&text, &file), set.with(resources)))?;
     let spinline = guarded(py, || SpinFolder::solve(name.clone(), file))?;
     Ok(Computed { name, of: Of::Spinline(Box::new(spinline)) })
+}
+
+/// Copies a results folder, as the program replaces one.
+#[pyfunction]
+pub(crate) fn copy_results(py: Python<'_>, source: PathBuf, target: PathBuf, force: bool) -> PyResult<()> {
+    guarded(py, || copy(&source, &target, force, &AtomicBool::new(false)))
 }
 
 /// Compares folders. See spunlaid.compare, which calls it.

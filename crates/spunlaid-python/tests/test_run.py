@@ -7,6 +7,7 @@ import pickle
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -169,6 +170,40 @@ def test_identical_through_pickle_and_folder(kind: str, tmp_path: Path, request:
         loaded.save(tmp_path / "print", figures=["pdf"])
     with pytest.raises(spunlaid.FolderError, match="holds results already"):
         loaded.save(tmp_path / "copy")
+
+
+def test_saving_over_results_loses_nothing(short: Case, fed: Case, tmp_path: Path) -> None:
+    laid, fixed = spunlaid.run(fed), spunlaid.run(short)
+    laid.save(tmp_path / "r")
+    (tmp_path / "r" / "figures" / "mine.txt").write_text("mine")
+    loaded = spunlaid.load(tmp_path / "r")
+    with pytest.raises(spunlaid.FolderError, match="is where these results are"):
+        loaded.save(tmp_path / "r", force=True)
+    same(laid, loaded)
+    # Results of another kind leave nothing behind, and files of the user's stay, whether they were computed or loaded.
+    fixed.save(tmp_path / "fixed")
+    for other in (fixed, spunlaid.load(tmp_path / "fixed")):
+        laid.save(tmp_path / "s", force=True)
+        (tmp_path / "s" / "figures" / "mine.txt").write_text("mine")
+        other.save(tmp_path / "s", force=True)
+        assert not (tmp_path / "s" / "laid.parquet").exists()
+        assert (tmp_path / "s" / "figures" / "mine.txt").read_text() == "mine"
+        same(fixed, spunlaid.load(tmp_path / "s"))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+def test_a_forked_child_leaves_the_run_of_its_parent() -> None:
+    code = (
+        "import os, sys, spunlaid\n"
+        "run = spunlaid.run(sys.argv[1], set={'run.duration': '0.05 s', 'run.spin_up': '0 s'})\n"
+        "child = os.fork()\n"
+        "if child == 0: sys.exit()\n"
+        "os.waitpid(child, 0)\n"
+        "print(len(run.end_node))\n"
+    )
+    table1 = Path(__file__).parents[3] / "cases" / "table1.toml"
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", code, str(table1)], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and int(done.stdout) > 0, done.stderr
 
 
 def test_lost_fibres_are_told_and_in_no_mean(tmp_path: Path) -> None:

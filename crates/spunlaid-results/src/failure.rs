@@ -22,6 +22,27 @@ pub(crate) fn holds_results(folder: &Path, found: &str) -> Failure {
     Error::folder(folder, fault.option("--out, --force"))
 }
 
+/// Results would be copied onto themselves.
+pub(crate) fn copied_onto_itself(folder: &Path) -> Failure {
+    Error::folder(
+        folder,
+        Fault::new("is where these results are", "name another folder, or leave them there"),
+    )
+}
+
+/// The system refuses to move results that were being replaced.
+///
+/// * `staging` – where they lie
+pub(crate) fn half_replaced(staging: &Path, error: io::Error) -> Failure {
+    let fault = Fault::new(
+        format!(
+            "holds results that were being replaced, whole, and they cannot be moved to their places: {error}"
+        ),
+        "see to it that the folder above it may be written, and run the command again: it moves them first",
+    );
+    Error::folder(staging, fault)
+}
+
 /// The folder holds files that are no results of this command.
 ///
 /// * `first` – one of them

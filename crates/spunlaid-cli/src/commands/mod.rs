@@ -20,7 +20,9 @@ use crate::say;
 use spunlaid::ground::FileKind;
 use spunlaid::ground::error::counted;
 use spunlaid::input::kind_of;
+use std::ffi::OsStr;
 use std::path::Path;
+use std::str::Utf8Chunk;
 
 /// Largest number of points of a study that are listed.
 const LISTED: usize = 24;
@@ -28,7 +30,16 @@ const LISTED: usize = 24;
 /// The name of a file without its extension.
 fn stem(file: &Path, otherwise: &str) -> String {
     let stem = file.file_stem().filter(|_| !is_standard(file)).unwrap_or(otherwise.as_ref());
-    stem.to_string_lossy().into_owned()
+    named_by(stem)
+}
+
+/// A name as a text. Bytes that are no UTF-8 are written as `%E9`, so that two names do not become one.
+fn named_by(name: &OsStr) -> String {
+    let part = |part: Utf8Chunk<'_>| {
+        let others: String = part.invalid().iter().map(|byte| format!("%{byte:02X}")).collect();
+        part.valid().to_owned() + &others
+    };
+    name.as_encoded_bytes().utf8_chunks().map(part).collect()
 }
 
 /// What results are called if nobody says it: after their file, and where that is a file of something else, after what

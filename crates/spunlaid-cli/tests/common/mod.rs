@@ -90,12 +90,12 @@ pub fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     all
 }
 
-/// All files but the journal, whose records come in the order in which fibres landed, and the command that
-/// made them; by name.
+/// All files but the journal, whose records come in the order in which fibres landed, the command that made them, and
+/// their list; by name.
 pub fn results(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let all = contents(folder).into_iter();
     let all = all.map(|(path, content)| (path.strip_prefix(folder).unwrap().to_owned(), content));
-    all.filter(|(path, _)| ["journal", "origin.toml"].iter().all(|name| path != Path::new(name))).collect()
+    all.filter(|(path, _)| ["journal", "origin.toml", ".spunlaid-files"].iter().all(|name| path != Path::new(name))).collect()
 }
 
 /// Panics naming the first file that differs.

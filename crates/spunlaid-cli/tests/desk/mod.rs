@@ -121,7 +121,7 @@ impl Desk {
         serde_json::from_slice(&self.read(&format!("{folder}/summary.json"))).unwrap()
     }
 
-    /// What lies in a folder, hidden files too.
+    /// What lies in a folder, hidden files too, but for the list of results that each folder of results has.
     pub fn entries(&self, folder: &str) -> BTreeSet<String> {
         entries(&self.path(folder))
     }
@@ -169,7 +169,8 @@ fn without(page: &str, tag: &str) -> String {
 
 pub fn entries(folder: &Path) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name != ".spunlaid-files").collect()
 }
 
 pub fn names(names: &[&str]) -> BTreeSet<String> {

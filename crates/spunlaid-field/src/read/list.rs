@@ -132,6 +132,9 @@ impl Reading<'_> {
             if self.parts.contains(&relative) {
                 return Err(refused(TWICE));
             }
+            if self.within.len() >= DEEPEST {
+                return Err(refused(TOO_DEEP));
+            }
             if !path.exists() {
                 return Err(refused(MISSING));
             }
@@ -155,6 +158,11 @@ impl Reading<'_> {
     }
 }
 
+/// Most lists that name each other one in the other, as blocks of blocks of a case do.
+const DEEPEST: usize = 32;
+
+const TOO_DEEP: &str =
+    "inside too many other lists; at most 32 may lie in each other: name the grids in fewer lists";
 const MISSING: &str = "which is not there; copy it to that place beside the list, or write the list again";
 const OUTSIDE: &str = "which is outside of the list’s own folder; put it into that folder or one below, and \
     write its path from there";

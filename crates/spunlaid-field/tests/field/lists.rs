@@ -198,6 +198,12 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
         let said = said(&folder, name);
         assert!(said.contains(wanted), "{name}: {said}");
     }
+    // Thousands of lists, each in the next, overflowed the stack.
+    let chain: Vec<(String, String)> =
+        (0..40).map(|i| (format!("{i}.vtm"), blocks(&[&format!("{}.vtm", i + 1)]))).collect();
+    let chain: Vec<(&str, &[u8])> = chain.iter().map(|(name, text)| (&**name, text.as_bytes())).collect();
+    let deep = said(&self::folder(&chain), "0.vtm");
+    assert!(deep.contains("31.vtm:") && deep.contains("at most 32 may lie in each other"), "{deep}");
     // Bytes alone have no folder.
     let error =
         Field::parse(list(&["a.vtu"]).as_bytes(), "a.pvtu").expect_err("this is no field").to_string();

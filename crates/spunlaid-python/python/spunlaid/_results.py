@@ -7,21 +7,27 @@ import os
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from shutil import copytree, rmtree
+from shutil import rmtree
 from tempfile import mkdtemp
 from typing import Any
 from weakref import finalize
 
 from ._errors import FolderError
-from ._spunlaid import Computed
+from ._spunlaid import Computed, copy_results
+
+
+def _remove(path: Path, owner: int) -> None:
+    # A forked process ends too, and the folder is still its parent's.
+    if os.getpid() == owner:
+        rmtree(path, ignore_errors=True)
 
 
 class Place:
-    """A folder of its own, as long as it is used."""
+    """A folder of its own, as long as the process uses it that has made it."""
 
     def __init__(self) -> None:
         self.path = Path(mkdtemp(prefix="spunlaid-"))
-        finalize(self, rmtree, self.path, ignore_errors=True)
+        finalize(self, _remove, self.path, os.getpid())
 
 
 class Kept:
@@ -51,22 +57,13 @@ class Kept:
         return (self.path / "report.html").read_text("utf-8")
 
     def save(self, path: str, force: bool, figures: tuple[Any, Any]) -> None:
-        """Copies the folder. Files of others stay."""
+        """Copies the folder, as the program replaces one: results there go when the copy is whole, and files of others stay."""
         if figures != (None, None):
             raise ValueError(
                 "figures: results that were read from a folder or a pickle are copied with their figures as they are; leave"
                 " figures and figure_width out, or compute them again"
             )
-        place = Path(path)
-        if place.exists() and (not place.is_dir() or any(place.iterdir())) and not force:
-            raise FolderError(f"{place}: holds results already; name another folder, or replace them with force=True")
-        try:
-            for entry in self.path.iterdir():
-                if (place / entry.name).is_dir():
-                    rmtree(place / entry.name)
-            copytree(self.path, place, dirs_exist_ok=True)
-        except OSError as error:
-            raise FolderError(f"{path}: cannot be written: {error}") from error
+        copy_results(self.path, Path(path), force)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Kept, (None if self.files else self.path.absolute(), self.files, self.name)

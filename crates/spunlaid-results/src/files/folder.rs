@@ -4,9 +4,10 @@ use super::leftovers;
 use super::leftovers::Claim;
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
+use super::swap::{self, NEW};
 use super::table::{Column, TABLES, Table};
 use crate::Failure;
-use crate::failure::{holds_files_of_others, holds_results, not_a_folder};
+use crate::failure::{copied_onto_itself, half_replaced, holds_files_of_others, holds_results, not_a_folder};
 use spunlaid::ground::threads::each;
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
@@ -53,9 +54,6 @@ pub(crate) const MARKS: &[&str] = &[
     "study.toml",
     "webs.jsonl",
 ];
-/// Folders in the staging folder: the new results, and the old ones while they are replaced.
-const NEW: &str = "new";
-const OLD: &str = "old";
 /// A file that replaces a published one.
 const NEXT: &str = "next";
 /// Files that are needed only while the results are made.
@@ -70,6 +68,8 @@ pub struct Staging<'a> {
     /// The entries that are moved to the results folder, in this order.
     entries: &'static [&'static str],
     replace: bool,
+    /// Whether all results go that the folder has, or only its entries.
+    replaces_all: bool,
     /// What the results are made from, if the same command may replace them.
     origin: Option<Origin>,
     /// A lock that shows other runs that this one is alive.
@@ -112,6 +112,9 @@ impl<'a> Staging<'a> {
         if exists && !folder.is_dir() {
             return Err(not_a_folder(folder));
         }
+        if exists {
+            leftovers::remove(folder)?;
+        }
         refuse_results(folder, entries, replace, origin.as_ref())?;
         let unwritable = Failure::unwritable(folder);
         let above = match folder.parent() {
@@ -119,12 +122,9 @@ impl<'a> Staging<'a> {
             Some(above) => above,
             None => folder,
         };
-        leftovers::remove(above);
+        leftovers::remove(above)?;
         // For an existing folder, staging happens inside it, so that publishing never crosses file systems.
         let home = if exists { folder } else { above };
-        if exists {
-            leftovers::remove(folder);
-        }
         let made: Vec<PathBuf> =
             above.ancestors().take_while(|above| !above.exists()).map(Path::to_owned).collect();
         let staging = fs::create_dir_all(home)
@@ -139,6 +139,7 @@ impl<'a> Staging<'a> {
             staging,
             entries,
             replace,
+            replaces_all: true,
             origin,
             claim,
             made,
@@ -150,6 +151,13 @@ impl<'a> Staging<'a> {
         fs::create_dir(staging.staging.join(NEW)).map_err(&unwritable)?;
         staging.origin.iter().try_for_each(|origin| staging.write(ORIGIN, origin.text()))?;
         Ok(staging)
+    }
+
+    /// Other results in the folder, which are no entries of these, stay.
+    #[must_use]
+    pub(crate) fn beside_others(mut self) -> Self {
+        self.replaces_all = false;
+        self
     }
 
     /// From now on, figures are written like this.
@@ -180,6 +188,7 @@ impl<'a> Staging<'a> {
     /// The present and the final path of a file, whose parent folders are there.
     pub(super) fn begin(&self, name: &str) -> Result<(PathBuf, PathBuf), Failure> {
         if self.is_published {
+            swap::add_to_list(&self.folder, name).map_err(Failure::unwritable(&self.folder))?;
             return Ok((self.staging.join(NEXT), self.folder.join(name)));
         }
         self.go_on()?;
@@ -270,44 +279,31 @@ impl<'a> Staging<'a> {
     }
 
     /// Moves the results to their folder. If there was no folder, this is one renaming; otherwise the entries are
-    /// moved one by one, and the one that marks the results as complete comes last. Files may be replaced later.
+    /// moved one by one, and what marks the results as complete comes last. Files may be replaced later.
     pub fn publish(&mut self) -> Result<(), Failure> {
         self.go_on()?;
         // Another run may have written results in the meantime.
         refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
-        let (new, folder) = (self.staging.join(NEW), self.folder.clone());
-        let moved = if folder.exists() { self.swap(&new, &folder) } else { fs::rename(&new, &folder) };
-        moved.map_err(Failure::unwritable(&folder))?;
+        let folder = self.folder.clone();
+        let entries = (!self.replaces_all).then_some(self.entries);
+        let moved = self.move_into_folder().and_then(|()| swap::publish(&self.staging, &folder, entries));
+        moved.map_err(|error| match swap::is_unfinished(&self.staging) {
+            true => half_replaced(&self.staging, error),
+            false => Failure::unwritable(&folder)(error),
+        })?;
         self.made.clear();
         self.is_published = true;
         Ok(())
     }
 
-    /// Replaces the old entries by the new ones. If this fails, the old entries are moved back.
-    fn swap(&self, new: &Path, folder: &Path) -> io::Result<()> {
-        let old = self.staging.join(OLD);
-        fs::create_dir(&old)?;
-        let exists = |path: &Path| path.symlink_metadata().is_ok();
-        let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
-        let mut step = |from: PathBuf, to: PathBuf| {
-            if !exists(&from) {
-                return Ok(());
-            }
-            fs::rename(&from, &to)?;
-            moved.push((from, to));
-            Ok(())
-        };
-        let swapped =
-            (self.entries.iter().rev().try_for_each(|name| step(folder.join(name), old.join(name))))
-                .and_then(|()| {
-                    self.entries.iter().try_for_each(|name| step(new.join(name), folder.join(name)))
-                });
-        if swapped.is_err() {
-            for (from, to) in moved.iter().rev() {
-                let _ = fs::rename(to, from);
-            }
+    /// Where the folder of the results exists, the staging folder lies in it; another process may have made it meanwhile.
+    fn move_into_folder(&mut self) -> io::Result<()> {
+        if self.folder.exists() && self.staging.parent() != Some(&self.folder) {
+            let inside = self.folder.join(self.staging.file_name().unwrap_or_default());
+            fs::rename(&self.staging, &inside)?;
+            self.staging = inside;
         }
-        swapped
+        Ok(())
     }
 
     fn go_on(&self) -> Result<(), Failure> {
@@ -322,9 +318,29 @@ impl Drop for Staging<'_> {
     fn drop(&mut self) {
         // Some operating systems cannot remove open files.
         self.claim = None;
-        let _ = fs::remove_dir_all(&self.staging);
+        if !swap::is_unfinished(&self.staging) {
+            let _ = fs::remove_dir_all(&self.staging);
+        }
         remove_empty(&self.made);
     }
+}
+
+/// Copies a results folder with all that it holds. Results that are in its place go; files of others stay.
+///
+/// * `replace` – whether results are replaced
+///
+/// # Errors
+/// If both are one folder, if it holds results that are not replaced, or if something cannot be read or written.
+pub fn copy(from: &Path, to: &Path, replace: bool, stop: &AtomicBool) -> Result<(), Failure> {
+    if let (Ok(from), Ok(same)) = (from.canonicalize(), to.canonicalize())
+        && (from == same || same.starts_with(&from))
+    {
+        return Err(copied_onto_itself(to));
+    }
+    let mut staging = Staging::new(to, ENTRIES, replace, stop)?;
+    let (now, later) = staging.place("");
+    swap::copy(from, &now).map_err(Failure::unwritable(&later))?;
+    staging.publish()
 }
 
 /// Rejects a folder that holds anything, unless it may be replaced or has the same origin.

@@ -6,6 +6,7 @@ use crate::Failure;
 use spunlaid::fibre::{Case, SpinSpec};
 use spunlaid::input::{WebSpec, write_case, write_spinline, write_web};
 use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -94,7 +95,13 @@ fn unused(file: &Path, is_list: bool, copied: &BTreeMap<PathBuf, PathBuf>) -> Pa
     let whole = file.file_name().unwrap_or_default();
     let name = if is_list { file.file_stem().unwrap_or(whole) } else { whole }.to_string_lossy().into_owned();
     let place = Path::new(CASE_FILES);
-    let taken = |name: &str| copied.values().any(|path| path.starts_with(place.join(name)));
+    // Many file systems take no notice of the case of letters.
+    let same = |path: &Path| {
+        path.strip_prefix(place).ok().and_then(|path| path.iter().next()).map(OsStr::to_ascii_lowercase)
+    };
+    let taken = |name: &str| {
+        copied.values().any(|path| same(path) == Some(OsString::from(name).to_ascii_lowercase()))
+    };
     let numbered = (2..).map(|number| format!("{number}_{name}"));
     let name = std::iter::once(name.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(name);
     if is_list { Path::new(&name).join(whole) } else { name.into() }

@@ -1,5 +1,8 @@
 //! Removes what killed runs have left behind, and recognises runs that are still alive by their locks.
 
+use super::swap;
+use crate::Failure;
+use crate::failure::half_replaced;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -41,25 +44,33 @@ pub(super) fn hidden_folder(above: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Removes what killed runs have left in a folder. Errors are ignored.
-pub(super) fn remove(folder: &Path) {
-    remove_if(folder, is_abandoned);
+/// Removes what killed runs have left in a folder, and finishes what they were replacing.
+///
+/// # Errors
+/// If results that were being replaced cannot be moved to their places. What only cannot be removed stays.
+pub(super) fn remove(folder: &Path) -> Result<(), Failure> {
+    remove_if(folder, is_abandoned)
 }
 
 /// The same in a folder that only this process uses, where no other run can be about to lock anything.
-pub fn remove_unclaimed(folder: &Path) {
-    remove_if(folder, |found| !found.join(LOCK).exists() || is_abandoned(found));
+///
+/// # Errors
+/// As [`remove`].
+pub fn remove_unclaimed(folder: &Path) -> Result<(), Failure> {
+    remove_if(folder, |found| !found.join(LOCK).exists() || is_abandoned(found))
 }
 
-fn remove_if(folder: &Path, is_left: impl Fn(&Path) -> bool) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
+fn remove_if(folder: &Path, is_left: impl Fn(&Path) -> bool) -> Result<(), Failure> {
+    let Ok(entries) = fs::read_dir(folder) else { return Ok(()) };
     for entry in entries.flatten() {
         let name = entry.file_name();
         let is_ours = name.to_str().is_some_and(|name| name.starts_with(PREFIX) && name.ends_with(SUFFIX));
         if is_ours && entry.file_type().is_ok_and(|kind| kind.is_dir()) && is_left(&entry.path()) {
+            swap::finish(&entry.path()).map_err(|error| half_replaced(&entry.path(), error))?;
             let _ = fs::remove_dir_all(entry.path());
         }
     }
+    Ok(())
 }
 
 /// Whether the run that locked a folder has ended. A folder without a lock file may belong to a run that is about

@@ -7,6 +7,7 @@ pub mod measured;
 pub mod origin;
 pub mod paraview;
 pub mod pictures;
+pub(crate) mod swap;
 pub mod table;
 
 use serde_json::{Value as Json, json};

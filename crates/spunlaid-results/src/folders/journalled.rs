@@ -15,6 +15,7 @@ use crate::files::folder::{MARKS, Staging, refuse_others};
 use crate::files::leftovers;
 use crate::files::origin::{ORIGIN, Origin};
 use crate::files::pictures::FigureFiles;
+use crate::files::swap::{self, LIST};
 use spunlaid::experiment::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -110,7 +111,7 @@ impl<'a> JournalFolder<'a> {
         }
         fs::create_dir_all(path).map_err(Failure::unwritable(path))?;
         let (journal, header) = Journal::open(&path.join(JOURNAL), work.force)?;
-        leftovers::remove_unclaimed(path);
+        leftovers::remove_unclaimed(path)?;
         if !work.force && header.is_none() {
             refuse_others(path, &results, &[&[JOURNAL, ORIGIN], work.description].concat())?;
         }
@@ -130,7 +131,7 @@ impl<'a> JournalFolder<'a> {
         }
         fs::create_dir_all(&place).map_err(Failure::unwritable(&place))?;
         let (own, header) = Journal::open(&place.join(JOURNAL), false)?;
-        leftovers::remove_unclaimed(&place);
+        leftovers::remove_unclaimed(&place)?;
         Ok((Self { path, place, entries, earlier: Some(journal), stop, figures }, own, header))
     }
 
@@ -169,7 +170,7 @@ impl<'a> JournalFolder<'a> {
 
     /// Collects the files of results.
     pub(crate) fn staging<C: Contents>(&self) -> Result<Staging<'a>, Failure> {
-        let mut staging = Staging::new(&self.place, C::ENTRIES, true, self.stop)?;
+        let mut staging = Staging::new(&self.place, C::ENTRIES, true, self.stop)?.beside_others();
         staging.set_figures(&self.figures);
         Ok(staging)
     }
@@ -196,10 +197,11 @@ impl<'a> JournalFolder<'a> {
             return Ok(());
         }
         let entries = self.entries.concat();
+        swap::keep_others(&self.path, &self.place, &entries).map_err(Failure::unwritable(&self.path))?;
         entries.iter().rev().try_for_each(|name| remove(&self.path.join(name)))?;
         // Some operating systems cannot replace an open file.
         self.earlier = None;
-        for name in [JOURNAL, ORIGIN].into_iter().chain(entries) {
+        for name in [LIST, JOURNAL, ORIGIN].into_iter().chain(entries) {
             let (from, to) = (self.place.join(name), self.path.join(name));
             if from.symlink_metadata().is_ok() {
                 fs::rename(&from, &to).map_err(Failure::unwritable(&to))?;
@@ -214,7 +216,7 @@ impl<'a> JournalFolder<'a> {
 /// Removes the folder of a replacement, unless someone else has put something into it.
 fn clear(place: &Path, entries: Entries) -> Result<(), Failure> {
     if place.is_dir() {
-        for name in [JOURNAL, ORIGIN].into_iter().chain(entries.concat()) {
+        for name in [LIST, JOURNAL, ORIGIN].into_iter().chain(entries.concat()) {
             remove(&place.join(name))?;
         }
         let _ = fs::remove_dir(place);

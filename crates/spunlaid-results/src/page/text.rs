@@ -5,6 +5,7 @@ use super::document::{Part, Report, Section, Seen};
 use super::table::{Content, Row, Table};
 use crate::numbers::{HARD, THIN};
 use std::collections::BTreeMap;
+use unicode_width::UnicodeWidthStr;
 
 impl Report<'_> {
     /// What a terminal of so many columns shows: the result, what is said below it, the sections that are
@@ -103,7 +104,7 @@ impl Table {
 /// * `room` – columns of the terminal
 pub fn aligned(rows: &[Vec<String>], is_left: &[bool], room: usize) -> String {
     let columns = rows.first().map_or(0, Vec::len);
-    let width = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0);
+    let width = |i: usize| rows.iter().map(|row| row[i].width()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let own = |column: &usize| 2 + widths[*column];
     let mut blocks: Vec<Vec<usize>> = Vec::new();
@@ -118,8 +119,10 @@ pub fn aligned(rows: &[Vec<String>], is_left: &[bool], room: usize) -> String {
         }
     }
     let cell = |row: &[String], i: usize| {
-        let (text, width) = (&row[i], widths[i]);
-        if is_left.get(i) == Some(&true) { format!("{text:<width$}") } else { format!("{text:>width$}") }
+        let text = &row[i];
+        // A width of a format is at most 65,535.
+        let spaces = " ".repeat(widths[i].saturating_sub(text.width()));
+        if is_left.get(i) == Some(&true) { format!("{text}{spaces}") } else { format!("{spaces}{text}") }
     };
     let block = |block: &Vec<usize>| -> String {
         let line = |row: &Vec<String>| {
@@ -144,6 +147,13 @@ mod tests {
         assert_eq!(aligned(&rows, &[], 30), whole);
         let parts = "  patch  this map\n   1 mm      12.9\n\n  patch  as expected\n   1 mm         13.4\n";
         assert_eq!(aligned(&rows, &[], 29), parts);
+        // A cell that is wider than any width of a format, and letters that take two columns.
+        let wide = vec![vec!["x".repeat(70_000)], vec!["網".to_owned()], vec!["ab".to_owned()]];
+        let text = aligned(&wide, &[], 80);
+        assert_eq!(
+            text.lines().map(|line| line.chars().count()).collect::<Vec<_>>(),
+            [70_002, 70_001, 70_002]
+        );
         // No room at all does not end in a table without columns.
         assert_eq!(aligned(&rows, &[], 3), parts);
     }

@@ -4,7 +4,7 @@
 //! ```text
 //! flights → Flights (a little memory, then the file) → Tables, when the turn of a fibre has come
 //!
-//! .<folder>.flown   the file, from where the first fibre has landed until the results are complete
+//! .<folder>-<case>.flown   the file, from where the first fibre has landed until the results are complete
 //! ```
 
 use super::tables::{Column, LAID, POINT, SAMPLE, point_of, tables};
@@ -77,10 +77,12 @@ impl Flights {
     pub fn open(staging: &Staging<'_>, case: &Case, keep: Option<Keep<'static>>) -> Result<Self, Failure> {
         let (results, scratch) = (staging.folder(), staging.scratch());
         let name = results.file_name().unwrap_or_default().to_string_lossy();
-        let places = [scratch.join("flown"), results.with_file_name(format!(".{name}.flown"))];
         let later = [staging.place("energy.parquet").1, staging.place(SHAPE).1];
         let (version, sum) = (env!("CARGO_PKG_VERSION"), Experiment::Case(case.clone()).checksum());
         let identity = format!("spunlaid-flown version={version} case={sum:08x} {keep:?}");
+        // Flights of another case stay until that case goes on.
+        let own = (identity.bytes()).fold(0_u32, |own, byte| own.wrapping_mul(31).wrapping_add(byte.into()));
+        let places = [scratch.join("flown"), results.with_file_name(format!(".{name}-{own:08x}.flown"))];
         // What another process uses stays its own.
         let earlier = keep.filter(|_| places[1].exists()).and_then(|_| Log::open(&places[1], &identity).ok());
         let is_kept = AtomicBool::new(earlier.is_some());

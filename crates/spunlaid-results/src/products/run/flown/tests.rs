@@ -141,15 +141,22 @@ fn identical_flights_when_an_earlier_process_has_flown_them() {
     }
 }
 
+/// The file of flights in a folder.
+fn kept(folder: &Path) -> PathBuf {
+    let mut files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+    files.find(|file| file.extension().is_some_and(|ending| ending == "flown")).unwrap()
+}
+
 #[test]
 fn identical_flights_when_a_process_was_killed_anywhere() {
     let (case, whole) = (case(FIXED), tempfile::tempdir().unwrap());
     let first = process(whole.path(), &case, case.run.replicates);
-    let bytes = fs::read(whole.path().join(".r.flown")).unwrap();
+    let file = kept(whole.path());
+    let (name, bytes) = (file.file_name().unwrap(), fs::read(&file).unwrap());
     let mut found = Vec::new();
     for part in [0.02, 0.3, 0.5, 0.77, 0.999] {
         let desk = tempfile::tempdir().unwrap();
-        fs::write(desk.path().join(".r.flown"), &bytes[..(part * bytes.len() as f64) as usize]).unwrap();
+        fs::write(desk.path().join(name), &bytes[..(part * bytes.len() as f64) as usize]).unwrap();
         let again = process(desk.path(), &case, case.run.replicates);
         assert!(again.tables == first.tables && text(&again) == text(&first), "{part}");
         assert!(!again.recalled && process(desk.path(), &case, case.run.replicates).recalled, "{part}");
@@ -163,19 +170,22 @@ fn rejects_what_is_damaged_or_of_another_case() {
     let (case, whole) = (case(FIXED), tempfile::tempdir().unwrap());
     let replicates = case.run.replicates;
     let first = process(whole.path(), &case, replicates);
-    let bytes = fs::read(whole.path().join(".r.flown")).unwrap();
+    let file = kept(whole.path());
+    let (name, bytes) = (file.file_name().unwrap(), fs::read(&file).unwrap());
     for part in [0.01, 0.4, 0.5, 1.0] {
         let (desk, mut bytes) = (tempfile::tempdir().unwrap(), bytes.clone());
         let at = (part * (bytes.len() - 1) as f64) as usize;
         bytes[at] ^= 1;
-        fs::write(desk.path().join(".r.flown"), bytes).unwrap();
+        fs::write(desk.path().join(name), bytes).unwrap();
         let again = process(desk.path(), &case, replicates);
         assert!(again.found == replicates - 1 && !again.recalled, "at {at}: {}", again.found);
         assert!(again.tables == first.tables && text(&again) == text(&first), "at {at}");
     }
-    let mut other = case;
+    // Another seed finds nothing, and leaves what there is.
+    let mut other = case.clone();
     other.run.seed += 1;
     assert_eq!(process(whole.path(), &other, replicates).found, 0);
+    assert_eq!(process(whole.path(), &case, replicates).found, replicates);
 }
 
 /// The tables of fibres that land one after the other, or that all fly at once, so that few of their rows
