@@ -7,6 +7,7 @@ import { mkdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { parseArgs } from "node:util";
 import { pathToFileURL } from "node:url";
+import { violations } from "./axe.mjs";
 
 const { chromium } = createRequire(join(process.env.PACKAGES, "package.json"))("playwright-core");
 
@@ -302,6 +303,7 @@ async function check(scheme, width) {
     await page.screenshot({ path: join(options.screenshots, `${scheme}-${width}-${name}.png`), fullPage: full });
   };
   await shot("page", true);
+  for (const violation of await violations(page)) failures.push(`${where}: ${violation}`);
 
   if (options.web) await checkAnswers(page, where);
   await checkTables(page, where);

@@ -9,6 +9,7 @@ import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
+import { violations } from "./axe.mjs";
 
 const { chromium } = createRequire(join(process.env.PACKAGES, "package.json"))("playwright-core");
 const { values: options, positionals } = parseArgs({
@@ -188,6 +189,7 @@ async function checkFixed(browser) {
   );
   expect(unnamed.length === 0, `without a name for a screen reader: ${unnamed.join(", ")}`);
   await shot(phone, "phone");
+  for (const seen of [page, phone]) for (const violation of await violations(seen)) failures.push(violation);
   await phone.close();
   await page.close();
   live.kill();
@@ -198,6 +200,44 @@ async function checkFixed(browser) {
     `from the slider to changed motion: median ${between(0.5)} ms, nine of ten within ${between(0.9)} ms`,
     `memory as fast as it goes: ${memory.at(-1).toFixed(1)} MB, grew by ${growth.toFixed(1)} MB in the second half of ${options.seconds} s`,
   ];
+}
+
+/** By keyboard alone: arrow keys move a slider notch by notch, a number beyond its range keeps the place, and no number ticks for a screen reader. */
+async function checkKeyboard(browser) {
+  const { live, address } = await start("table1.toml");
+  const page = await open(browser, address);
+  await page.evaluate(() => {
+    window.spoken = 0;
+    for (const place of document.querySelectorAll("output, [role=status], [role=alert], [aria-live]")) {
+      new MutationObserver((changes) => (window.spoken += changes.length)).observe(place, { childList: true, characterData: true, subtree: true });
+    }
+  });
+  await wait(3000);
+  const spoken = await page.evaluate(() => window.spoken);
+  expect(spoken < 3, `${spoken} changes are spoken in 3 s in which nothing happens`);
+  const slider = page.locator('input[type=range][data-key="air.velocity"]');
+  for (const first of [120, 500, 900]) {
+    await slide(page, "air.velocity", first);
+    await slider.focus();
+    for (let i = 0; i < 10; i++) {
+      await page.keyboard.press("ArrowRight");
+      await wait(60);
+    }
+    const notch = Number(await slider.inputValue());
+    expect(notch === first + 10, `ten arrow keys from notch ${first} lead to ${notch}`);
+  }
+  await page.locator("#settings details summary").first().click();
+  const box = page.locator('input[data-key="air.velocity"]:not([type=range])');
+  await box.fill("90 m/s");
+  await box.press("Enter");
+  await page.waitForFunction(() => spunlaidLive.state.air === 90);
+  await wait(200);
+  const focused = await page.evaluate(() => document.activeElement.dataset.key);
+  expect(focused === "air.velocity", `after a number beyond the slider the focus is on ${focused}`);
+  expect((await page.locator("#settings details[open]").count()) > 0, "a number beyond the slider closes what was open");
+  await page.close();
+  live.kill();
+  return ["by keyboard: sliders, numbers beyond them, and quiet for a screen reader"];
 }
 
 /** A fed fibre lays its loops, and the spread settles. */
@@ -308,7 +348,7 @@ const browser = await chromium.launch({
 });
 let lines = [];
 try {
-  lines = [...(await checkMistakes(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
+  lines = [...(await checkMistakes(browser)), ...(await checkKeyboard(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
 } catch (error) {
   failures.push(`the check itself: ${error.message}`);
 } finally {

@@ -1,6 +1,8 @@
 // The sliders and choices, made from the table of keys.
 
 const NOTCHES = 1000;
+/** Largest part of a value by which three digits round it. */
+const ROUNDED = 5.1e-3;
 
 /** A new element of the page with these properties. */
 const element = (tag, properties = {}) => Object.assign(document.createElement(tag), properties);
@@ -27,8 +29,13 @@ class Controls {
     form.addEventListener("submit", (e) => e.preventDefault());
   }
 
-  /** Makes the controls for these settings, those to look at first on top. */
+  /** Makes the controls for these settings, those to look at first on top. Those that are there stay, with their new ranges. */
   build(settings) {
+    const stays = (s) => this.controls.get(s.key)?.setting.takes === s.takes;
+    if (settings.length === this.controls.size && settings.every(stays)) {
+      settings.forEach((s) => (this.controls.get(s.key).setting = s));
+      return;
+    }
     this.controls.clear();
     this.form.replaceChildren();
     this.group(this.form, "What matters most", settings.filter((s) => s.first));
@@ -79,7 +86,7 @@ class Controls {
       const slider = element("input", { type: "range", min: 0, max: NOTCHES, step: 1, id });
       slider.setAttribute("aria-labelledby", name.id);
       slider.dataset.key = setting.key;
-      slider.addEventListener("input", () => this.set(setting.key, this.value(setting, Number(slider.value))));
+      slider.addEventListener("input", () => this.set(setting.key, this.value(control.setting, Number(slider.value))));
       row.append(slider);
       control.slider = slider;
     }
@@ -114,7 +121,9 @@ class Controls {
       if (control.wrong.hidden && (control.text !== document.activeElement || control.setting.takes === "word")) control.text.value = text;
       if (!control.slider) continue;
       control.slider.setAttribute("aria-valuetext", text);
-      if (control.slider !== this.held) control.slider.value = this.notch(control.setting, si);
+      // The program rounds to three digits. A slider that went back by that would stick under the arrow keys.
+      const isThere = Math.abs(this.value(control.setting, Number(control.slider.value)) - si) <= ROUNDED * Math.abs(si);
+      if (control.slider !== this.held && !isThere) control.slider.value = this.notch(control.setting, si);
     }
   }
 

@@ -175,21 +175,25 @@ function status() {
   const { state, frame, connected } = page;
   const line = byId("status");
   line.classList.toggle("trouble", !connected || Boolean(frame?.behind) || Boolean(state?.trouble));
+  let [text, pace] = [line.textContent, ""];
   if (!connected) {
-    line.textContent = page.moved
+    text = page.moved
       ? "The program has been started again and has another address. Open the new address, which it has printed."
       : "The program does not answer. It may have ended; the page tries again. If you have started it again, open the new address, which it has printed.";
   } else if (!state) {
-    line.textContent = "Connecting …";
+    text = "Connecting …";
   } else if (state.stands && state.trouble) {
-    line.textContent = "The time stands, because the fibres were lost. Press Go to fly on.";
+    text = "The time stands, because the fibres were lost. Press Go to fly on.";
   } else if (state.stands) {
-    line.textContent = `The time stands. Steps of ${state.step}, ${state.scheme}.`;
+    text = `The time stands. Steps of ${state.step}, ${state.scheme}.`;
   } else if (frame) {
     const speed = shown(frame.speed, 2);
-    const pace = frame.behind ? `${speed} of real time: this machine cannot keep the pace` : `${speed} × real time`;
-    line.textContent = `Eight fibres, steps of ${state.step}, ${state.scheme}. ${pace}.`;
+    text = `Eight fibres, steps of ${state.step}, ${state.scheme}.`;
+    pace = frame.behind ? `${speed} of real time: this machine cannot keep the pace.` : `${speed} × real time.`;
   }
+  // A screen reader speaks what is new in this line; the pace, which always changes, stands beside it.
+  if (line.textContent !== text) line.textContent = text;
+  byId("pace-now").textContent = pace;
 }
 
 // The case as text

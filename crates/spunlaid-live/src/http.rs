@@ -9,6 +9,8 @@ const LARGEST_HEAD: usize = 1 << 14;
 const MOST_HEADERS: usize = 64;
 /// A client that takes longer to ask, or to take a message, is given up; it may come back.
 pub(super) const PATIENCE: Duration = Duration::from_secs(10);
+/// A connection without a word ends sooner.
+const SILENCE: Duration = Duration::from_secs(1);
 /// How long a client that has its answer may go on sending [bytes, time]. Closed at once, it could lose the answer.
 const LEFTOVER: usize = 1 << 16;
 const FAREWELL: Duration = Duration::from_secs(1);
@@ -50,6 +52,7 @@ impl Request {
         let end = Instant::now() + PATIENCE;
         loop {
             let left = end.saturating_duration_since(Instant::now()).max(Duration::from_millis(1));
+            let left = if bytes.is_empty() { left.min(SILENCE) } else { left };
             stream.set_read_timeout(Some(left)).map_err(|_| None)?;
             match stream.read(&mut piece) {
                 Ok(0) => return Err(None),

@@ -81,7 +81,7 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
     let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
 
     let (sender, requests) = mpsc::sync_channel(WAITING);
-    let server = Server { guard, requests: sender, board: session.board() };
+    let server = Server { guard, requests: sender, board: session.board(), strangers: Default::default() };
     let address = server.guard.address();
     let flight = thread::Builder::new().name("flight".to_owned()).spawn(move || session.fly(&requests));
     let flight = flight.map_err(not_served)?;

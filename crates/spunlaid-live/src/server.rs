@@ -7,10 +7,12 @@ use super::http::{self, Request, Response};
 use super::message::{self, Answer, Command, LARGEST};
 use super::page;
 use super::session::PageRequest;
+use spunlaid::ground::threads::lock;
+use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpListener, TcpStream};
-use std::sync::Arc;
 use std::sync::mpsc::SyncSender;
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 use tungstenite::handshake::derive_accept_key;
@@ -19,8 +21,8 @@ use tungstenite::protocol::frame::coding::{Data, OpCode};
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-/// Most connections at a time.
-const CONNECTIONS: usize = 256;
+/// Most connections that have not shown the token. One more ends the oldest: the owner's browser shows it at once.
+const STRANGERS: usize = 256;
 /// What a connection reads at once [bytes].
 const PIECE: usize = 1 << 14;
 /// Time after which a connection is accepted again, if the system has no more of them.
@@ -31,6 +33,30 @@ pub(super) struct Server {
     pub(super) guard: Guard,
     pub(super) requests: SyncSender<PageRequest>,
     pub(super) board: Arc<Board>,
+    pub(super) strangers: Strangers,
+}
+
+/// Connections that have not shown the token, by their numbers.
+#[derive(Default)]
+pub(super) struct Strangers(Mutex<BTreeMap<u64, TcpStream>>);
+
+impl Strangers {
+    /// Takes in a connection, and ends the oldest one if there are too many.
+    fn admit(&self, number: u64, stream: &TcpStream) {
+        let Ok(stream) = stream.try_clone() else { return };
+        let mut all = lock(&self.0);
+        all.insert(number, stream);
+        if all.len() > STRANGERS
+            && let Some((_, oldest)) = all.pop_first()
+        {
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+    }
+
+    /// A connection has shown the token, or has ended.
+    fn forget(&self, number: u64) {
+        lock(&self.0).remove(&number);
+    }
 }
 
 /// What a request leads to.
@@ -53,24 +79,24 @@ impl Server {
     /// Serves until the program ends.
     pub(super) fn serve(self, listener: &TcpListener) {
         let server = Arc::new(self);
-        for stream in listener.incoming() {
+        for (number, stream) in (0..).zip(listener.incoming()) {
             let Ok(mut stream) = stream else {
                 thread::sleep(PAUSE);
                 continue;
             };
-            // Every connection has the server; one is here.
-            if Arc::strong_count(&server) > CONNECTIONS {
-                continue;
-            }
+            server.strangers.admit(number, &stream);
             let server = Arc::clone(&server);
             let thread = thread::Builder::new().name("connection".to_owned());
             // Without a thread, the connection closes.
-            let _ = thread.spawn(move || server.connect(&mut stream));
+            let _ = thread.spawn(move || {
+                server.connect(&mut stream, number);
+                server.strangers.forget(number);
+            });
         }
     }
 
     /// Answers the request of a connection, or talks with the page that it is of.
-    fn connect(&self, stream: &mut TcpStream) {
+    fn connect(&self, stream: &mut TcpStream, number: u64) {
         // A small message leaves at once; otherwise it waits until the page has confirmed the last one, 40 ms
         // and more. Where this cannot be had, it only comes later.
         let _ = stream.set_nodelay(true);
@@ -79,7 +105,7 @@ impl Server {
             Err(Some(refusal)) => return http::answer(stream, &refusal, &page::HEADERS, false),
             Err(None) => return,
         };
-        match self.reaction(&request) {
+        match self.reaction(&request, number) {
             Reaction::Answer(response) => {
                 http::answer(stream, &response, &page::HEADERS, request.method == "HEAD");
             }
@@ -91,12 +117,13 @@ impl Server {
         }
     }
 
-    fn reaction(&self, request: &Request) -> Reaction {
+    fn reaction(&self, request: &Request, number: u64) -> Reaction {
         let needs_origin = request.count("upgrade") > 0 || request.count("origin") > 1;
         let (host, origin) = (request.only("host"), request.only("origin"));
         if let Err(refusal) = self.guard.check(&request.path, host, origin, needs_origin) {
             return Reaction::refusal("403 Forbidden", refusal.text());
         }
+        self.strangers.forget(number);
         if !["GET", "HEAD"].contains(&request.method.as_str()) {
             return Reaction::refusal("405 Method Not Allowed", "The page and its files can only be read.\n");
         }

@@ -57,8 +57,9 @@ impl AirSampler {
 
     /// After what distances the turbulence repeats itself along y and z [m].
     #[getter]
-    fn extent(&self) -> (f64, f64) {
-        let extent = lock(&self.air).extent();
+    fn extent(&self, py: Python<'_>) -> (f64, f64) {
+        // Another thread may look up air meanwhile.
+        let extent = py.detach(|| lock(&self.air).extent());
         (extent.y, extent.z)
     }
 }

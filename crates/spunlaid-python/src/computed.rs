@@ -1,7 +1,6 @@
 //! `Computed`: the results of a run, a web, a scan, a spinline or a comparison, which are what goes into their folder.
 //! Python reads them from there, but for what no file holds as it is computed.
 
-use crate::failure::raised;
 use crate::keys::described;
 use crate::save::{Figures, figure_files};
 use crate::source::Source;
@@ -111,7 +110,7 @@ impl Computed {
             _ => return Ok(None),
         };
         let weight = map.weight_of_quantum();
-        let values = map.cells.iter().map(|cell| f64::from(*cell) * weight).collect();
+        let values = py.detach(|| map.cells.iter().map(|cell| f64::from(*cell) * weight).collect());
         locked(PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?.as_any()).map(Some)
     }
 
@@ -140,13 +139,16 @@ impl Computed {
         let kept: Vec<&Trajectory> = all.filter(|trajectory| !trajectory.shapes.is_empty()).collect();
         let count = kept.first().map_or(0, |trajectory| trajectory.shapes.len());
         let nodes = kept.iter().map(|trajectory| trajectory.shapes.most_nodes()).max().unwrap_or(0);
-        let (mut times, mut flat) = (Vec::new(), Vec::with_capacity(kept.len() * count * nodes * 3));
-        for shape in kept.iter().flat_map(|trajectory| trajectory.shapes.iter()) {
-            let shape = shape.map_err(|error| raised(py, error))?;
-            times.push(shape.time);
-            flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
-            flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
-        }
+        let (times, flat) = guarded(py, || {
+            let (mut times, mut flat) = (Vec::new(), Vec::with_capacity(kept.len() * count * nodes * 3));
+            for shape in kept.iter().flat_map(|trajectory| trajectory.shapes.iter()) {
+                let shape = shape?;
+                times.push(shape.time);
+                flat.extend(shape.position.iter().flat_map(|p| [p.x, p.y, p.z]));
+                flat.extend(std::iter::repeat_n(f64::NAN, 3 * (nodes - shape.position.len())));
+            }
+            Ok((times, flat))
+        })?;
         let positions = PyArray1::from_vec(py, flat).reshape([kept.len(), count, nodes, 3])?;
         Ok((column(py, times.into_iter().take(count))?, locked(positions.as_any())?))
     }

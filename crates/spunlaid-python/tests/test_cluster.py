@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import spunlaid
-from spunlaid import Case
+from spunlaid import Case, _dask
 
 distributed = pytest.importorskip("distributed")
 
@@ -203,6 +203,13 @@ def test_other_content_of_a_file_on_a_worker_is_seen(cluster: Any) -> None:
     ((point, text, cases, checksum, first, last),), sides = study.bundle(0)
     with pytest.raises(spunlaid.ClusterError, match="another one on this machine"):
         _spunlaid.fly_bundle([(point, text, cases, checksum ^ 1, first, last)], sides)
+
+
+def test_a_bundle_that_others_cancel_is_an_error_with_the_way_on(cluster: Any) -> None:
+    future = cluster.submit(time.sleep, 60)
+    cluster.cancel([future], force=True)
+    with pytest.raises(spunlaid.ClusterError, match="cancelled on the cluster .* the same call goes on"):
+        _dask._result(future)
 
 
 def test_rejects_what_is_no_client(study: dict[str, object]) -> None:

@@ -273,7 +273,8 @@ def test_frames(short: Case) -> None:
 def test_a_notebook_shows_the_report(short: Case) -> None:
     run = spunlaid.run(short)
     shown = run._repr_html_()
-    assert shown.startswith("<iframe srcdoc=") and "&lt;html" in shown.lower() and "amplitude_y_m" in repr(run)
+    assert shown.startswith('<iframe sandbox="allow-scripts ') and "allow-same-origin" not in shown[:200]
+    assert " srcdoc=" in shown and "&lt;html" in shown.lower() and "amplitude_y_m" in repr(run)
 
 
 def test_progress_is_told_and_its_errors_come_through(short: Case) -> None:

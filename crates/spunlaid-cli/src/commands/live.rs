@@ -24,12 +24,29 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         say::line(address);
         say::aside("Open this address in a browser of this machine; Ctrl-C ends the program.");
         if !live.no_open
-            && let Err(error) = open::that_detached(address)
+            && let Err(error) = open_browser(address)
         {
             say::warning(&format!("no browser could be opened: {error}"));
         }
     };
     Ok(spunlaid_live::live(start, ready)?)
+}
+
+/// Opens a page in the browser. Every user of the machine sees the arguments of a command, and the address has the
+/// token. So the browser gets a file that only this user may read, which leads there.
+#[cfg(feature = "live")]
+fn open_browser(address: &str) -> std::io::Result<()> {
+    use std::io::Write;
+    /// Time in which a browser has read the file.
+    const READ: std::time::Duration = std::time::Duration::from_secs(60);
+    let mut file = tempfile::Builder::new().prefix("spunlaid-live-").suffix(".html").tempfile()?;
+    write!(file, "<!doctype html><meta charset=utf-8><meta http-equiv=refresh content='0;url={address}'>")?;
+    open::that_detached(file.path())?;
+    std::thread::spawn(move || {
+        std::thread::sleep(READ);
+        drop(file);
+    });
+    Ok(())
 }
 
 /// Says that this program has no page.

@@ -95,7 +95,10 @@ pub fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 pub fn results(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let all = contents(folder).into_iter();
     let all = all.map(|(path, content)| (path.strip_prefix(folder).unwrap().to_owned(), content));
-    all.filter(|(path, _)| ["journal", "origin.toml", ".spunlaid-files"].iter().all(|name| path != Path::new(name))).collect()
+    all.filter(|(path, _)| {
+        ["journal", "origin.toml", ".spunlaid-files"].iter().all(|name| path != Path::new(name))
+    })
+    .collect()
 }
 
 /// Panics naming the first file that differs.

@@ -91,3 +91,38 @@ fn rejects_a_case_that_is_wrong_and_a_port_that_is_taken() {
     assert_eq!(refused.status.code(), Some(2), "{said}");
     assert!(said.contains("name another port with --port"), "{said}");
 }
+
+/// Every user of a machine sees the arguments of all commands. The token stands in none, only in a file of the owner's.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_command_that_opens_a_browser_has_no_token() {
+    use std::io::{BufRead, BufReader};
+    use std::os::unix::fs::PermissionsExt;
+    let place = tempfile::tempdir().unwrap();
+    let browser = place.path().join("xdg-open");
+    let script =
+        "#!/bin/sh\n{ echo \"$1\"; stat -c %a \"$1\"; cat \"$1\"; } > \"$0.arguments\"; touch \"$0.done\"\n";
+    std::fs::write(&browser, script).unwrap();
+    std::fs::set_permissions(&browser, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", place.path().display(), std::env::var("PATH").unwrap());
+    let mut program = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
+        .arg("live")
+        .current_dir(place.path())
+        .env("PATH", path)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut address = String::new();
+    BufReader::new(program.stdout.take().unwrap()).read_line(&mut address).unwrap();
+    while !place.path().join("xdg-open.done").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    program.kill().unwrap();
+    program.wait().unwrap();
+    let opened = std::fs::read_to_string(place.path().join("xdg-open.arguments")).unwrap();
+    let [file, mode, content] = opened.splitn(3, '\n').collect::<Vec<_>>()[..] else { panic!("{opened}") };
+    assert!(!file.contains(address.trim()) && file.ends_with(".html") && mode == "600", "{opened}");
+    assert!(content.contains(&format!("url={}", address.trim())), "{opened}");
+    std::fs::remove_file(file).unwrap();
+}

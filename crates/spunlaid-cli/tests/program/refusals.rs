@@ -214,6 +214,32 @@ fn force_replaces_results_and_keeps_what_others_put_there() {
     assert_eq!(desk.summary("r")["case"]["run"]["seed"], 8);
 }
 
+/// Of a run, and of a study that has changed.
+#[test]
+fn a_file_of_the_users_in_figures_stays() {
+    let desk = Desk::new();
+    let study = |speeds: &str| {
+        let text = format!(
+            "version = 1\ncase = \"brief.toml\"\ndesign = \"grid\"\nreplicates = 1\n\
+            [vary]\n\"air.velocity\" = {speeds}\n"
+        );
+        fs::write(desk.path("study.toml"), text).unwrap();
+    };
+    study("[\"8 m/s\", \"9 m/s\"]");
+    for (command, folder) in [("run brief.toml", "results/brief"), ("sweep study.toml", "results/study")] {
+        success(&mut desk.spunlaid(command));
+        let mine = ["figures/mine.svg", "figures/more/mine.txt"].map(|file| format!("{folder}/{file}"));
+        fs::create_dir_all(desk.path(&mine[1]).parent().unwrap()).unwrap();
+        mine.iter().for_each(|file| fs::write(desk.path(file), "mine").unwrap());
+        let figures = || desk.entries(&format!("{folder}/figures"));
+        let before = figures();
+        study("[\"8 m/s\", \"12 m/s\"]");
+        success(&mut desk.spunlaid(command));
+        mine.iter().for_each(|file| assert_eq!(desk.read(file), b"mine", "{file}"));
+        assert_eq!(figures(), before);
+    }
+}
+
 /// One rule for all commands: results are not mixed with files of others unless it is asked for.
 #[test]
 fn rejects_folders_with_files_of_others_without_force() {

@@ -396,6 +396,20 @@ fn names_may_be_long_and_odd() {
     assert!(report.contains("Faser „5 µm“ &#38; &#60;b") && !report.contains("<b>ß"));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text_do_not_collide() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let desk = Desk::new();
+    for (name, folder) in [(&b"caf\xe8.toml"[..], "caf%E8"), (b"caf\xe9.toml", "caf%E9")] {
+        let name = OsStr::from_bytes(name);
+        std::fs::copy(desk.path("brief.toml"), desk.path("").join(name)).unwrap();
+        success(desk.spunlaid("run").arg(name));
+        assert_eq!(desk.entries(&format!("results/{folder}")), names(&ENTRIES));
+    }
+}
+
 #[test]
 fn as_many_shapes_are_kept_as_the_case_says() {
     let desk = Desk::new();

@@ -11,6 +11,7 @@ import pickle
 import time
 import zlib
 from collections.abc import Callable
+from concurrent.futures import CancelledError
 from queue import Empty, SimpleQueue
 from typing import Any
 
@@ -127,6 +128,11 @@ def _result(future: Any) -> list[Any]:
     except KilledWorker as error:
         raise ClusterError(
             f"a bundle was lost with {_RETRIES} workers or more: {error}. Do they run out of memory? What was flown of a "
+            "study is kept; the same call goes on from there"
+        ) from error
+    except CancelledError as error:
+        raise ClusterError(
+            f"a bundle was cancelled on the cluster ({error or 'the scheduler was restarted or closed'}). What was flown of a "
             "study is kept; the same call goes on from there"
         ) from error
     except ImportError as error:

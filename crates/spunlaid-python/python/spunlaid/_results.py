@@ -132,4 +132,6 @@ class Results:
 
     def _repr_html_(self) -> str:
         page = escape(self.report(), quote=True)
-        return f'<iframe srcdoc="{page}" style="width: 100%; height: 720px; border: 1px solid #ccc"></iframe>'
+        # Its scripts run in an origin of their own, not in that of the notebook.
+        rights, style = "allow-scripts allow-popups allow-downloads", "width: 100%; height: 720px; border: 1px solid #ccc"
+        return f'<iframe sandbox="{rights}" srcdoc="{page}" style="{style}"></iframe>'

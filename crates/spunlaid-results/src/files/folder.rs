@@ -296,7 +296,8 @@ impl<'a> Staging<'a> {
         Ok(())
     }
 
-    /// Where the folder of the results exists, the staging folder lies in it; another process may have made it meanwhile.
+    /// Where the folder of the results exists, the staging folder lies in it. Another process may have made it
+    /// meanwhile.
     fn move_into_folder(&mut self) -> io::Result<()> {
         if self.folder.exists() && self.staging.parent() != Some(&self.folder) {
             let inside = self.folder.join(self.staging.file_name().unwrap_or_default());

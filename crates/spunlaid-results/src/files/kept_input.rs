@@ -106,3 +106,22 @@ fn unused(file: &Path, is_list: bool, copied: &BTreeMap<PathBuf, PathBuf>) -> Pa
     let name = std::iter::once(name.clone()).chain(numbered).find(|name| !taken(name)).unwrap_or(name);
     if is_list { Path::new(&name).join(whole) } else { name.into() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn copies_differ_by_more_than_the_case_of_letters() {
+        let place = tempfile::tempdir().unwrap();
+        let files = ["a/Probe.csv", "b/probe.csv", "c/PROBE.csv"].map(|file| place.path().join(file));
+        for file in &files {
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, file.to_string_lossy().as_bytes()).unwrap();
+        }
+        let copied =
+            copy(files.iter().map(|file| (&**file, &[][..])), &place.path().join(CASE_FILES)).unwrap();
+        let names = copied.values().map(|path| path.to_string_lossy().to_lowercase());
+        assert_eq!(names.collect::<std::collections::BTreeSet<_>>().len(), 3, "{copied:?}");
+    }
+}

@@ -22,9 +22,9 @@ const IN: &str = "moving-in";
 /// The hidden list of a results folder: its files, so that those of others in the same folders are known.
 pub(crate) const LIST: &str = ".spunlaid-files";
 
-/// Puts new results that are complete into their folder. If it exists, the staging folder lies in it; earlier results go,
-/// and files of others in their folders stay. If this fails, the earlier results are back, or the mark stays, and with it
-/// the staging folder.
+/// Puts new results that are complete into their folder. If it exists, the staging folder lies in it: earlier results
+/// go, and files of others in their folders stay. If this fails, the earlier results are back, or the mark stays, and
+/// with it the staging folder.
 ///
 /// * `entries` – names of results that go; without them all go that the folder's list has
 pub(super) fn publish(staging: &Path, folder: &Path, entries: Option<&[&str]>) -> io::Result<()> {
@@ -297,8 +297,8 @@ mod tests {
         place
     }
 
-    /// From one rename on nothing works any more, as if the process had been killed there. The next process finds one of
-    /// both results, whole, with the file of the user's.
+    /// From one rename on nothing works any more, as if the process had been killed there. The next process finds one
+    /// of both results, whole, with the file of the user's.
     #[test]
     fn a_kill_at_any_rename_loses_neither_results_nor_files_of_others() {
         let mut seen = BTreeSet::new();
@@ -321,7 +321,7 @@ mod tests {
         assert_eq!(seen.len(), 2);
     }
 
-    /// One rename is refused, whichever it is: the results are the old ones or the new ones at once, and nothing is left.
+    /// One rename is refused, whichever it is: the results are the old ones or the new ones at once.
     #[test]
     fn a_refused_rename_brings_the_old_results_back() {
         for number in 0.. {
