@@ -59,7 +59,7 @@ pub use measure::{
 pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
 pub use statistics::{Difference, Estimate, EvenSample, Interval, NORMAL_95, Spectrum, Welch, Window};
-pub use table::{FORMS, FirstCell, Head, Stamp, Table};
+pub use table::{FORMS, FirstCell, Head, Stamp, Table, refuse_twice};
 pub use threads::{Control, OnDrop};
 pub use units::{Dimension, Expression, Powers, UnitAdvice};
 pub use vec3::Vec3;

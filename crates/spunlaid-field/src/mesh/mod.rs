@@ -10,7 +10,7 @@ use super::tree::Tree;
 use super::{Hint, fault, mean, vector};
 use cells::Cells;
 use cut::Cut;
-use plane::{Plane, plane_of};
+use plane::{Plane, plane_of, wedge};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree, RTreeNode};
 use spunlaid_ground::{Fault, FileError, Position, Vec3};
@@ -74,6 +74,9 @@ impl Mesh {
         let mut nodes = node::nodes(points, values)?;
         let (place_of, merged) = merge(&mut nodes)?;
         let mut warnings = Vec::from_iter(merged);
+        if let Some(fault) = wedge(&nodes) {
+            return Err(fault.into());
+        }
         let plane = plane.or_else(|| plane_of(&nodes));
         let mut cut = Cut::default();
         for cell in 0..cells.len() {

@@ -113,6 +113,48 @@ pub(super) fn plane_of(nodes: &[Node]) -> Option<Plane> {
     order.chunks(2).all(alike).then_some(Plane { axis, level })
 }
 
+/// The fault of a mesh that is a slice of a flow around an axis, as OpenFOAM computes it: all its points lie in two
+/// planes that meet in the axis, a few degrees apart.
+pub(super) fn wedge(nodes: &[Node]) -> Option<Fault> {
+    /// The sine of the widest slice, and of the angle between points of one plane.
+    const WIDEST: f64 = 0.35;
+    const SAME: f64 = 1e-4;
+    (0..3).find_map(|axis| {
+        let [one, other] = [(axis + 1) % 3, (axis + 2) % 3];
+        let radius = |node: &Node| node.at[one].hypot(node.at[other]);
+        let largest = nodes.iter().map(radius).fold(0.0, f64::max);
+        let sine = |a: &[f64; 2], b: &[f64; 2]| a[0] * b[1] - a[1] * b[0];
+        let is_same = |a: &[f64; 2], b: &[f64; 2]| sine(a, b).abs() < SAME && a[0] * b[0] + a[1] * b[1] > 0.0;
+        let (mut directions, mut radii) = (Vec::<[f64; 2]>::new(), Vec::<f64>::new());
+        for node in nodes.iter().filter(|node| radius(node) > 1e-3 * largest) {
+            let radius = radius(node);
+            let direction = [node.at[one] / radius, node.at[other] / radius];
+            if !directions.iter().any(|known| is_same(known, &direction)) {
+                directions.push(direction);
+            }
+            if radii.len() < FEWEST && radii.iter().all(|known| (known - radius).abs() > SAME * largest) {
+                radii.push(radius);
+            }
+            if directions.len() > 2 {
+                return None;
+            }
+        }
+        let [first, second] = &directions[..] else { return None };
+        let is_narrow = first[0] * second[0] + first[1] * second[1] > 0.0;
+        let width = if is_narrow { sine(first, second).abs() } else { WIDEST };
+        (radii.len() >= FEWEST && width < WIDEST).then(|| {
+            let letter = ["x", "y", "z"][axis];
+            Fault::new(
+                format!("is a slice of {:.0}° of a flow around {letter}, which is not read", width.to_degrees()),
+                format!(
+                    "turn it around {letter} to the whole circle (ParaView: Rotational Extrusion of one side, or \
+                     Angular Periodic Filter) and write that"
+                ),
+            )
+        })
+    })
+}
+
 /// The different coordinates of points along an axis, up to three of them.
 fn few_levels(nodes: &[Node], axis: usize) -> Vec<f64> {
     let (low, high) = bounding_box(nodes.iter().map(|node| node.at));

@@ -16,6 +16,11 @@ const NEAREST: usize = 8;
 /// Number of neighbours that gradients are fitted to. It is doubled until there are some in all directions.
 const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];
 
+/// Neighbours that are looked for on each side where there are none among the nearest, and the square of the cosine of
+/// the angle within which they lie.
+const EACH_SIDE: usize = 4;
+const SLANT: f64 = 0.5;
+
 #[derive(Debug)]
 pub(super) struct Points {
     sites: Vec<Site>,
@@ -66,11 +71,57 @@ impl Points {
                 fit.add(to, *distance_2, [0, 1, 2, 3, 4].map(|i| other.values[i] - node.values[i]));
                 reach_2 = *distance_2;
             }
-            if fit.is_spread() || wanted == NEIGHBOURS[NEIGHBOURS.len() - 1] {
+            if fit.is_spread() {
+                return Site { node, gradients: fit.gradients(), reach_2 };
+            }
+            if wanted == NEIGHBOURS[NEIGHBOURS.len() - 1] {
+                reach_2 = self.look_farther(&mut fit, node, nodes, reach_2);
                 return Site { node, gradients: fit.gradients(), reach_2 };
             }
         }
         Site { node, gradients: Default::default(), reach_2: 0.0 }
+    }
+
+    /// Adds neighbours in the directions in which there are none among the nearest, as of nodes of a mesh that is
+    /// stretched along the flow: the nearest ones on either side, so that as many count there as elsewhere. Returns the
+    /// square of the distance to the farthest [m²].
+    fn look_farther(&self, fit: &mut GradientFit, node: Node, nodes: &[Node], mut reach_2: f64) -> f64 {
+        let (low, high) = self.bounds;
+        let whole = [0, 1, 2].map(|axis| high[axis] - low[axis]).into_iter().fold(0.0, f64::max);
+        let seen_2 = reach_2;
+        for _ in (0..3).filter(|axis| !self.plane[*axis]) {
+            if fit.is_spread() {
+                break;
+            }
+            let (towards, mut half) = (fit.sparsest(self.plane), 2.0 * reach_2.sqrt());
+            let found = loop {
+                let corner = |sign: f64| [0, 1, 2].map(|axis| node.at[axis] + sign * half);
+                let mut sides: [Vec<(f64, u32)>; 2] = Default::default();
+                self.tree.in_box(corner(-1.0), corner(1.0), &mut |number| {
+                    let to = [0, 1, 2].map(|axis| nodes[number as usize].at[axis] - node.at[axis]);
+                    let distance_2: f64 = to.iter().map(|to| to * to).sum();
+                    let along: f64 = to.iter().zip(towards).map(|(to, towards)| to * towards).sum();
+                    if distance_2 > seen_2 && along * along > SLANT * distance_2 {
+                        sides[usize::from(along > 0.0)].push((distance_2, number));
+                    }
+                });
+                let is_enough = sides.iter().all(|side| side.len() >= EACH_SIDE);
+                if is_enough || half > whole {
+                    break sides;
+                }
+                half *= 2.0;
+            };
+            for mut side in found {
+                side.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+                for (distance_2, neighbour) in side.into_iter().take(EACH_SIDE) {
+                    let other = &nodes[neighbour as usize];
+                    let to = [0, 1, 2].map(|axis| other.at[axis] - node.at[axis]);
+                    fit.add(to, distance_2, [0, 1, 2, 3, 4].map(|i| other.values[i] - node.values[i]));
+                    reach_2 = reach_2.max(distance_2);
+                }
+            }
+        }
+        reach_2
     }
 
     /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z.
@@ -190,6 +241,25 @@ impl GradientFit {
     fn is_spread(&self) -> bool {
         let (normal, _) = self.eliminated();
         (0..3).all(|axis| normal[axis][axis] > SPREAD * self.neighbours)
+    }
+
+    /// The direction in which there are the fewest neighbours.
+    ///
+    /// * `plane` – axes along which nothing changes
+    fn sparsest(&self, plane: [bool; 3]) -> [f64; 3] {
+        /// Steps of the iteration by powers; directions that it does not tell apart lack neighbours alike.
+        const STEPS: usize = 64;
+        let trace: f64 = (0..3).filter(|axis| !plane[*axis]).map(|axis| self.normal[axis][axis]).sum();
+        let mut towards = [0, 1, 2].map(|axis| if plane[axis] { 0.0 } else { 1.0 - 0.1 * axis as f64 });
+        for _ in 0..STEPS {
+            let next = [0, 1, 2].map(|row| {
+                let along: f64 = self.normal[row].iter().zip(towards).map(|(entry, part)| entry * part).sum();
+                if plane[row] { 0.0 } else { trace * towards[row] - along }
+            });
+            let length = next.iter().map(|part| part * part).sum::<f64>().sqrt();
+            towards = if length > 0.0 { next.map(|part| part / length) } else { towards };
+        }
+        towards
     }
 
     /// Change of the values along x, y and z [per m].

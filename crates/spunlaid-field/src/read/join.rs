@@ -152,8 +152,12 @@ impl Collection {
     fn add(&mut self, part: Part) -> Result<(), FileError> {
         let Part { grid, values, blanks } = part;
         let before = self.points.len() as u32;
-        let kept =
-            if grid.is_flat() { Some(blanks.used_points(&grid)?) } else { blanks.kept_points(&grid)? };
+        // Faces beside cells may have points of their own, at the same places, with the values of the wall.
+        let has_flat = matches!(&grid, Grid::Unstructured { parts, .. } if parts.flat > 0);
+        let kept = match grid.is_flat() || has_flat {
+            true => Some(blanks.used_points(&grid)?),
+            false => blanks.kept_points(&grid)?,
+        };
         let kept = kept.as_deref();
         let mut next = before;
         let numbers: Option<Vec<u32>> = kept.map(|kept| {

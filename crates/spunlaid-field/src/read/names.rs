@@ -170,7 +170,16 @@ impl Measure {
     /// Units, written with letters and digits only, and their values in SI units.
     const fn units(self) -> &'static [(&'static str, f64)] {
         match self {
-            Self::Length => &[("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6)],
+            Self::Length => &[
+                ("m", 1.0),
+                ("dm", 0.1),
+                ("cm", 1e-2),
+                ("mm", 1e-3),
+                ("um", 1e-6),
+                ("in", 0.0254),
+                ("inch", 0.0254),
+                ("ft", 0.3048),
+            ],
             Self::Velocity => {
                 &[("ms", 1.0), ("ms1", 1.0), ("cms", 1e-2), ("cms1", 1e-2), ("mms", 1e-3), ("mms1", 1e-3)]
             }
@@ -219,7 +228,7 @@ impl Measure {
 
     pub(super) const fn wanted(self) -> &'static str {
         match self {
-            Self::Length => "m, cm, mm or µm",
+            Self::Length => "m, dm, cm, mm, µm, in or ft",
             Self::Velocity => "m/s, cm/s or mm/s",
             Self::K => "m2/s2, cm2/s2 or mm2/s2",
             Self::Epsilon => "m2/s3, cm2/s3 or mm2/s3",

@@ -1,7 +1,7 @@
 //! Tables of points, one row for each point.
 
 use super::array::{Array, NumberType, Source};
-use super::arrays::Arrays;
+use super::arrays::{Arrays, Velocity};
 use super::assembly::Assembly;
 use super::blanks::Mark;
 use super::grid::Grid;
@@ -12,7 +12,7 @@ use super::times::{self, Times};
 use crate::{Field, FieldLayout};
 use spunlaid_ground::error::listed;
 use spunlaid_ground::units::excerpt;
-use spunlaid_ground::{Fault, FileError, FileKind, Position, Table, Vec3};
+use spunlaid_ground::{Fault, FileError, FileKind, Position, Table, Vec3, refuse_twice};
 
 /// An example of a valid header.
 const EXAMPLE: &str = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s";
@@ -33,6 +33,7 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
     let mut used: Vec<usize> = coordinates.into_iter().flatten().map(|(column, _)| column).collect();
     used.extend(arrays.used()?);
     used.extend((0..arrays.names.len()).filter(|column| Mark::of(&arrays.names[*column]).is_some()));
+    refuse_twice(table.heads(), &used)?;
     let placed = coordinates.iter().flatten().count();
     let mut times = Times::new(&arrays.names);
     let mut columns: Vec<Vec<f64>> = vec![Vec::new(); used.len()];
@@ -49,6 +50,12 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
         times.look(&table, &numbers[..placed])?;
         lines.push(table.line());
         columns.iter_mut().zip(numbers).for_each(|(column, number)| column.push(number));
+    }
+    // A case that names two components means a plane flow.
+    if let (Some(Velocity::Components([Some(_), Some(_), None])), [.., Some(_)], None) =
+        (arrays.velocity()?, coordinates, &layout.velocity)
+    {
+        refuse_missing_component(&columns[..placed], &columns[placed..])?;
     }
     let own_unit = length_unit(bytes)?;
     let unit = own_unit.unwrap_or(1.0);
@@ -69,6 +76,37 @@ pub(super) fn read(bytes: &[u8], layout: &FieldLayout) -> Result<(Field, Vec<Fau
         warnings.push(Fault::plain(message));
     }
     Ok((field, warnings))
+}
+
+/// Refuses a table without the component along z whose air is not that of a plane flow: it differs along z, or no two
+/// points lie above each other, so that nothing shows that it does not.
+fn refuse_missing_component(at: &[Vec<f64>], values: &[Vec<f64>]) -> Result<(), FileError> {
+    /// Values that differ by no more than this share of the largest of their column are equal.
+    const ALIKE: f64 = 1e-5;
+    let [x, y, z] = at else { return Ok(()) };
+    let mut order: Vec<usize> = (0..z.len()).collect();
+    order.sort_unstable_by(|a, b| x[*a].total_cmp(&x[*b]).then(y[*a].total_cmp(&y[*b])));
+    let largest = |column: &Vec<f64>| column.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let apart: Vec<f64> = values.iter().map(|column| ALIKE * largest(column)).collect();
+    let (mut above, mut differs) = (0, false);
+    for pair in order.windows(2) {
+        let [one, other] = [pair[0], pair[1]];
+        if (x[one], y[one]) == (x[other], y[other]) && z[one] != z[other] {
+            above += 1;
+            differs |=
+                values.iter().zip(&apart).any(|(column, apart)| (column[one] - column[other]).abs() > *apart);
+        }
+    }
+    let is_plane = z.iter().all(|other| *other == z[0]);
+    if is_plane || above > 0 && !differs {
+        return Ok(());
+    }
+    let remedy = "write the component along z too, like w_m_s; a plane flow needs no z";
+    Err(Fault::new(
+        "has no velocity along z, and its points lie at different z, where the air differs",
+        remedy,
+    )
+    .into())
 }
 
 /// The number in a column of the row; NaN also for infinity, which no air has.
@@ -94,17 +132,19 @@ fn coordinates(names: &[Name]) -> Result<[Option<ScaledColumn>; 3], FileError> {
     }
 }
 
-/// The value in metres of the unit of length that COMSOL writes above its tables, in a line
-/// `% Length unit: mm`. None if it is not told.
+/// The value in metres of the unit of length that COMSOL writes above its tables, in a line `% Length unit: mm`, or
+/// `% Length unit,mm` where commas separate columns. None if there is no such line.
 fn length_unit(bytes: &[u8]) -> Result<Option<f64>, FileError> {
     let above = bytes.split(|byte| *byte == b'\n').take_while(|line| line.starts_with(b"%")).zip(1..);
     for (line, number) in above {
         let text = String::from_utf8_lossy(line);
-        if let Some((key, unit)) = text.trim_start_matches(['%', ' ']).split_once(':')
+        let is_separator = |c: char| [':', ',', ';', '\t'].contains(&c);
+        if let Some((key, unit)) = text.trim_start_matches(['%', ' ', '"']).split_once(is_separator)
             && key.trim().eq_ignore_ascii_case("length unit")
         {
+            // A program for tables may have put separators at the end of each line.
             return Measure::Length
-                .factor(unit.trim())
+                .factor(unit.trim_matches(|c: char| c.is_whitespace() || c == '"' || is_separator(c)))
                 .map(Some)
                 .map_err(|error| error.at(Position::Line(number)));
         }

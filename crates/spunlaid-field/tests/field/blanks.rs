@@ -163,6 +163,42 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
     }
 }
 
+/// Two cubes and their faces at x = 0, which have points of their own there with the velocity of a wall.
+#[test]
+fn analytic_points_of_faces_that_are_left_out_are_no_air() {
+    let corners = |x: f64| [[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 0.0, 1.0], [x, 1.0, 1.0]];
+    let of_cells: Vec<[f64; 3]> = (0..3).flat_map(|i| corners(f64::from(i))).collect();
+    for (wall, own_points) in [(0.0, true), (-7.0, true), (f64::NAN, true), (0.0, false)] {
+        let mut points = of_cells.clone();
+        let face: Vec<usize> = if own_points { (12..16).collect() } else { (0..4).collect() };
+        points.extend(corners(0.0).into_iter().filter(|_| own_points));
+        let mut text = format!(
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {} double\n",
+            points.len()
+        );
+        points.iter().for_each(|[x, y, z]| text += &format!("{x} {y} {z}\n"));
+        text += "CELLS 3 23\n8 0 4 5 1 2 6 7 3\n8 4 8 9 5 6 10 11 7\n";
+        text += &format!("4 {} {} {} {}\n", face[0], face[1], face[3], face[2]);
+        text += &format!("CELL_TYPES 3\n12\n12\n9\nPOINT_DATA {}\nVECTORS U double\n", points.len());
+        for (i, [x, y, _]) in points.iter().enumerate() {
+            text += &if i < 12 {
+                format!("{} 1 0\n", 20.0 - 2.0 * x + 3.0 * y)
+            } else {
+                format!("{wall} {wall} {wall}\n")
+            };
+        }
+        let (field, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
+        let is_told =
+            |warning: &Fault| warning.to_string().starts_with("1 cell is a point, a line or a face");
+        assert!(warnings.iter().any(is_told), "{warnings:?}");
+        for [x, y, z] in [[0.0, 0.5, 0.5], [0.01, 0.2, 0.9], [1.7, 0.5, 0.1]] {
+            let local = field.sample(Vec3::new(x, y, z), &mut Hint::default());
+            let meant = 20.0 - 2.0 * x + 3.0 * y;
+            assert!(local.inside && (local.velocity.x - meant).abs() < 1e-12, "{wall}: {local:?} {meant}");
+        }
+    }
+}
+
 /// 5 × 3 × 2 points with u = 10 + x, in legacy files of each kind of grid. The last column of cells is
 /// hidden, by its cells or by its points, which hold 999 m/s.
 #[test]

@@ -358,6 +358,20 @@ fn tables_of_many_programs_are_read() {
     let (field, _) =
         read(b"% Length unit: mm\n% x y u (m/s) v (m/s)\n0 0 1 2\n10 0 1 2\n0 10 3 2\n10 10 3 2\n", "a.txt");
     assert_eq!(field.bounds().1, Vec3::new(0.01, 0.01, 0.0));
+    for (line, metres) in [
+        ("% Length unit,mm", 0.01),
+        ("% Length unit,cm,,", 0.1),
+        ("% Length unit,dm", 1.0),
+        ("% Length unit:  in", 0.254),
+    ] {
+        let rows = "x,y,u (m/s),v (m/s)\n0,0,1,2\n10,0,1,2\n0,10,3,2\n10,10,3,2\n";
+        let (field, _) = read(format!("% Model,slot.mph\n{line}\n% {rows}").as_bytes(), "a.csv");
+        assert!(
+            (field.bounds().1 - Vec3::new(metres, metres, 0.0)).x.abs() < 1e-15,
+            "{line}: {:?}",
+            field.bounds()
+        );
+    }
     // A plane flow needs neither z nor w.
     let (field, _) = read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n0,1,3,2\n1,1,3,2\n", "a.csv");
     let local = field.sample(Vec3::new(0.5, 0.5, 9.0), &mut Hint::default());

@@ -30,6 +30,35 @@ fn analytic_linear_fields_are_exact_between_points() {
     }
 }
 
+/// Nodes of a plane mesh that is stretched along the flow: hundreds of them are nearer than the next column.
+#[test]
+fn analytic_linear_fields_are_exact_between_columns_far_apart() {
+    for (columns, rows, growth) in [(12, 400, 2.5_f64), (30, 201, 0.0), (6, 1500, 3.0)] {
+        let points: Vec<[f64; 3]> = (0..columns * rows)
+            .map(|i| {
+                let (x, s) = (
+                    (i / rows) as f64 / (columns - 1) as f64,
+                    2.0 * (i % rows) as f64 / (rows - 1) as f64 - 1.0,
+                );
+                let y = if growth > 0.0 { (growth * s).tanh() / growth.tanh() } else { s };
+                [x, (0.02 + 0.01 * x) * y, 0.0]
+            })
+            .collect();
+        let places: Vec<V> = points.iter().map(|point| at(*point)).collect();
+        let (field, _) = Field::points(&places, &at_points(&points, linear)).unwrap();
+        let mut between = 0;
+        for [x, y, _] in inside(1000) {
+            let point = [x, (0.02 + 0.01 * x) * (1.9 * y - 0.95), 0.0];
+            let local = field.sample(at(point), &mut Hint::default());
+            between += usize::from(local.inside);
+            for (found, wanted) in numbers(local).into_iter().zip(linear(point)) {
+                assert!(!local.inside || (found - wanted).abs() < 1e-8, "{point:?}: {found} {wanted}");
+            }
+        }
+        assert!(between > 950, "{columns} x {rows}: {between}");
+    }
+}
+
 #[test]
 fn analytic_linear_fields_are_exact_between_points_in_columns() {
     // As in a boundary layer: the nearest neighbours of a point all stand in one column, 100 times as close.

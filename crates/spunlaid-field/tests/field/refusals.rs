@@ -251,8 +251,8 @@ fn rejects_tables_with_place_and_way_out() {
             components, or write u, v and w, or name its arrays with air.field_velocity",
         ),
         (
-            "x [inch],y,z,u,v,w\n1,2,3,4,5,6\n",
-            "a.vtu: x [inch]: has the unit \"inch\"; write the values in m, cm, mm or µm",
+            "x [yard],y,z,u,v,w\n1,2,3,4,5,6\n",
+            "a.vtu: x [yard]: has the unit \"yard\"; write the values in m, dm, cm, mm, µm, in or ft",
         ),
         (
             &format!("{head}1,2,3,4,5,6\n1,2,3,4,5\n"),
@@ -267,8 +267,8 @@ fn rejects_tables_with_place_and_way_out() {
             "a.vtu:3: column z: \"x7\" is not a number; write one, or leave the cell empty where a value is missing",
         ),
         (
-            "% Length unit: in\n% x y u v\n1 2 3 4\n",
-            "a.vtu:1: has the unit \"in\"; write the values in m, cm, mm or µm",
+            "% Length unit: yd\n% x y u v\n1 2 3 4\n",
+            "a.vtu:1: has the unit \"yd\"; write the values in m, dm, cm, mm, µm, in or ft",
         ),
         (
             "% x y z u (m/s) @ t=0 v (m/s) @ t=0 w (m/s) @ t=0\n1 2 3 4 5 6\n",
@@ -277,6 +277,62 @@ fn rejects_tables_with_place_and_way_out() {
         (&format!("{head}1,2,3,4,5,6\n"), "a.vtu: has 1 point; at least 9 are needed for interpolation"),
     ] {
         assert_eq!(refused(text.as_bytes()), said);
+    }
+}
+
+/// A grid of 5 × 4 × 3 points as a table, with one more column behind its own.
+fn table(heads: &str, row: impl Fn([f64; 3]) -> String) -> String {
+    let points = (0..60).map(|i| [i % 5, i / 5 % 4, i / 20].map(|i| f64::from(i) / 10.0));
+    format!(
+        "{heads}\n{}",
+        points.map(|at| format!("{},{},{},{}\n", at[0], at[1], at[2], row(at))).collect::<String>()
+    )
+}
+
+#[test]
+fn rejects_columns_that_stand_twice_and_a_missing_component() {
+    for (heads, said) in [
+        ("x,y,z,u,v,w,U", "column u: stands twice, in columns 4 and 7; leave one of them"),
+        ("x,y,z,u,v,w,Z", "column z: stands twice, in columns 3 and 7"),
+    ] {
+        let said_of_it = refused(table(heads, |_| "1,2,3,4".to_owned()).as_bytes());
+        assert!(said_of_it.contains(said), "{said_of_it}");
+    }
+    // A column that nobody reads may stand twice.
+    assert!(Field::parse(table("x,y,z,u,v,w,p,p", |_| "1,2,3,4,5".to_owned()).as_bytes(), "a.csv").is_ok());
+    // Without w: the air of a plane flow, and that of another one.
+    let plane = table("x,y,z,u,v", |[x, y, _]| format!("{},{y}", 20.0 + x));
+    assert!(Field::parse(plane.as_bytes(), "a.csv").is_ok());
+    let along_z = refused(table("x,y,z,u,v", |[x, y, z]| format!("{},{y}", 20.0 + x - z)).as_bytes());
+    assert!(along_z.contains("has no velocity along z, and its points lie at different z"), "{along_z}");
+}
+
+#[test]
+fn rejects_a_slice_of_a_flow_around_an_axis() {
+    // Wedges next to the axis and hexahedra outside, about x, as OpenFOAM writes them.
+    for (degrees, is_wedge) in [(2.5_f64, true), (1.0, true), (44.0, false)] {
+        let half = degrees.to_radians();
+        let points: Vec<[f64; 3]> = (0..3 * 4 * 2)
+            .map(|i| {
+                let (x, r, side) =
+                    (f64::from(i % 3), 0.01 * f64::from(i / 3 % 4 + 1), f64::from(i / 12) * 2.0 - 1.0);
+                [0.1 * x, r * half.cos(), side * r * half.sin()]
+            })
+            .collect();
+        let cells: Vec<[u32; 8]> = (0..2)
+            .flat_map(|x| (0..3).map(move |r| x + 3 * r))
+            .map(|i| [i, i + 1, i + 4, i + 3, i + 12, i + 13, i + 16, i + 15])
+            .collect();
+        let mut text =
+            "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 24 double\n".to_owned();
+        points.iter().for_each(|[x, y, z]| text += &format!("{x} {y} {z}\n"));
+        text += "CELLS 6 54\n";
+        cells.iter().for_each(|cell| text += &format!("8 {}\n", cell.map(|i| i.to_string()).join(" ")));
+        text += &format!("CELL_TYPES 6\n{}POINT_DATA 24\nVECTORS U double\n", "12\n".repeat(6));
+        points.iter().for_each(|_| text += "20 0 0\n");
+        let found = Field::parse(text.as_bytes(), "a.vtk").err().map(|error| error.to_string());
+        let said = found.as_deref().unwrap_or_default();
+        assert_eq!(said.contains("of a flow around x, which is not read"), is_wedge, "{degrees}: {found:?}");
     }
 }
 

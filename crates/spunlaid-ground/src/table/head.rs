@@ -99,6 +99,27 @@ impl Head {
     }
 }
 
+/// Refuses a table of which a column that is read has the name of another column.
+///
+/// * `read` – the columns that are read
+///
+/// # Errors
+/// The first such column, with its places.
+pub fn refuse_twice(heads: &[Head], read: &[usize]) -> Result<(), FileError> {
+    let name = |head: &Head| head.text.to_lowercase();
+    for &column in read {
+        let other = (0..heads.len()).find(|i| *i != column && name(&heads[*i]) == name(&heads[column]));
+        let Some(other) = other.filter(|_| !heads[column].text.is_empty()) else { continue };
+        let (first, second) = (column.min(other) + 1, column.max(other) + 1);
+        let fault = Fault::new(
+            format!("stands twice, in columns {first} and {second}"),
+            "leave one of them, or give them different names",
+        );
+        return Err(FileError::from(fault).column(&heads[column].text));
+    }
+    Ok(())
+}
+
 /// Whether a text is a unit of time, velocity, length or frequency.
 pub(super) fn is_unit(text: &str) -> bool {
     const DIMENSIONS: [Dimension; 4] =

@@ -45,7 +45,7 @@ mod start;
 use crate::error::{Fault, FileError, FileKind, Position, counted};
 use crate::units::excerpt;
 use cells::{Digits, Looks, Parting, number};
-pub use head::{Head, scale};
+pub use head::{Head, refuse_twice, scale};
 pub use stamp::{FORMS, Stamp};
 use start::{Lines, TextLine};
 use std::collections::VecDeque;

@@ -4,7 +4,7 @@ use super::leftovers;
 use super::leftovers::Claim;
 use super::origin::{ORIGIN, Origin};
 use super::pictures::FigureFiles;
-use super::swap::{self, NEW};
+use super::swap::{self, MARKS, NEW};
 use super::table::{Column, TABLES, Table};
 use crate::Failure;
 use crate::failure::{copied_onto_itself, half_replaced, holds_files_of_others, holds_results, not_a_folder};
@@ -42,18 +42,6 @@ pub const ENTRIES: &[&str] = &[
 const COMPLETE: &str = "summary.json";
 /// The folder for files that an input names.
 pub const CASE_FILES: &str = "case_files";
-/// Files that mark the results of any command, and the journal that studies of webs had before they were like
-/// all others.
-pub(crate) const MARKS: &[&str] = &[
-    COMPLETE,
-    "analysis.json",
-    "results.csv",
-    "comparison.json",
-    "fit.json",
-    "trials.csv",
-    "study.toml",
-    "webs.jsonl",
-];
 /// A file that replaces a published one.
 const NEXT: &str = "next";
 /// Files that are needed only while the results are made.
@@ -285,8 +273,9 @@ impl<'a> Staging<'a> {
         // Another run may have written results in the meantime.
         refuse_results(&self.folder, self.entries, self.replace, self.origin.as_ref())?;
         let folder = self.folder.clone();
-        let entries = (!self.replaces_all).then_some(self.entries);
-        let moved = self.move_into_folder().and_then(|()| swap::publish(&self.staging, &folder, entries));
+        let moved = self
+            .move_into_folder()
+            .and_then(|()| swap::publish(&self.staging, &folder, self.entries, self.replaces_all));
         moved.map_err(|error| match swap::is_unfinished(&self.staging) {
             true => half_replaced(&self.staging, error),
             false => Failure::unwritable(&folder)(error),
@@ -383,5 +372,96 @@ pub(crate) fn refuse_others(folder: &Path, results: &[&str], own: &[&str]) -> Re
 fn remove_empty(folders: &[PathBuf]) {
     for folder in folders {
         let _ = fs::remove_dir(folder);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::swap::LIST;
+    use super::swap::refused::refuse;
+    use super::*;
+    use std::collections::BTreeSet;
+
+    const ENTRIES: &[&str] = &["case.toml", "figures", "laid.parquet", "summary.json"];
+    static STOP: AtomicBool = AtomicBool::new(false);
+
+    /// Writes results whose files all have this text.
+    fn write(folder: &Path, text: &str, names: &[&str]) -> Result<(), crate::Failure> {
+        let mut staging = Staging::new(folder, ENTRIES, true, &STOP)?;
+        names.iter().try_for_each(|name| staging.write(name, text))?;
+        staging.publish()
+    }
+
+    const FIRST: &[&str] = &["case.toml", "figures/a.svg", "figures/b.svg", "laid.parquet", "summary.json"];
+    const SECOND: &[&str] = &["case.toml", "figures/a.svg", "figures/c.svg", "summary.json"];
+
+    /// All files below a folder.
+    fn files(folder: &Path) -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+    }
+
+    /// The results of a folder: their text, and whether there are those of only this text.
+    fn found(folder: &Path) -> (String, bool) {
+        let text = fs::read_to_string(folder.join("summary.json")).unwrap();
+        let names = if text == "old" { FIRST } else { SECOND };
+        let all = files(folder);
+        let is_own = |file: &&PathBuf| !file.ends_with(LIST) && !file.ends_with("notes.txt");
+        let all: Vec<_> = all.iter().filter(is_own).collect();
+        let alike = all.iter().all(|file| fs::read_to_string(file).unwrap() == text);
+        let notes = fs::read_to_string(folder.join("figures/notes.txt")).unwrap();
+        (text, alike && all.len() == names.len() && notes == "mine")
+    }
+
+    fn old_results() -> tempfile::TempDir {
+        let place = tempfile::tempdir().unwrap();
+        write(&place.path().join("r"), "old", FIRST).unwrap();
+        fs::write(place.path().join("r/figures/notes.txt"), "mine").unwrap();
+        place
+    }
+
+    /// From one rename on nothing works any more, as if the process had been killed there. The next process finds one
+    /// of both results, whole, with the file of the user's.
+    #[test]
+    fn a_kill_at_any_rename_loses_neither_results_nor_files_of_others() {
+        let mut seen = BTreeSet::new();
+        for first in 0.. {
+            let place = old_results();
+            let folder = place.path().join("r");
+            refuse(first..usize::MAX);
+            let result = write(&folder, "new", SECOND);
+            refuse(0..0);
+            // The next process finishes, or moves back.
+            drop(Staging::new(&folder, ENTRIES, true, &STOP).unwrap());
+            let (text, whole) = found(&folder);
+            assert!(whole, "{first}: {text}");
+            seen.insert(text);
+            if result.is_ok() {
+                assert!(first > 8, "{first}");
+                break;
+            }
+        }
+        assert_eq!(seen.len(), 2);
+    }
+
+    /// One rename is refused, whichever it is: the results are the old ones or the new ones at once.
+    #[test]
+    fn a_refused_rename_brings_the_old_results_back() {
+        for number in 0.. {
+            let place = old_results();
+            let folder = place.path().join("r");
+            refuse(number..number + 1);
+            let result = write(&folder, "new", SECOND);
+            refuse(0..0);
+            let hidden =
+                fs::read_dir(&folder).unwrap().flatten().any(|entry| entry.path().join(NEW).exists());
+            if hidden {
+                drop(Staging::new(&folder, ENTRIES, true, &STOP).unwrap());
+            }
+            assert!(found(&folder).1, "{number}");
+            if result.is_ok() {
+                break;
+            }
+        }
     }
 }

@@ -6,7 +6,6 @@
 //! no mark    all is done, and what is left of the staging folder may be removed
 //! ```
 
-use super::folder::MARKS;
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -22,18 +21,32 @@ const IN: &str = "moving-in";
 /// The hidden list of a results folder: its files, so that those of others in the same folders are known.
 pub(crate) const LIST: &str = ".spunlaid-files";
 
+/// Files that mark the results of any command, and the journal that studies of webs had before they were like
+/// all others.
+pub(crate) const MARKS: &[&str] = &[
+    "summary.json",
+    "analysis.json",
+    "results.csv",
+    "comparison.json",
+    "fit.json",
+    "trials.csv",
+    "study.toml",
+    "webs.jsonl",
+];
+
 /// Puts new results that are complete into their folder. If it exists, the staging folder lies in it: earlier results
 /// go, and files of others in their folders stay. If this fails, the earlier results are back, or the mark stays, and
 /// with it the staging folder.
 ///
-/// * `entries` – names of results that go; without them all go that the folder's list has
-pub(super) fn publish(staging: &Path, folder: &Path, entries: Option<&[&str]>) -> io::Result<()> {
+/// * `entries` – names of results that go
+/// * `all` – whether all others go too that the folder's list has
+pub(super) fn publish(staging: &Path, folder: &Path, entries: &[&str], all: bool) -> io::Result<()> {
     let [new, old] = [NEW, OLD].map(|name| staging.join(name));
     let listed = listed(folder).unwrap_or_default();
     let mut out = names(&new)?;
-    out.extend(entries.into_iter().flatten().map(OsString::from));
+    out.extend(entries.iter().map(OsString::from));
     let top = |file: &PathBuf| file.iter().next().map(OsStr::to_owned);
-    if entries.is_none() {
+    if all {
         out.extend(listed.iter().filter_map(top));
     }
     let stays = |file: &PathBuf| {
@@ -226,119 +239,34 @@ fn move_all(from: &Path, to: &Path, names: &[OsString]) -> io::Result<()> {
     Ok(())
 }
 
-#[cfg(not(test))]
+/// Renames a file or a folder. Tests may have it refused.
 fn rename(from: &Path, to: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    refused::refuse_or_count()?;
     fs::rename(from, to)
 }
 
+/// Which of the next renames of a thread are refused.
 #[cfg(test)]
-use tests::rename;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::files::folder::Staging;
+pub(super) mod refused {
     use std::cell::Cell;
+    use std::io;
     use std::ops::Range;
-    use std::sync::atomic::AtomicBool;
 
     thread_local! {
-        /// Renames that have been asked for, and which of them are refused.
+        /// Renames so far, and those that are refused.
         static RENAMES: Cell<usize> = const { Cell::new(0) };
         static REFUSED: Cell<(usize, usize)> = const { Cell::new((0, 0)) };
     }
 
-    pub(super) fn rename(from: &Path, to: &Path) -> io::Result<()> {
-        let number = RENAMES.get();
-        RENAMES.set(number + 1);
-        let (first, last) = REFUSED.get();
-        if (first..last).contains(&number) {
-            Err(io::ErrorKind::PermissionDenied.into())
-        } else {
-            fs::rename(from, to)
-        }
-    }
-
-    fn refuse(renames: Range<usize>) {
+    pub(crate) fn refuse(renames: Range<usize>) {
         RENAMES.set(0);
         REFUSED.set((renames.start, renames.end));
     }
 
-    const ENTRIES: &[&str] = &["case.toml", "figures", "laid.parquet", "summary.json"];
-    static STOP: AtomicBool = AtomicBool::new(false);
-
-    /// Writes results whose files all have this text.
-    fn write(folder: &Path, text: &str, names: &[&str]) -> Result<(), crate::Failure> {
-        let mut staging = Staging::new(folder, ENTRIES, true, &STOP)?;
-        names.iter().try_for_each(|name| staging.write(name, text))?;
-        staging.publish()
-    }
-
-    const FIRST: &[&str] = &["case.toml", "figures/a.svg", "figures/b.svg", "laid.parquet", "summary.json"];
-    const SECOND: &[&str] = &["case.toml", "figures/a.svg", "figures/c.svg", "summary.json"];
-
-    /// The results of a folder: their text, and whether there are those of only this text.
-    fn found(folder: &Path) -> (String, bool) {
-        let text = fs::read_to_string(folder.join("summary.json")).unwrap();
-        let names = if text == "old" { FIRST } else { SECOND };
-        let mut all = Vec::new();
-        files(folder, Path::new(""), &mut all).unwrap();
-        let is_own = |file: &&PathBuf| !file.starts_with(LIST) && !file.ends_with("notes.txt");
-        let all: Vec<_> = all.iter().filter(is_own).collect();
-        let alike = all.iter().all(|file| fs::read_to_string(folder.join(file)).unwrap() == text);
-        let notes = fs::read_to_string(folder.join("figures/notes.txt")).unwrap();
-        (text, alike && all.len() == names.len() && notes == "mine")
-    }
-
-    fn old_results() -> tempfile::TempDir {
-        let place = tempfile::tempdir().unwrap();
-        write(&place.path().join("r"), "old", FIRST).unwrap();
-        fs::write(place.path().join("r/figures/notes.txt"), "mine").unwrap();
-        place
-    }
-
-    /// From one rename on nothing works any more, as if the process had been killed there. The next process finds one
-    /// of both results, whole, with the file of the user's.
-    #[test]
-    fn a_kill_at_any_rename_loses_neither_results_nor_files_of_others() {
-        let mut seen = BTreeSet::new();
-        for first in 0.. {
-            let place = old_results();
-            let folder = place.path().join("r");
-            refuse(first..usize::MAX);
-            let result = write(&folder, "new", SECOND);
-            refuse(0..0);
-            // The next process finishes, or moves back.
-            drop(Staging::new(&folder, ENTRIES, true, &STOP).unwrap());
-            let (text, whole) = found(&folder);
-            assert!(whole, "{first}: {text}");
-            seen.insert(text);
-            if result.is_ok() {
-                assert!(first > 8, "{first}");
-                break;
-            }
-        }
-        assert_eq!(seen.len(), 2);
-    }
-
-    /// One rename is refused, whichever it is: the results are the old ones or the new ones at once.
-    #[test]
-    fn a_refused_rename_brings_the_old_results_back() {
-        for number in 0.. {
-            let place = old_results();
-            let folder = place.path().join("r");
-            refuse(number..number + 1);
-            let result = write(&folder, "new", SECOND);
-            refuse(0..0);
-            let hidden =
-                names(&folder).unwrap().into_iter().any(|name| name.to_string_lossy().contains("partial"));
-            if hidden {
-                drop(Staging::new(&folder, ENTRIES, true, &STOP).unwrap());
-            }
-            assert!(found(&folder).1, "{number}");
-            if result.is_ok() {
-                break;
-            }
-        }
+    pub(super) fn refuse_or_count() -> io::Result<()> {
+        let number = RENAMES.replace(RENAMES.get() + 1);
+        let (first, last) = REFUSED.get();
+        if (first..last).contains(&number) { Err(io::ErrorKind::PermissionDenied.into()) } else { Ok(()) }
     }
 }

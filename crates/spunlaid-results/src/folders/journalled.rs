@@ -11,11 +11,11 @@
 use super::contents::{Contents, Making};
 use crate::Failure;
 use crate::failure::{not_a_folder, other_version};
-use crate::files::folder::{MARKS, Staging, refuse_others};
+use crate::files::folder::{Staging, refuse_others};
 use crate::files::leftovers;
 use crate::files::origin::{ORIGIN, Origin};
 use crate::files::pictures::FigureFiles;
-use crate::files::swap::{self, LIST};
+use crate::files::swap::{self, LIST, MARKS};
 use spunlaid::experiment::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -172,6 +172,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
         fewer_bits: None,
         weight_of_black: None,
         colour: false,
+        coding: None,
         more: false,
         transparent: 0,
         clipped: 0,

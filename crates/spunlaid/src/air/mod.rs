@@ -30,3 +30,6 @@ pub use spunlaid_field::{
     AirAround, BlockKind, Cells, Description, Field, FieldCells, FieldLayout, Hint, Local, ReadField, Shape,
     Spread, Values,
 };
+
+/// Between these lengths an integral length scale of turbulence usually lies [m].
+pub(crate) const USUAL_LENGTH_SCALE: (f64, f64) = (1e-5, 10.0);

@@ -64,6 +64,7 @@ pub fn scanned(map: &Map) -> MeasuredWeb {
         fewer_bits: None,
         weight_of_black: None,
         colour: false,
+        coding: None,
         more: false,
         transparent: 0,
         clipped: 0,

@@ -219,6 +219,22 @@ fn rejects_numbers_that_stand_for_missing_values() {
     }
 }
 
+/// Few digits, and a clock that is a thousand times too slow, are warned of; as many digits as the rms needs are not.
+#[test]
+fn rounded_velocities_and_lengths_that_no_air_has_are_warned_of() {
+    let fluctuation = rough(5, 1 << 16, 10.0);
+    let warned = |resolution: f64, rate: f64, words: &str| {
+        let all = analysed(&written(&fluctuation, 0.3, resolution), rate).warnings;
+        all.iter().any(|warning| warning.to_string().contains(words))
+    };
+    for (resolution, is_coarse) in [(1.0, true), (0.25, true), (0.05, false), (0.001, false)] {
+        assert_eq!(warned(resolution, 1000.0, "the velocities are rounded to"), is_coarse, "{resolution}");
+    }
+    for (rate, is_odd) in [(1.0, true), (1000.0, false), (5e8, true)] {
+        assert_eq!(warned(0.001, rate, "is outside the usual range, 10 µm to 10 m"), is_odd, "{rate}");
+    }
+}
+
 #[test]
 fn records_of_the_air_are_not_blamed() {
     let mut made = 0;

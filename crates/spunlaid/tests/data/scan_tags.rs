@@ -127,6 +127,27 @@ fn a_picture_is_turned_as_its_orientation_tells() {
 }
 
 #[test]
+fn levels_that_are_coded_for_a_screen_are_warned_of() {
+    let plain = png16(COLUMNS, &of_bits(16));
+    // A profile with a name, without compression of its content.
+    let profile = [b"sRGB\0\0".as_slice(), b"x\x9c\x03\0\0\0\0\x01"].concat();
+    let gamma = |gamma: u32| with_chunk(&plain, b"gAMA", &gamma.to_be_bytes());
+    let with_profile = tiff_of_pages(&[page(COLUMNS, &web(), 8, &[(Tag::Unknown(34675), 1)])]);
+    for (name, file, coding) in [
+        ("none", plain.clone(), None),
+        ("sRGB", with_chunk(&plain, b"sRGB", &[0]), Some("sRGB")),
+        ("gamma 0.45455", gamma(45_455), Some("a gamma")),
+        ("gamma 1", gamma(100_000), None),
+        ("profile", with_chunk(&plain, b"iCCP", &profile), Some("a colour profile")),
+        ("TIFF with a profile", with_profile, Some("a colour profile")),
+    ] {
+        let found = found(&file);
+        assert_eq!(says(&found, "are coded for a screen"), coding.is_some(), "{name}: {:?}", found.notes);
+        assert!(coding.is_none_or(|coding| says(&found, coding)), "{name}: {:?}", found.notes);
+    }
+}
+
+#[test]
 fn exif_data_that_are_broken_do_no_harm() {
     let png = png_of_resolution(17, &[7; 17 * 19], [10_000; 2], png::Unit::Meter);
     let whole = exif(6, true);

@@ -3,7 +3,7 @@
 use super::Layout;
 use crate::ground::error::listed;
 use crate::ground::sort::sort_by_key;
-use crate::ground::table::scale;
+use crate::ground::table::{refuse_twice, scale};
 use crate::ground::units::excerpt;
 use crate::ground::{Dimension, FORMS, Fault, FileError, FirstCell, Head};
 
@@ -78,6 +78,7 @@ pub(super) fn roles(
         .option("--columns")
         .into());
     }
+    refuse_twice(heads, &chosen.iter().copied().chain(time).collect::<Vec<_>>())?;
     for (n, &i) in chosen.iter().enumerate() {
         if chosen[..n].contains(&i) || time == Some(i) {
             return Err(

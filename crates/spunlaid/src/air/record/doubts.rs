@@ -3,6 +3,7 @@
 use super::analysis::BLOCKS;
 use super::artefacts::Artefacts;
 use super::{Analysis, Component, Reading, Record, Trend, hertz, number, time};
+use crate::air::USUAL_LENGTH_SCALE;
 use crate::ground::error::{by_count, counted, listed};
 use crate::ground::{Dimension, Fault, Interval, WAS};
 
@@ -89,6 +90,19 @@ pub(super) fn warnings(
             ..fault
         }));
     }
+    warnings.extend(record.components.iter().zip(&analysis.components).filter_map(|(samples, component)| {
+        coarse(&samples.values, component.rms.value)
+            .map(|fault| Fault { message: format!("{}: {}", component.name, fault.message).into(), ..fault })
+    }));
+    let length = analysis.length_scale.value;
+    if analysis.has_mean() && !(USUAL_LENGTH_SCALE.0..=USUAL_LENGTH_SCALE.1).contains(&length) {
+        let [length, least, most] = [length, USUAL_LENGTH_SCALE.0, USUAL_LENGTH_SCALE.1]
+            .map(|length| Dimension::Length.pretty_to(length, 3));
+        warnings.push(Fault::new(
+            format!("the length scale of {length} is outside the usual range, {least} to {most}"),
+            "is the unit of the times, or of the velocities, right?",
+        ));
+    }
     let intensity = analysis.turbulence_intensity.value;
     // Without a mean neither intensity nor inclination has a meaning.
     if analysis.has_mean() && intensity > 0.3 {
@@ -116,6 +130,22 @@ pub(super) fn warnings(
         )));
     }
     warnings
+}
+
+/// That velocities have few digits: rounding then adds to their variance, and takes from their correlation.
+fn coarse(values: &[f64], rms: f64) -> Option<Fault> {
+    /// Largest step over the rms.
+    const LARGEST_STEP: f64 = 0.5;
+    let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    // Decimal numbers differ by their rounding too.
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 1e-9 * largest);
+    let step = steps.fold(f64::INFINITY, f64::min);
+    let message = format!(
+        "the velocities are rounded to {} m/s, {} of the rms, so the rms is too large and the length scale too small",
+        number(step),
+        number(step / rms)
+    );
+    (step.is_finite() && step > LARGEST_STEP * rms).then(|| Fault::new(message, "record more digits"))
 }
 
 /// What the analysis gives without the samples that are no velocities. None if too many others had to be joined: each

@@ -6,6 +6,7 @@ use crate::fibre::case::keys::Sign::{self, Any, NotNegative, Positive};
 use crate::fibre::{AirTable, ZERO_CELSIUS};
 use crate::ground::Dimension::{Frequency, Length, Ratio, Temperature, Velocity};
 use crate::ground::error::listed;
+use crate::ground::table::scale;
 use crate::ground::units::excerpt;
 use crate::ground::{Dimension, Fault, FileError, FileKind, Head, Problem, Table, Vec3};
 
@@ -107,7 +108,32 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     if energy.iter().all(|e| *e == 0.0) {
         return Err(Fault::new("is zero at every frequency", "at least one value must be positive").into());
     }
+    refuse_mean(&frequency, &energy)?;
     Ok(SpectrumTable { frequency, energy })
+}
+
+/// Refuses a spectrum with the mean of the velocity in its row of 0 Hz, from which windows spread it to the next ones.
+fn refuse_mean(frequency: &[f64], energy: &[f64]) -> Result<(), FileError> {
+    /// The mean is so many times the density behind it, and has this share of all energy, within this part of all
+    /// frequencies: of a table of few rows these may be the turbulence itself.
+    const HIGHER: f64 = 50.0;
+    const MOST: f64 = 0.5;
+    const PART: f64 = 0.1;
+    let ([0.0, ..], Some(behind)) = (frequency, energy.get(3)) else { return Ok(()) };
+    let part = |i: usize| 0.5 * (energy[i] + energy[i + 1]) * (frequency[i + 1] - frequency[i]);
+    let share = (0..3).map(part).sum::<f64>() / (0..energy.len() - 1).map(part).sum::<f64>();
+    let is_narrow = frequency[3] < PART * frequency[frequency.len() - 1];
+    if !is_narrow || energy[0] <= HIGHER * behind || share < MOST {
+        return Ok(());
+    }
+    let fault = Fault::new(
+        format!(
+            "has {:.0} % of its energy at 0 Hz, which is the mean velocity and no turbulence",
+            100.0 * share
+        ),
+        "subtract the mean before the spectrum is made, or leave out the first rows",
+    );
+    Err(fault.into())
 }
 
 /// The columns in SI units; an optional column that is not there is empty. The first column must rise.
@@ -172,10 +198,12 @@ fn rows<const N: usize>(
             values[i].push(value);
         }
     }
-    for (values, _) in
-        values.iter_mut().zip(&columns).filter(|(_, column)| column.is_some_and(|c| c.1.is_decibel))
-    {
-        from_decibels(values);
+    for (values, unit) in values.iter_mut().zip(&columns).filter_map(|(v, column)| Some((v, (*column)?.1))) {
+        if unit.is_decibel {
+            from_decibels(values);
+        } else if unit.is_root {
+            values.iter_mut().for_each(|value| *value *= *value);
+        }
     }
     Ok(values)
 }
@@ -187,10 +215,46 @@ struct ColumnUnit {
     zero: f64,
     /// Whether they are ten times the decadic logarithm of what is meant.
     is_decibel: bool,
+    /// Whether they are the roots of energies, per root of a hertz.
+    is_root: bool,
 }
 
 impl ColumnUnit {
-    const PLAIN: Self = Self { factor: 1.0, zero: 0.0, is_decibel: false };
+    const PLAIN: Self = Self { factor: 1.0, zero: 0.0, is_decibel: false, is_root: false };
+}
+
+/// What the unit of an energy says: m/s/√Hz is that of its root.
+///
+/// # Errors
+/// If it is that of a velocity, which is no density.
+fn is_root(head: &Head, unit: Option<&str>) -> Result<bool, FileError> {
+    let text: String = head.text.to_lowercase().chars().filter(|c| !c.is_whitespace()).collect();
+    let roots = [
+        "√",
+        "sqrt",
+        "rthz",
+        "roothz",
+        "hz^0.5",
+        "hz^-0.5",
+        "hz^(-0.5)",
+        "hz^(1/2)",
+        "hz^-1/2",
+        "hz^(-1/2)",
+        "hz⁻½",
+    ];
+    if roots.iter().any(|root| text.contains(root)) {
+        return Ok(true);
+    }
+    let is_velocity = |unit: &str| scale(unit, Velocity).is_some();
+    if unit.is_some_and(is_velocity) {
+        let message = format!(
+            "has the unit {}, of an amplitude at each frequency",
+            excerpt(unit.unwrap_or_default(), 20)
+        );
+        let fault = Fault::new(message, "write a density, in (m/s)²/Hz, m/s/√Hz or dB");
+        return Err(FileError::from(fault).column(&head.text));
+    }
+    Ok(false)
 }
 
 /// Whether a header says that its column is in decibels: `psd_dB`, `E (dB)`, `PSD [dB re 1 (m/s)²/Hz]`.
@@ -240,7 +304,8 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
     };
     if is_energy || unit.is_none() && rule.dimension == Dimension::Ratio {
         let is_decibel = is_energy && is_decibel(&heads[index]);
-        return Ok(Some((index, ColumnUnit { is_decibel, ..ColumnUnit::PLAIN })));
+        let is_root = is_energy && !is_decibel && is_root(&heads[index], unit)?;
+        return Ok(Some((index, ColumnUnit { is_decibel, is_root, ..ColumnUnit::PLAIN })));
     }
     if rule.dimension == Dimension::Temperature
         && let Some(unit) = unit.map(|unit| unit.trim_matches(['[', ']', '(', ')', ' ']))
@@ -263,6 +328,35 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_of_a_spectrum_are_read_and_the_mean_is_refused() {
+        let energies = [1.0, 0.9, 0.5, 0.2, 0.1, 0.02];
+        let text = |head: &str, of: &dyn Fn(usize) -> f64| {
+            let rows = (0..energies.len()).map(|i| format!("{i},{:.9}\n", of(i)));
+            format!("f_hz,{head}\n{}", rows.collect::<String>())
+        };
+        for head in ["psd [m/s/√Hz]", "PSD (m/s/sqrt(Hz))", "e [mm/s/rtHz]", "psd [m s^-1 Hz^-1/2]"] {
+            let found = spectrum(text(head, &|i| f64::sqrt(energies[i])).as_bytes()).unwrap();
+            for (found, right) in found.energy.iter().zip(energies) {
+                assert!((found - right).abs() < 1e-8, "{head}: {found} {right}");
+            }
+        }
+        let refused = |text: &str| spectrum(text.as_bytes()).unwrap_err().to_string();
+        let amplitude = refused(&text("psd [m/s]", &|i| energies[i]));
+        assert!(amplitude.contains("has the unit m/s, of an amplitude at each frequency"), "{amplitude}");
+        // With the mean in the first row, which a window has spread to the second.
+        let of_turbulence = |i: usize| 1.0 / (1.0 + (0.1 * i as f64).powi(2));
+        let long = |of_mean: [f64; 2]| {
+            let rows =
+                (0..60).map(|i| format!("{i},{}\n", of_turbulence(i) + of_mean.get(i).unwrap_or(&0.0)));
+            format!("f_hz,psd_m2_s\n{}", rows.collect::<String>())
+        };
+        let mean = refused(&long([400.0, 200.0]));
+        assert!(mean.contains("% of its energy at 0 Hz, which is the mean velocity"), "{mean}");
+        assert!(spectrum(long([0.0, 0.0]).as_bytes()).is_ok());
+        assert!(spectrum(text("psd_m2_s", &|i| energies[i]).as_bytes()).is_ok());
+    }
 
     #[test]
     fn analytic_decibels_are_ten_times_the_logarithm() {

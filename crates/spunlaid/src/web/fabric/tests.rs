@@ -169,6 +169,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
         fewer_bits: None,
         weight_of_black: None,
         colour: false,
+        coding: None,
         more: false,
         transparent: 0,
         clipped: 0,

@@ -28,6 +28,15 @@ pub(super) fn notes(
     if picture.colour {
         notes.push(Fault::plain("the picture has colours, and only its luminance is used"));
     }
+    if let Some(coding) = picture.coding.filter(|_| !matches!(settings.light, Light::Weight { .. })) {
+        notes.push(Fault::new(
+            format!(
+                "the file says that its levels are coded for a screen ({coding}), and they are taken as proportional \
+                 to light: if they are coded, every CV is wrong, often by a fifth"
+            ),
+            "scan and save it with linear levels (gamma 1), or without this mark if they are linear",
+        ));
+    }
     if picture.more {
         notes.push(Fault::plain("the file has several pictures, and only the first of the largest is used"));
     }

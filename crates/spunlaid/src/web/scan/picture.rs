@@ -27,6 +27,9 @@ pub struct Picture {
     pub weight_of_black: Option<f64>,
     /// Whether the file has colours, of which only the luminance was kept.
     pub colour: bool,
+    /// By what the file says that its levels are coded for screens, so that they are not proportional to light: sRGB, a
+    /// gamma, or a colour profile. None if it says nothing, or that they are proportional.
+    pub coding: Option<&'static str>,
     /// Whether the file has further pictures, which were not read. A thumbnail is none.
     pub more: bool,
     /// Pixels that are transparent in the file; they have no value.

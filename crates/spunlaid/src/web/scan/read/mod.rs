@@ -34,6 +34,8 @@ struct RawPicture {
     /// Width and height of a pixel, if the file tells them [m].
     pixel: Option<[f64; 2]>,
     colour: bool,
+    /// By what the file says that its levels are coded, if they are not proportional to light.
+    coding: Option<&'static str>,
     more: bool,
     /// Pixels that are transparent, and those of which a channel has the largest level.
     transparent: usize,
@@ -55,6 +57,7 @@ impl RawPicture {
             weight_of_black: None,
             pixel: None,
             colour: false,
+            coding: None,
             more: false,
             transparent: 0,
             clipped: 0,
@@ -100,7 +103,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     };
     let raw = orientation::upright(raw);
     let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, numbered, .. } = raw;
-    let (transparent, clipped) = (raw.transparent, raw.clipped);
+    let (transparent, clipped, coding) = (raw.transparent, raw.clipped, raw.coding);
     if transparent == values.len() {
         let remedy = "save the scan without transparency";
         return Err(Fault::new("has no pixel that is not transparent", remedy).into());
@@ -131,6 +134,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
         fewer_bits,
         weight_of_black,
         colour,
+        coding,
         more,
         transparent,
         clipped,

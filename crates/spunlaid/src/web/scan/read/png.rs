@@ -60,12 +60,26 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         weight_of_black: metadata(WEIGHT_OF_BLACK).filter(|_| channels == 1),
         pixel: pixel.or(per_metre.map(|sides| sides.map(|count| 1.0 / f64::from(count)))),
         colour: channels > 2,
+        coding: coding(info),
         more: info.is_animated(),
         transparent,
         clipped,
         orientation: info.exif_metadata.as_deref().map_or(1, orientation::of_exif),
         ..RawPicture::plain(values, columns, rows)
     })
+}
+
+/// By what the levels are coded for screens.
+fn coding(info: &png::Info<'_>) -> Option<&'static str> {
+    /// A gamma so near to one is none.
+    const NONE: f32 = 0.02;
+    let has_gamma = info.gama_chunk.is_some_and(|gamma| (gamma.into_value() - 1.0).abs() > NONE);
+    match (info.srgb.is_some(), info.icc_profile.is_some(), has_gamma) {
+        (true, ..) => Some("sRGB"),
+        (_, true, _) => Some("a colour profile"),
+        (.., true) => Some("a gamma"),
+        _ => None,
+    }
 }
 
 /// What is wrong with a file, in words. The texts of the decoder name its own types.

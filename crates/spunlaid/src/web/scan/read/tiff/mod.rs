@@ -59,11 +59,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let full_scale = full_scale.map(|full| scale_down(&mut decoder, &mut values, full, is_negative));
     let orientation = small_tag(&mut decoder, Tag::Orientation).unwrap_or(1);
     let (pixel, colour) = (sides(&mut decoder), channels > 2);
+    let has_profile = decoder.find_tag(Tag::Unknown(COLOUR_PROFILE)).ok().flatten().is_some();
     leave_out_missing(&mut decoder, &mut values);
     Ok(RawPicture {
         full_scale,
         pixel,
         colour,
+        coding: has_profile.then_some("a colour profile"),
         more,
         transparent,
         clipped,
@@ -72,6 +74,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     })
 }
 
+/// The tag of a colour profile.
+const COLOUR_PROFILE: u16 = 34675;
 /// How a file says that zero is white. The decoder then subtracts the levels from the largest that their bits can hold.
 const WHITE_IS_ZERO: u16 = 0;
 /// How a file says that its pixels are places in a palette.

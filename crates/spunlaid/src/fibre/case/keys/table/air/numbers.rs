@@ -1,5 +1,6 @@
 //! The numbers of the air: strength and size of its turbulence, density and viscosity.
 
+use crate::air::USUAL_LENGTH_SCALE;
 use crate::air::motion::{density_at, kinematic_viscosity_at};
 use crate::air::{Air, RecordNumbers, SUTHERLAND_RANGE, SpectrumShape};
 use crate::fibre::case::keys::row::{Access, number, of_any_size, quantity, take};
@@ -68,7 +69,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         .label("Turbulence intensity *Tu*")
         .slider(0.0, 0.5)
         .in_flight(),
-    quantity("air.length_scale", Dimension::Length, Positive, (1e-5, 10.0))
+    quantity("air.length_scale", Dimension::Length, Positive, USUAL_LENGTH_SCALE)
         .access(of_air!(length_scale))
         .derived(|case| case.air.from_flow.length_scale)
         .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
