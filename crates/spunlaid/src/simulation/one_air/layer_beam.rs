@@ -52,7 +52,7 @@ pub(super) struct FilledLayer<'a> {
 
 /// The library of a flight, from which sheets around a belt are made.
 struct Pieces<'a> {
-    library: &'a Library,
+    flown: &'a Library,
     /// Width after which the sheet repeats itself [m].
     around: f64,
 }
@@ -181,7 +181,7 @@ impl LayerBeam<'_> {
         let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
         if filaments.are_at_random() || !defects.is_empty() {
-            few.by_places = self.changes_by_places(layer, &Pieces { library: &library, around }, few, by)?;
+            few.by_places = self.changes_by_places(layer, &Pieces { flown: &library, around }, few, by)?;
         }
         Ok(kept)
     }
@@ -205,7 +205,7 @@ impl LayerBeam<'_> {
         let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
         let squares = |places: Vec<Inlet>, titres: Titres| {
             let tiles =
-                pieces.library.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
+                pieces.flown.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
             let belt = Belt::within(&tiles, &sheet, window)?;
             let (laid, _) = lay_with(&tiles, belt, self.beam().element_mass(), titres, by)?;
             let map = laid.map.between(layer.inner.clone());
