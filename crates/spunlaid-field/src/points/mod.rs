@@ -247,7 +247,7 @@ impl GradientFit {
     ///
     /// * `plane` – axes along which nothing changes
     fn sparsest(&self, plane: [bool; 3]) -> [f64; 3] {
-        /// Steps of the iteration by powers; directions that it does not tell apart lack neighbours alike.
+        /// Steps of the iteration by powers; directions that it does not distinguish lack neighbours alike.
         const STEPS: usize = 64;
         let trace: f64 = (0..3).filter(|axis| !plane[*axis]).map(|axis| self.normal[axis][axis]).sum();
         let mut towards = [0, 1, 2].map(|axis| if plane[axis] { 0.0 } else { 1.0 - 0.1 * axis as f64 });

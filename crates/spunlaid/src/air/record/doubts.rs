@@ -1,7 +1,7 @@
 //! What makes a record or its results doubtful.
 
 use super::analysis::BLOCKS;
-use super::artefacts::Artefacts;
+use super::artefacts::{Artefacts, smallest_step};
 use super::{Analysis, Component, Reading, Record, Trend, hertz, number, time};
 use crate::air::USUAL_LENGTH_SCALE;
 use crate::ground::error::{by_count, counted, listed};
@@ -83,17 +83,14 @@ pub(super) fn warnings(
             format!("measure for {} or longer", time(BLOCKS.0 as f64 * longest)),
         ));
     }
-    for component in &analysis.components {
-        let faults = [level(component), spectrum(component, analysis.interval)];
+    for (component, samples) in analysis.components.iter().zip(&record.components) {
+        let coarse = Vec::from_iter(coarse(&samples.values, component.rms.value));
+        let faults = [level(component), spectrum(component, analysis.interval), coarse];
         warnings.extend(faults.into_iter().flatten().map(|fault| Fault {
             message: format!("{}: {}", component.name, fault.message).into(),
             ..fault
         }));
     }
-    warnings.extend(record.components.iter().zip(&analysis.components).filter_map(|(samples, component)| {
-        coarse(&samples.values, component.rms.value)
-            .map(|fault| Fault { message: format!("{}: {}", component.name, fault.message).into(), ..fault })
-    }));
     let length = analysis.length_scale.value;
     if analysis.has_mean() && !(USUAL_LENGTH_SCALE.0..=USUAL_LENGTH_SCALE.1).contains(&length) {
         let [length, least, most] = [length, USUAL_LENGTH_SCALE.0, USUAL_LENGTH_SCALE.1]
@@ -138,8 +135,7 @@ fn coarse(values: &[f64], rms: f64) -> Option<Fault> {
     const LARGEST_STEP: f64 = 0.5;
     let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     // Decimal numbers differ by their rounding too.
-    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 1e-9 * largest);
-    let step = steps.fold(f64::INFINITY, f64::min);
+    let step = smallest_step(values, 1e-9 * largest);
     let message = format!(
         "the velocities are rounded to {} m/s, {} of the rms, so the rms is too large and the length scale too small",
         number(step),

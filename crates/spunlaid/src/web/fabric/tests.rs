@@ -122,14 +122,14 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
         density: 910.0,
         basis_weight: share * map.basis_weight(),
     });
-    let told = Unevenness { patch: 10e-3, cv: 0.2, standard_error: Some(0.013) };
+    let known = Unevenness { patch: 10e-3, cv: 0.2, standard_error: Some(0.013) };
     let laid = Laid {
         map: &map,
         margins: [30e-3; 2],
         reach: Some([0.0, 0.2]),
         filaments: kinds.to_vec(),
         orientation: None,
-        patches: vec![LaidPatch { patch: told.patch, reported: Some(told), off: Some(0.0) }],
+        patches: vec![LaidPatch { patch: known.patch, reported: Some(known), off: Some(0.0) }],
         streaks: true,
         error_of_weight: 0.0,
         defects: Vec::new(),
@@ -138,7 +138,7 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
     // τ x CV² = 0.9464 of each kind, with its share of the mass squared.
     let kind = |of: &Filaments, share: f64| {
         let length = share * weight / (0.25 * PI * of.diameter * of.diameter * of.density);
-        share * share * 0.946_41 / (length * told.patch)
+        share * share * 0.946_41 / (length * known.patch)
     };
     let at_random = kind(&kinds[0], 0.6) + kind(&kinds[1], 0.4);
     for saleable_width in [None, Some(50e-3)] {
@@ -146,8 +146,8 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
         let with_number = fabric.patches.iter().find(|patch| patch.formation.is_some()).unwrap();
         assert_eq!(fabric.patches.iter().filter(|patch| patch.formation.is_some()).count(), 1);
         let Some(Known::Value(number, Some(error))) = with_number.formation else { panic!("no error") };
-        assert!((with_number.thin.patch - told.patch).abs() < 1e-9);
-        assert!((number * at_random / (told.cv * told.cv) - 1.0).abs() < 1e-5, "{number}");
+        assert!((with_number.thin.patch - known.patch).abs() < 1e-9);
+        assert!((number * at_random / (known.cv * known.cv) - 1.0).abs() < 1e-5, "{number}");
         assert!((error / number / (2.0 * 0.013 / 0.2) - 1.0).abs() < 1e-12, "{error}");
     }
 }

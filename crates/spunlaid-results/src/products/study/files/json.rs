@@ -50,12 +50,12 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Json {
     let inputs = study.inputs().zip(inputs_of(study, index));
     let inputs: Json = inputs.map(|(input, value)| (input.column(), plain(value))).collect();
     let result = |i: usize| {
-        let mut told = json!({"mean": measured.mean(i), "standard_error": measured.standard_error(i)});
+        let mut numbers = json!({"mean": measured.mean(i), "standard_error": measured.standard_error(i)});
         // By all causes, if there are others than the scatter of the replicates.
         if let Some(error) = measured.whole_error(&study.quantities, i) {
-            told["whole_error"] = error.into();
+            numbers["whole_error"] = error.into();
         }
-        (study.quantities[i].column.clone(), told)
+        (study.quantities[i].column.clone(), numbers)
     };
     let results = (0..study.quantities.len()).filter(|&i| measured.mean(i).is_finite()).map(result);
     json!({

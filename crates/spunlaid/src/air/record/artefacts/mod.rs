@@ -165,15 +165,19 @@ impl Robust {
         let deviation = (quantile(&distances, 0.5) / HALF).max(quantile(&distances, 0.8) / FOUR_FIFTHS);
         // Decimal numbers differ by their rounding too.
         let least = 1e-9 * deviation.max(median.abs());
-        let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > least);
-        let resolution = steps.fold(f64::INFINITY, f64::min);
-        (deviation > least).then_some(Self { median, deviation, resolution })
+        (deviation > least).then(|| Self { median, deviation, resolution: smallest_step(values, least) })
     }
 
     /// Standard deviations from the median.
     fn distance(&self, value: f64) -> f64 {
         (value - self.median).abs() / self.deviation
     }
+}
+
+/// The smallest step between neighbouring samples that differ by more than rounding; infinite if none do.
+pub(super) fn smallest_step(values: &[f64], rounding: f64) -> f64 {
+    let steps = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    steps.filter(|step| *step > rounding).fold(f64::INFINITY, f64::min)
 }
 
 /// Samples at even distances, few enough to be ranked.
