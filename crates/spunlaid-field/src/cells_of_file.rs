@@ -55,7 +55,7 @@ impl Field {
         let blocks = match &self.support {
             Support::Lattice(lattice) => lattice.blocks()?,
             Support::Mesh(mesh) => mesh.blocks(),
-            Support::Points(_) => return None,
+            Support::Joined(_) | Support::Points(_) => return None,
         };
         Some(FieldCells { field: self, blocks })
     }
@@ -76,7 +76,7 @@ impl FieldCells<'_> {
                 let body = mesh.locate(mesh.in_plane(at), hint)?.0;
                 Some(self.blocks.ends.partition_point(|end| *end <= body))
             }
-            Support::Points(_) => None,
+            Support::Joined(_) | Support::Points(_) => None,
         }
     }
 

@@ -56,8 +56,8 @@
 //!
 //! The air at any place, [`Local`]: velocity, `k`, `ε` and whether the place lies in the field. On a
 //! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
-//! Among [points](Field::points) it is a weighted mean of the nearest eight. A flow that is linear in space is
-//! reproduced exactly. Outside the field it is the air at the edge. Warnings say what was left out or corrected.
+//! Among [points](Field::points) of a plane flow it is linear in triangles, and in space a weighted mean of the nearest
+//! eight. A flow that is linear in space is reproduced exactly. Outside the field it is the air at the edge. Warnings say what was left out or corrected.
 //!
 //! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
 //! taken only for the bytes that are there, never for what a header promises.
@@ -128,6 +128,8 @@ pub struct Field {
 enum Support {
     Lattice(Lattice),
     Mesh(Mesh),
+    /// Points of a plane flow, with the triangles between them.
+    Joined(Mesh),
     Points(Points),
 }
 
@@ -135,7 +137,7 @@ impl Support {
     fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         match self {
             Self::Lattice(lattice) => lattice.bounds(),
-            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Mesh(mesh) | Self::Joined(mesh) => mesh.bounds(),
             Self::Points(points) => points.bounds(),
         }
     }
@@ -153,7 +155,7 @@ impl Support {
     fn sample(&self, at: [f64; 3], hint: &mut Hint) -> (Quantities, bool) {
         match self {
             Self::Lattice(lattice) => lattice.sample(at),
-            Self::Mesh(mesh) => mesh.sample(at, hint),
+            Self::Mesh(mesh) | Self::Joined(mesh) => mesh.sample(at, hint),
             Self::Points(points) => points.sample(at),
         }
     }
@@ -162,7 +164,7 @@ impl Support {
     fn points_in_box(&self, low: [f64; 3], high: [f64; 3], with: impl FnMut([f64; 3], &Quantities)) {
         match self {
             Self::Lattice(lattice) => lattice.points_in_box(low, high, with),
-            Self::Mesh(mesh) => mesh.points_in_box(low, high, with),
+            Self::Mesh(mesh) | Self::Joined(mesh) => mesh.points_in_box(low, high, with),
             Self::Points(points) => points.points_in_box(low, high, with),
         }
     }
@@ -254,11 +256,12 @@ impl Field {
 
     /// A field of points without cells, in any order.
     ///
-    /// Points that form a lattice make a [`Field::lattice`]. Otherwise the value is a weighted mean of what the
-    /// nearest eight points extrapolate along their gradients, which are fitted to their neighbours. The field
-    /// has the values of the nearest point outside the box around all points, and where that point is farther
-    /// away than its own neighbours are. If all points have the same coordinate along an axis, the field does not
-    /// change along it. Points at the same place count as one point with the mean of their values.
+    /// Points that form a lattice make a [`Field::lattice`]. If all points have the same coordinate along an axis,
+    /// the field does not change along it, and its values are linear in the triangles of Delaunay between the points.
+    /// Otherwise the value is a weighted mean of what the nearest eight points extrapolate along their gradients,
+    /// which are fitted to their neighbours. The field has the values of the nearest point outside of all points, and
+    /// where that point is farther away than its own neighbours are. Points at the same place count as one point with
+    /// the mean of their values.
     ///
     /// * `points` – [m]
     /// * `values` – at the points
@@ -269,7 +272,10 @@ impl Field {
         let (nodes, warnings) = node::distinct(points, values)?;
         let support = match Lattice::from_points(&nodes) {
             Some(lattice) => Support::Lattice(lattice),
-            None => Support::Points(Points::new(nodes)?),
+            None => {
+                let points = Points::new(nodes)?;
+                points.joined().map_or_else(|| Support::Points(points), Support::Joined)
+            }
         };
         Ok((Self::new(support, values), warnings))
     }
@@ -330,7 +336,7 @@ impl Field {
     pub fn memory(&self) -> usize {
         let support = match &self.support {
             Support::Lattice(lattice) => lattice.memory(),
-            Support::Mesh(mesh) => mesh.memory(),
+            Support::Mesh(mesh) | Support::Joined(mesh) => mesh.memory(),
             Support::Points(points) => points.memory(),
         };
         support + self.bricks.memory() + self.holes.as_ref().map_or(0, Holes::memory)
@@ -341,7 +347,7 @@ impl Field {
         // Measured: points, cells and values are there as they were read, sorted, and as they are kept.
         match &self.support {
             Support::Lattice(lattice) => 2 * lattice.memory(),
-            Support::Mesh(mesh) => 3 * mesh.memory(),
+            Support::Mesh(mesh) | Support::Joined(mesh) => 3 * mesh.memory(),
             Support::Points(points) => 2 * points.memory(),
         }
     }
@@ -383,7 +389,7 @@ impl Field {
     pub fn plane_axis(&self) -> Option<usize> {
         match &self.support {
             Support::Lattice(lattice) => lattice.plane_axis(),
-            Support::Mesh(mesh) => mesh.plane_axis(),
+            Support::Mesh(mesh) | Support::Joined(mesh) => mesh.plane_axis(),
             Support::Points(points) => points.plane_axis(),
         }
     }
@@ -393,6 +399,7 @@ impl Field {
         match &self.support {
             Support::Lattice(lattice) => Description::Lattice { points: lattice.points() },
             Support::Mesh(mesh) => Description::Mesh { points: mesh.points(), cells: mesh.cells() },
+            Support::Joined(mesh) => Description::Points { points: mesh.points() },
             Support::Points(points) => Description::Points { points: points.points() },
         }
     }
