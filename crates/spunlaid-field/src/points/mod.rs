@@ -21,9 +21,10 @@ const NEAREST: usize = 8;
 const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];
 
 /// Neighbours that are looked for on each side where there are none among the nearest, and the square of the cosine of
-/// the angle within which they lie.
+/// the angle within which they lie. They are looked for in a beam, so many times as long as it is thick.
 const EACH_SIDE: usize = 4;
 const SLANT: f64 = 0.5;
+const SLENDER: f64 = 64.0;
 
 #[derive(Debug)]
 pub(super) struct Points {
@@ -90,32 +91,12 @@ impl Points {
     /// stretched along the flow: the nearest ones on either side, so that as many count there as elsewhere. Returns the
     /// square of the distance to the farthest [m²].
     fn look_farther(&self, fit: &mut GradientFit, node: Node, nodes: &[Node], mut reach_2: f64) -> f64 {
-        let (low, high) = self.bounds;
-        let whole = [0, 1, 2].map(|axis| high[axis] - low[axis]).into_iter().fold(0.0, f64::max);
         let seen_2 = reach_2;
         for _ in (0..3).filter(|axis| !self.plane[*axis]) {
             if fit.is_spread() {
                 break;
             }
-            let (towards, mut half) = (fit.sparsest(self.plane), 2.0 * reach_2.sqrt());
-            let found = loop {
-                let corner = |sign: f64| [0, 1, 2].map(|axis| node.at[axis] + sign * half);
-                let mut sides: [Vec<(f64, u32)>; 2] = Default::default();
-                self.tree.in_box(corner(-1.0), corner(1.0), &mut |number| {
-                    let to = [0, 1, 2].map(|axis| nodes[number as usize].at[axis] - node.at[axis]);
-                    let distance_2: f64 = to.iter().map(|to| to * to).sum();
-                    let along: f64 = to.iter().zip(towards).map(|(to, towards)| to * towards).sum();
-                    if distance_2 > seen_2 && along * along > SLANT * distance_2 {
-                        sides[usize::from(along > 0.0)].push((distance_2, number));
-                    }
-                });
-                let is_enough = sides.iter().all(|side| side.len() >= EACH_SIDE);
-                if is_enough || half > whole {
-                    break sides;
-                }
-                half *= 2.0;
-            };
-            for mut side in found {
+            for mut side in self.on_both_sides(node.at, nodes, fit.sparsest(self.plane), seen_2) {
                 side.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
                 for (distance_2, neighbour) in side.into_iter().take(EACH_SIDE) {
                     let other = &nodes[neighbour as usize];
@@ -126,6 +107,46 @@ impl Points {
             }
         }
         reach_2
+    }
+
+    /// Points in a beam through a place, at least [`EACH_SIDE`] before it and behind it unless the field ends there:
+    /// the squares of their distances [m²] and their numbers.
+    ///
+    /// * `towards` – the direction of the beam
+    /// * `seen_2` – square of the distance from which on points count [m²]
+    fn on_both_sides(
+        &self,
+        at: [f64; 3],
+        nodes: &[Node],
+        towards: [f64; 3],
+        seen_2: f64,
+    ) -> [Vec<(f64, u32)>; 2] {
+        let (low, high) = self.bounds;
+        let main = (0..3).fold(0, |main, i| if towards[i].abs() > towards[main].abs() { i } else { main });
+        let whole: f64 = (0..3).map(|axis| high[axis] - low[axis]).sum();
+        let mut half = 2.0 * seen_2.sqrt();
+        loop {
+            let reach = towards.map(|part| half * (part.abs() + 1.0 / SLENDER));
+            let corner = |sign: f64| [0, 1, 2].map(|axis| at[axis] + sign * reach[axis]);
+            let mut sides: [Vec<(f64, u32)>; 2] = Default::default();
+            self.tree.in_box(corner(-1.0), corner(1.0), &mut |number| {
+                let to = [0, 1, 2].map(|axis| nodes[number as usize].at[axis] - at[axis]);
+                let distance_2: f64 = to.iter().map(|to| to * to).sum();
+                let along: f64 = to.iter().zip(towards).map(|(to, towards)| to * towards).sum();
+                if distance_2 > seen_2 && along * along > SLANT * distance_2 {
+                    sides[usize::from(along > 0.0)].push((distance_2, number));
+                }
+            });
+            let is_beyond = |sign: f64| {
+                let end = at[main] + sign * half * towards[main];
+                end < low[main] || end > high[main] || half > whole
+            };
+            let is_enough = |(side, sign): (&Vec<_>, f64)| side.len() >= EACH_SIDE || is_beyond(sign);
+            if sides.iter().zip([-1.0, 1.0]).all(is_enough) {
+                return sides;
+            }
+            half *= 2.0;
+        }
     }
 
     /// The direction along which the air is the same in a plane flow: 0, 1, 2 for x, y, z.

@@ -33,15 +33,18 @@ impl Points {
         Some(Mesh::of_faces(&places, &faces, &values).ok()?.0)
     }
 
-    /// Whether a triangle has an area, and none of its sides spans a gap between the points.
+    /// Whether a triangle has an area, and its longest side does not span a gap between the points.
     fn is_air(&self, corners: [usize; 3]) -> bool {
         let [a, b, c] = corners.map(|corner| vector(self.sites[corner].node.at));
-        let longest_2 = [b - a, c - b, a - c].into_iter().map(|side| side.dot(side)).fold(0.0, f64::max);
-        let has_area = (b - a).cross(c - a).norm() > FLAT * longest_2;
-        let is_inside = |one, other| {
-            let middle: Vec3<f64> = (one + other) * 0.5;
-            self.sample([middle.x, middle.y, middle.z]).1
-        };
-        has_area && is_inside(a, b) && is_inside(b, c) && is_inside(c, a)
+        let length_2 = |[one, other]: [Vec3<f64>; 2]| (other - one).dot(other - one);
+        let longest = [[b, c], [c, a]]
+            .into_iter()
+            .fold([a, b], |longest, side| if length_2(side) > length_2(longest) { side } else { longest });
+        let middle = (longest[0] + longest[1]) * 0.5;
+        let mut nearest = [(0.0, 0)];
+        self.tree.nearest([middle.x, middle.y, middle.z], &mut nearest);
+        let [(distance_2, site)] = nearest;
+        (b - a).cross(c - a).norm() > FLAT * length_2(longest)
+            && distance_2 <= self.sites[site as usize].reach_2
     }
 }
