@@ -175,3 +175,119 @@ fn a_map_is_not_blurred_by_a_camera() {
     }
     assert!(!of_weights.notes.iter().any(|note| note.message.contains("blur")), "{:?}", of_weights.notes);
 }
+
+/// Light through a web of the density one, or thrown back by it, in levels of 16 bits, with an even lid around it.
+struct Lid {
+    light: Light,
+    level: f64,
+    noise: f64,
+    /// Columns and rows of the lid on each side.
+    wide: [usize; 2],
+    /// By how many columns the web is turned from its first to its last row.
+    skew: f64,
+}
+
+impl Lid {
+    fn is_beside(&self, x: usize, y: usize) -> bool {
+        let [across, along] = self.wide;
+        let shift = self.skew * y as f64 / ROWS as f64;
+        let x = x as f64 - shift;
+        x < across as f64 || x >= (COLUMNS - across) as f64 || y < along || y >= ROWS - along
+    }
+
+    fn levels(&self) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut normal =
+            || (0..12).map(|_| (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64).sum::<f64>() - 6.0;
+        let level = |x: usize, y: usize, weight: f64| {
+            let web = match self.light {
+                Light::Transmitted { .. } => 50e3 * (-50.0 * weight).exp(),
+                _ => 60e3 * weight / (0.02 + weight),
+            };
+            let noise = self.noise * normal();
+            if self.is_beside(x, y) { (self.level + noise).max(0.0) } else { web }
+        };
+        let mut level = level;
+        let web = waves(COLUMNS, ROWS, 4);
+        (0..web.len()).map(|at| level(at % COLUMNS, at / COLUMNS, 20e-3 * web[at]).round()).collect()
+    }
+}
+
+/// A lid of any level, with or without noise, on all sides or above and below, turned or not: it is cut off, and what is
+/// left is what the same rectangle alone gives with the level of the lamp that is known by construction.
+#[test]
+fn analytic_a_lid_of_one_level_around_the_web_is_cut_off() {
+    let through = Light::Transmitted { mean: None, white: None };
+    let back = Light::Reflected { mean: None, white: Some(60e3) };
+    let lids = [
+        ("bare lamp", Lid { light: through, level: 50e3, noise: 150.0, wide: [16, 20], skew: 0.0 }),
+        ("bare lamp, turned", Lid { light: through, level: 50e3, noise: 150.0, wide: [12, 12], skew: 6.0 }),
+        ("without noise", Lid { light: through, level: 50e3, noise: 0.0, wide: [16, 20], skew: 0.0 }),
+        ("black lid", Lid { light: through, level: 900.0, noise: 90.0, wide: [16, 20], skew: 0.0 }),
+        ("white lid", Lid { light: back, level: 58e3, noise: 200.0, wide: [16, 20], skew: 0.0 }),
+        ("white lid, turned", Lid { light: back, level: 58e3, noise: 200.0, wide: [12, 12], skew: -5.0 }),
+        ("above and below", Lid { light: back, level: 58e3, noise: 200.0, wide: [0, 20], skew: 0.0 }),
+        ("black ground", Lid { light: back, level: 700.0, noise: 200.0, wide: [16, 20], skew: 0.0 }),
+    ];
+    for (name, lid) in lids {
+        let levels = lid.levels();
+        let read = |columns: usize, levels: &[f64]| parse(&npy_f64(columns, levels), "a", PIXEL).unwrap();
+        let is_lamp = lid.light == through && lid.level > 20e3;
+        // A black lid does not show the level of the lamp.
+        let light = if is_lamp { through } else { known(lid.light) };
+        let settings = Settings { patches: vec![1e-3], ..Settings::new(light) };
+        let found =
+            analyse(&read(COLUMNS, &levels), &settings).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let ([left, top], [columns, rows]) = (found.aside.corner, [found.map.columns, found.map.rows]);
+        assert!((top..top + rows).all(|y| (left..left + columns).all(|x| !lid.is_beside(x, y))), "{name}");
+        let kept = (columns * rows) as f64
+            / (0..levels.len()).filter(|at| !lid.is_beside(at % COLUMNS, at / COLUMNS)).count() as f64;
+        assert!(kept > 0.8, "{name}: {kept} of the web is left");
+        let part: Vec<f64> =
+            (top..top + rows).flat_map(|y| levels[y * COLUMNS + left..][..columns].to_vec()).collect();
+        let is_even = lid.level > 20e3 && lid.wide[0] > 0;
+        let alone =
+            Settings { keep_shading: is_even, patches: vec![1e-3], ..Settings::new(known(lid.light)) };
+        let alone = analyse(&read(columns, &part), &alone).unwrap();
+        let [cv, wanted] = [&found, &alone].map(|found| found.patches[0].unevenness.cv);
+        assert!((cv / wanted - 1.0).abs() < 0.01, "{name}: {cv} for {wanted}");
+        assert_eq!(found.guess, alone.guess, "{name}");
+    }
+}
+
+/// The same light with the level of the lamp that the scans here have.
+fn known(light: Light) -> Light {
+    match light {
+        Light::Transmitted { mean, .. } => Light::Transmitted { mean, white: Some(50e3) },
+        other => other,
+    }
+}
+
+/// A scan that was broken off: what is missing is of one grey, or repeats the last line, at the bottom or at a side.
+#[test]
+fn analytic_the_rest_of_a_scan_that_was_not_finished_is_cut_off() {
+    let scanned = 130;
+    let web = map(|_, _, weight| (50e3 * (-50.0 * weight).exp()).round());
+    let light = Light::Transmitted { mean: None, white: Some(50e3) };
+    let settings = Settings { patches: vec![1e-3], keep_shading: true, ..Settings::new(light) };
+    let numbers_of = |columns: usize, levels: &[f64]| {
+        let found = analyse(&parse(&npy_f64(columns, levels), "a", PIXEL).unwrap(), &settings).unwrap();
+        (found.patches[0].unevenness.cv, found)
+    };
+    let grey = |at: usize| if at / COLUMNS < scanned { web[at] } else { 32_768.0 };
+    let last_line = |at: usize| web[(at / COLUMNS).min(scanned - 1) * COLUMNS + at % COLUMNS];
+    let last_column = |at: usize| web[at / COLUMNS * COLUMNS + (at % COLUMNS).min(scanned - 1)];
+    let cases: [(&str, &dyn Fn(usize) -> f64, bool); 3] =
+        [("grey", &grey, true), ("last line", &last_line, true), ("last column", &last_column, false)];
+    for (name, level, is_row) in cases {
+        let (cv, found) = numbers_of(COLUMNS, &(0..web.len()).map(level).collect::<Vec<_>>());
+        let (columns, rows) = if is_row { (COLUMNS, scanned) } else { (scanned, ROWS) };
+        let lost = columns * rows - found.map.columns * found.map.rows;
+        let of_line = if is_row { columns } else { rows };
+        assert!(lost == 0 || lost == of_line, "{name}: {lost} pixels are lost");
+        let [columns, rows] = [found.map.columns, found.map.rows];
+        let part: Vec<f64> = (0..columns * rows).map(|i| web[i / columns * COLUMNS + i % columns]).collect();
+        assert_eq!(cv, numbers_of(columns, &part).0, "{name}");
+        assert!(found.notes.iter().any(|note| note.message.contains("not finished")), "{name}");
+    }
+}

@@ -37,28 +37,30 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     above_zero("a titre [kg/m]", settings.titre)?;
     let lamp = settings.lamp.as_ref();
     same_size(picture, lamp)?;
-    let Frame { web, notes: mut told } = Frame::new(picture, lamp, settings)?;
+    let Frame { web, notes: mut told, bare, is_even } = Frame::new(picture, lamp, settings)?;
     let beside_web = picture.values.len() - web.sides[0] * web.sides[1];
     let framed = |picture: &Picture| (beside_web > 0).then(|| picture.part(web));
     let (own, own_lamp) = (framed(picture), lamp.and_then(framed));
     let (picture, lamp) = (own.as_ref().unwrap_or(picture), own_lamp.as_ref().or(lamp));
-    let correction = Correction { lamp, keep_shading: settings.keep_shading };
+    let correction = Correction { lamp, keep_shading: settings.keep_shading || is_even };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
     let spots = if is_cleaned { beside(picture, settings.light, correction)? } else { Spots::none(picture) };
-    let aside = ForeignParts::new((web.corner, beside_web), picture, lamp, &spots);
+    let mut aside = ForeignParts::new((web.corner, beside_web), picture, lamp, &spots);
+    aside.bare = bare.or(aside.bare);
+    let light = with_level_beside(settings.light, picture, lamp, aside.bare);
     // Only the part that is web, of the picture and of its lamp.
     let part = |picture: &Picture| if spots.bare.is_empty() { None } else { Some(picture.part(spots.web)) };
     let (own, own_lamp) = (part(picture), lamp.and_then(part));
     let (picture, lamp) = (own.as_ref().unwrap_or(picture), own_lamp.as_ref().or(lamp));
     let sides = sides(picture, &settings.patches)?;
-    let weighed = weigh(picture, settings.light, Correction { lamp, ..correction }, &spots.dark)?;
+    let weighed = weigh(picture, light, Correction { lamp, ..correction }, &spots.dark)?;
     let doubt = doubt(picture, lamp, settings);
-    let guess = doubt.as_ref().and_then(|(doubt, _)| *doubt).or_else(|| weighed.guess(settings.light));
+    let guess = doubt.as_ref().and_then(|(doubt, _)| *doubt).or_else(|| weighed.guess(light));
     let patches = patches(&weighed, &spots.dark, &sides, settings, guess)?;
     let map = &weighed.map;
     let lags = ((LAG / map.cell).round() as usize + 1).min(LAGS);
     let shading = weighed.shading.as_ref().map(|shading| libm::expm1(shading.range()));
-    told.extend(notes(picture, settings, &weighed, &patches, &aside));
+    told.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
     told.extend(doubt.map(|(_, fault)| fault));
     let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
@@ -78,6 +80,19 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         autocorrelation,
         notes: told,
     })
+}
+
+/// What the levels mean, with the level of the lamp that is seen beside the web, if no other is known.
+fn with_level_beside(light: Light, picture: &Picture, lamp: Option<&Picture>, bare: Option<f64>) -> Light {
+    /// A lamp that is brighter than this share of the largest level may be clipped.
+    const CLIPPED: f64 = 0.99;
+    let is_clipped = |level: &f64| picture.full_scale.is_some_and(|largest| *level > CLIPPED * largest);
+    match (light, bare.filter(|level| !is_clipped(level))) {
+        (Light::Transmitted { mean, white: None }, Some(level)) if lamp.is_none() => {
+            Light::Transmitted { mean, white: Some(level) }
+        }
+        _ => light,
+    }
 }
 
 /// Why the numbers of a picture cannot be believed, whatever the lamp was.

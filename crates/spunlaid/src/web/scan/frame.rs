@@ -1,18 +1,24 @@
-//! The part of a picture that holds the web: without the pixels along its edges that have no value, and
-//! without the bare strips beside the web of a map.
+//! The part of a picture that holds the web: without the pixels along its edges that have no value, without the
+//! border of one level around it, without the bare strips beside the web of a map, and without rows that are all the
+//! same.
 
+use super::border::Border;
 use super::findings::Settings;
 use super::levels::{FILLED, per_cent};
-use super::picture::{Picture, Rectangle};
+use super::picture::{Picture, Rectangle, cut};
 use super::spots::{FEWEST, KEPT, Level, largest, region, widen};
 use super::weigh::Light;
 use crate::ground::{Dimension, Fault};
+use std::ops::Range;
 
 /// Blocks of a map with less of its median weight are bare: a web that becomes thin towards its edge is a web
 /// down to that.
 const BARE: f64 = 0.05;
 /// A part of the edge is no web if it reaches along this share of a side.
 const ALONG: f64 = 0.5;
+/// Fewest rows or columns in succession that are equal because they were not scanned. A picture that was enlarged has
+/// some.
+const REPEATED: usize = 8;
 /// Pixels beside a bare strip that it may have part in.
 const MARGIN: usize = 1;
 
@@ -20,6 +26,10 @@ const MARGIN: usize = 1;
 pub(super) struct Frame {
     pub(super) web: Rectangle,
     pub(super) notes: Vec<Fault>,
+    /// Level of the lamp beside the web, over its picture if there is one; none if it is not seen.
+    pub(super) bare: Option<f64>,
+    /// Whether the border around the web shows that the light is even.
+    pub(super) is_even: bool,
 }
 
 /// What a part of a picture is that is no web.
@@ -31,6 +41,14 @@ enum Outside {
     Black,
     /// Without weight.
     Bare,
+    /// The lamp.
+    Lamp,
+    /// Of one level, that of a light lid or ground.
+    Light,
+    /// Of one level, that of a dark lid or ground.
+    Dark,
+    /// Rows or columns that are all the same.
+    Repeated,
 }
 
 impl Frame {
@@ -39,7 +57,7 @@ impl Frame {
     /// # Errors
     /// If no large rectangle is web alone.
     pub(super) fn new(picture: &Picture, lamp: Option<&Picture>, settings: &Settings) -> Result<Self, Fault> {
-        let mut frame = Self { web: picture.whole(), notes: Vec::new() };
+        let mut frame = Self { web: picture.whole(), notes: Vec::new(), bare: None, is_even: false };
         if picture.transparent > 0 {
             let count = picture.transparent;
             let share = per_cent(count as f64 / picture.values.len() as f64);
@@ -58,6 +76,7 @@ impl Frame {
         if settings.keep_spots {
             return Ok(frame);
         }
+        frame.leave_out_border(picture, lamp, settings.light)?;
         let part = picture.part(frame.web);
         let (marks, outside) = match settings.light {
             Light::Transmitted { .. } => {
@@ -69,7 +88,45 @@ impl Frame {
         let mut marks = along_edges(&marks, part.columns, outside);
         widen(&mut marks, part.columns, [MARGIN; 2]);
         frame.leave_out(&marks, picture.pixel, outside)?;
+        let part = picture.part(frame.web);
+        // Without any fibre, and where the lamp is too bright for the picture, a line may repeat another.
+        let empty = match settings.light {
+            Light::Transmitted { .. } => part.full_scale,
+            _ => Some(0.0),
+        };
+        frame.leave_out(&repeated(&part.values, part.columns, empty), picture.pixel, Outside::Repeated)?;
         Ok(frame)
+    }
+
+    /// Cuts off the border of one level around the web, and another one within it.
+    fn leave_out_border(
+        &mut self,
+        picture: &Picture,
+        lamp: Option<&Picture>,
+        light: Light,
+    ) -> Result<(), Fault> {
+        for _ in 0..2 {
+            let mut part = picture.part(self.web);
+            if let Some(lamp) = lamp {
+                let scale = lamp.scale_to(picture);
+                let lamp = cut(&lamp.values, lamp.columns, self.web);
+                part.values.iter_mut().zip(lamp).for_each(|(level, lamp)| *level /= scale * lamp);
+            }
+            let border = match light {
+                Light::Weight { .. } => None,
+                _ => Border::find(&part.values, part.columns),
+            };
+            let Some(border) = border else { break };
+            let outside = match light {
+                Light::Transmitted { .. } if border.is_light => Outside::Lamp,
+                _ if border.is_light => Outside::Light,
+                _ => Outside::Dark,
+            };
+            self.is_even |= border.is_light && border.is_even;
+            self.bare = self.bare.or((outside == Outside::Lamp).then_some(border.level));
+            self.leave_out(&border.marks, picture.pixel, outside)?;
+        }
+        Ok(())
     }
 
     /// Cuts out the largest rectangle without any mark.
@@ -80,18 +137,23 @@ impl Frame {
         }
         let [columns, rows] = self.web.sides;
         let part = largest(marks, columns);
+        let is_optional = !matches!(outside, Outside::Absent | Outside::Black);
         let what = match outside {
             Outside::Absent => "has no values",
             Outside::Black => "is black",
             Outside::Bare => "is bare",
+            Outside::Lamp => "shows the bare lamp",
+            Outside::Light => "has a light border",
+            Outside::Dark => "has a dark border",
+            Outside::Repeated => "has rows or columns that are all the same, as one that is not finished,",
         };
         if (part.sides[0] * part.sides[1]) as f64 <= KEPT * (marks.len() - marked) as f64 {
             let share = (100.0 * marked as f64 / marks.len() as f64).round();
             let message = format!(
-                "{what} along its edges, on {share} % of its area, and no large rectangle of web can be cut out"
+                "{what} on {share} % of its area, along its edges, and no large rectangle of web can be cut out"
             );
-            let fault = Fault::new(message, "turn it straight, and cut it so that it holds web only");
-            return Err(if outside == Outside::Bare { fault.option("--keep-spots") } else { fault });
+            let fault = Fault::new(message, "turn the scan straight, and cut it so that it holds web only");
+            return Err(if is_optional { fault.option("--keep-spots") } else { fault });
         }
         let ([left, top], [across, along]) = (part.corner, part.sides);
         let strips = [
@@ -107,9 +169,11 @@ impl Frame {
             "the picture {what} along its edges, so strips were cut off: {}",
             strips.collect::<Vec<_>>().join(", ")
         );
-        let is_bare = outside == Outside::Bare;
-        let remedy = if is_bare { "if they belong to the web, say so (--keep-spots)" } else { "" };
-        self.notes.push(Fault::new(message, remedy));
+        let remedy = if is_optional { "if they belong to the web, say so (--keep-spots)" } else { "" };
+        // The note of the bare lamp says what was cut off.
+        if outside != Outside::Lamp {
+            self.notes.push(Fault::new(message, remedy));
+        }
         self.web =
             Rectangle { corner: [self.web.corner[0] + left, self.web.corner[1] + top], sides: part.sides };
         Ok(())
@@ -155,4 +219,49 @@ fn along_edges(marks: &[bool], columns: usize, outside: Outside) -> Vec<bool> {
         }
     }
     kept
+}
+
+/// The pixels of rows and of columns that are equal to those before them, where many in succession are; not where all
+/// of the picture is so.
+///
+/// * `empty` – value of a pixel without web
+fn repeated(values: &[f64], columns: usize, empty: Option<f64>) -> Vec<bool> {
+    let rows = values.len() / columns;
+    let mut marks = vec![false; values.len()];
+    let is_row = |row: usize| repeats(values, row * columns..(row + 1) * columns, columns, empty);
+    let is_column = |column: usize| repeats(values, (column..values.len()).step_by(columns), 1, empty);
+    for run in runs(rows, is_row) {
+        marks[run.start * columns..run.end * columns].fill(true);
+    }
+    for run in runs(columns, is_column) {
+        marks.chunks_exact_mut(columns).for_each(|row| row[run.clone()].fill(true));
+    }
+    marks
+}
+
+/// Whether the pixels of a line are those of the line before it, and are not all empty.
+///
+/// * `back` – from a pixel to that of the line before it
+fn repeats(values: &[f64], line: impl Iterator<Item = usize>, back: usize, empty: Option<f64>) -> bool {
+    let mut is_empty = true;
+    let mut pairs = line.map(|at| [values[at], values[at - back]]);
+    pairs.all(|[value, before]| {
+        is_empty &= Some(value) == empty;
+        value == before
+    }) && !is_empty
+}
+
+/// Where many of some lines in succession repeat the line before them.
+fn runs(lines: usize, repeats: impl Fn(usize) -> bool) -> Vec<Range<usize>> {
+    let (mut runs, mut first) = (Vec::new(), 1);
+    for line in 1..=lines {
+        if line == lines || !repeats(line) {
+            if line - first >= REPEATED && line - first + 1 < lines {
+                // The line that is repeated may not have been scanned either.
+                runs.push(first - 1..line);
+            }
+            first = line + 1;
+        }
+    }
+    runs
 }

@@ -36,8 +36,8 @@
 //! autocorrelation. For each patch they also tell how much the noise of the camera and the blur of its optics
 //! count there.
 //!
-//! **What is no web** is cut off: pixels without a value along the edges, the bare lamp beside the web, and the
-//! bare strips along the edges of a map.
+//! **What is no web** is cut off: pixels without a value along the edges, the bare lamp or a lid around the web, the
+//! bare strips along the edges of a map, and rows that are all the same because a scan was not finished.
 //!
 //! **Limits.** At most [`MOST_PIXELS`] pixels and at least [`LEAST_SIDE`] either way. Up to one pixel in a
 //! hundred may say nothing; it is filled in from its row.
@@ -59,6 +59,7 @@
 //! ```
 
 mod analyse;
+mod border;
 mod chance;
 mod findings;
 mod frame;

@@ -17,9 +17,14 @@ const UNKNOWN: [f64; 2] = [72.0, 96.0];
 const MANY: f64 = 1e-3;
 
 /// What was assumed, corrected or left out, in the order in which it was done, and what to do about it.
+///
+/// * `light` – what the levels mean, with the level of the lamp that was used
+/// * `is_even` – whether a border around the web shows that the light is even
 pub(super) fn notes(
     picture: &Picture,
     settings: &Settings,
+    light: Light,
+    is_even: bool,
     weighed: &WeighedPicture,
     patches: &[PatchFindings],
     aside: &ForeignParts,
@@ -49,7 +54,7 @@ pub(super) fn notes(
             dark; if light fibres lie on a dark ground, heavy places are light, and every CV is wrong";
         notes.push(Fault::new(message, "say which light it is").option("--light reflected"));
     }
-    match (settings.light, weighed.white) {
+    match (light, weighed.white) {
         (Light::Transmitted { white: None, .. }, Some(white)) => {
             notes.push(assumed_lamp(white));
         }
@@ -86,7 +91,12 @@ pub(super) fn notes(
             "take a picture of the lamp without web, or say that the lamp is even",
         ));
     }
-    notes.extend(bare_lamp(aside, settings.lamp.is_some()));
+    notes.extend(bare_lamp(aside, settings, light != settings.light));
+    if is_even && !settings.keep_shading && settings.lamp.is_none() {
+        notes.push(Fault::plain(
+            "the border has the same level on all its sides, so the light is taken as even: no shading is taken out",
+        ));
+    }
     notes.extend(dark_spots(aside));
     notes.extend(odd_pixels(picture, weighed));
     if patches.first().is_some_and(|patch| !patch.is_sharp()) {
@@ -184,15 +194,18 @@ fn assumed_thickest(white: f64) -> Fault {
 
 /// What is said of the bare lamp beside the web, if it is visible.
 ///
-/// * `pictured` – whether there is a picture of the lamp without web; the level is then relative to it
-fn bare_lamp(aside: &ForeignParts, pictured: bool) -> Option<Fault> {
+/// * `is_used` – whether its level there is used
+fn bare_lamp(aside: &ForeignParts, settings: &Settings, is_used: bool) -> Option<Fault> {
     let level = aside.bare?;
     let message = format!(
         "the bare lamp is visible beside the web, so the largest rectangle of web was cut out, without {}",
         square(aside.cut_off)
     );
-    let remedy = if !pictured {
-        format!("there the lamp has the grey level {}", shortest((level * 10.0).round() / 10.0))
+    // Over a picture of the lamp the level is relative to it.
+    let remedy = if settings.lamp.is_none() {
+        let level = shortest((level * 10.0).round() / 10.0);
+        let use_ = if is_used { ", which is used" } else { "" };
+        format!("there the lamp has the grey level {level}{use_}")
     } else if (level - 1.0).abs() > OTHER {
         format!(
             "there it is {} {} than in its own picture, so take both pictures at the same exposure",
