@@ -113,3 +113,69 @@ fn a_line_of_heads_that_lacks_its_corner_is_read() {
         assert_eq!(found(&text), (wanted, [true, false]), "{}", &text[..80]);
     }
 }
+
+/// Positions beside a map tell the sides of its cells, in whatever order they stand; cells that are not square are
+/// refused. Numbers of rows beside positions of columns tell nothing.
+#[test]
+fn analytic_positions_beside_a_map_tell_the_sides_of_its_cells() {
+    let sides = |corner: &str, across: f64, along: f64| {
+        let head: Vec<String> = (0..40).map(|x| format!("{}", across * f64::from(x))).collect();
+        let row = |y: u32| {
+            let values: Vec<String> = (0..40).map(|x| format!("{}", 14 + (x * x + 3 * x * y) % 5)).collect();
+            format!("{},{}\n", along * f64::from(y), values.join(","))
+        };
+        let text = format!("{corner},{}\n{}", head.join(","), (0..40).map(row).collect::<String>());
+        parse(text.as_bytes(), "gauge.csv", None)
+            .map(|picture| picture.pixel)
+            .map_err(|error| error.to_string())
+    };
+    for (corner, across, along, wanted) in
+        [("mm", 2.0, 2.0, 2e-3), ("mm", 5.0, -5.0, 5e-3), ("cm", 1.0, 1.0, 1e-2), ("y [m]", 0.5, 0.5, 0.5)]
+    {
+        let found = sides(corner, across, along).unwrap();
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{corner} {across}: {found}");
+    }
+    for (corner, across, along) in [("mm", 2.0, 4.0), ("mm", 1.0, 4.0), ("place", 2.0, 4.0), ("", 3.0, -2.5)]
+    {
+        let said = sides(corner, across, along).unwrap_err();
+        assert!(
+            said.contains("wide and") && said.contains("square cells"),
+            "{corner} {across} {along}: {said}"
+        );
+    }
+    let said = sides("", 2.0, 1.0).unwrap_err();
+    assert!(said.contains("does not say how large its pixels are"), "{said}");
+}
+
+/// A row for each point, in any order and with some missing, is the map that has a line for each row.
+#[test]
+fn identical_a_table_of_points_is_its_map() {
+    let weight = |x: u32, y: u32| f64::from(14 + (x * x + 3 * x * y) % 5);
+    let (columns, rows) = (40, 30);
+    let table = |step: [f64; 2], head: &str, order: u32, left_out: u32| {
+        let count = columns * rows;
+        let line = |i: u32| {
+            let at = i * order % count;
+            let (x, y) = (at % columns, at / columns);
+            let [across, along] = [step[0] * f64::from(x) - 7.0, step[1] * f64::from(y)];
+            format!("{across},{along},{}\n", weight(x, y))
+        };
+        let text = (0..count).filter(|i| *i != left_out).map(line).collect::<String>();
+        parse(format!("{head}\n{text}").as_bytes(), "gauge.csv", None).map_err(|error| error.to_string())
+    };
+    for (head, pixel, order) in [("x_mm,y_mm,weight_g_m2", 2e-3, 1), ("x [cm],y [cm],weight", 2e-2, 7)] {
+        let found = table([2.0, 2.0], head, order, u32::MAX).unwrap();
+        assert_eq!([found.columns, found.rows], [columns, rows].map(|side| side as usize), "{head}");
+        assert!((found.pixel / pixel - 1.0).abs() < 1e-12, "{head}: {}", found.pixel);
+        for (at, value) in (0..).zip(&found.values) {
+            assert_eq!(*value, weight(at % columns, at / columns), "{head} {at}");
+        }
+        let missing = table([2.0, 2.0], head, order, 100).unwrap();
+        assert_eq!(missing.values.iter().filter(|value| value.is_nan()).count(), 1, "{head}");
+    }
+    let said = table([2.0, 3.0], "x_mm,y_mm,weight_g_m2", 1, u32::MAX).unwrap_err();
+    assert!(said.contains("2 mm wide and 3 mm high"), "{said}");
+    let text: String = (0..400).map(|i| format!("{},{},{i}\n", i * i % 397, i * 31 % 389)).collect();
+    let said = parse(format!("x,y,g\n{text}").as_bytes(), "gauge.csv", 1e-3).unwrap_err().to_string();
+    assert!(said.contains("no lattice of square cells") && said.contains("a line for each row"), "{said}");
+}

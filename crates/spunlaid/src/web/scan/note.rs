@@ -128,7 +128,7 @@ fn side_of_a_pixel(picture: &Picture) -> Option<Fault> {
             format!("a pixel is taken to be {shown} wide, as you said, but the file says {shown_in_file}");
         return Some(Fault::plain(message));
     }
-    if given != in_file || picture.weight_of_black.is_some() {
+    if given != in_file || !picture.holds_light() {
         return None;
     }
     let dots = 25.4e-3 / given;

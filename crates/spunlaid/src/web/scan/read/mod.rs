@@ -120,7 +120,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     }
     let file = name.to_owned();
     let fewer_bits = full_scale.and_then(|full| fewer_bits(&values, full));
-    let is_map = weight_of_black.is_some();
+    let is_map = weight_of_black.is_some() || format == Format::Table;
     let (pixel, pixel_of_file) = side_of_a_pixel(pixel, raw.pixel, is_map)?;
     Ok(Picture {
         file,
@@ -144,7 +144,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
 
 /// The side of a pixel, as it was given or else as the file tells it, and what the file tells [m].
 ///
-/// * `is_map` – whether the file is a map of this program, whose cells may be of any size
+/// * `is_map` – whether the file is a map, whose cells may be of any size
 fn side_of_a_pixel(
     given: Option<f64>,
     of_file: Option<[f64; 2]>,
