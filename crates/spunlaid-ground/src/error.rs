@@ -9,7 +9,8 @@ pub use fault::Fault;
 pub use file::FileKind;
 pub use problem::{FileError, Finding, Place, Position, Problem};
 pub use words::{
-    IS, WAS, by_count, by_similarity, counted, excerpt, listed, memory, nearest_word, one_of, shortest,
+    IS, WAS, by_count, by_similarity, counted, excerpt, is_invisible, listed, memory, nearest_word, one_of,
+    shortest,
 };
 
 use std::borrow::Cow;

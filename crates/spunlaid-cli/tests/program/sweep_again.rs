@@ -1,7 +1,7 @@
 //! `spunlaid sweep` with a folder that holds a study already: what it goes on with, replaces, makes good or refuses.
 //! What becomes of a study that is killed stands in `sweep_killed.rs`.
 
-use crate::common::{assert_same, case, contents, results, said};
+use crate::common::{StudyFolder, assert_same, case, contents, results, said};
 use crate::sweep::{STUDY, place};
 use std::fs;
 use std::time::Duration;
@@ -56,6 +56,33 @@ fn rejects_another_study_in_the_folder_of_an_unfinished_one_showing_what_differs
     place.swept("out", &["--force"]);
     place.swept("new", &[]);
     assert_same(&results(&place.path("out")), &results(&place.path("new")));
+}
+
+/// The case names a file of the same name with other content, in either kind of quotation marks.
+#[test]
+fn rejects_an_unfinished_study_whose_file_has_changed_naming_it() {
+    for quote in ['"', '\''] {
+        let air = "velocity = '10 m/s'\nturbulence_intensity = 0.1\nlength_scale = '50 mm'\ncutoff_frequency = '100 Hz'";
+        let with_profile = case(0.02).replace(air, &format!("profile = {quote}air.csv{quote}"));
+        assert!(with_profile.contains("air.csv"));
+        let study = STUDY.replace("'air.velocity' = ['5 m/s', '10 m/s', '20 m/s']\n", "");
+        let place = StudyFolder::new(&with_profile, &study);
+        let profile = |velocity: u32| {
+            format!(
+                "x_mm,velocity_m_s,turbulence_intensity [-],length_scale_mm,cutoff_frequency_hz\n\
+                 0,{velocity},0.1,50,100\n1000,{velocity},0.1,50,100\n"
+            )
+        };
+        fs::write(place.path("air.csv"), profile(10)).unwrap();
+        place.swept("out", &[]);
+        fs::remove_file(place.path("out").join("report.html")).unwrap();
+        fs::write(place.path("air.csv"), profile(11)).unwrap();
+        let refusal = place.refused("out", &[]);
+        assert!(refusal.contains("air.csv: its content has changed"), "{refusal}");
+        assert!(!refusal.contains("air.profile was"), "{refusal}");
+        fs::write(place.path("air.csv"), profile(10)).unwrap();
+        place.swept("out", &[]);
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::piece::{Piece, Range, Reader};
 use super::times::one_time;
 use crate::{Field, FieldLayout};
 use spunlaid_ground::error::{by_count, counted};
-use spunlaid_ground::{Fault, FileError, IS};
+use spunlaid_ground::{Fault, FileError, IS, Vec3};
 
 /// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
 const ROUNDING: f64 = 1e-3;
@@ -28,6 +28,8 @@ pub(super) struct Assembly<'l> {
     sources: Vec<(&'static str, String)>,
     /// What the first piece lacks for turbulence.
     lacks: Option<Fault>,
+    /// Arrays that may be the velocity and were not read.
+    others: Option<Vec<String>>,
     /// The time of the values, if a file tells it.
     time: Option<f64>,
     /// How much may still be read, for all pieces together.
@@ -44,6 +46,7 @@ impl<'l> Assembly<'l> {
             ranges: Vec::new(),
             sources: Vec::new(),
             lacks: None,
+            others: None,
             time: None,
             budget: Budget::new(),
         }
@@ -52,7 +55,9 @@ impl<'l> Assembly<'l> {
     /// Decodes a piece and keeps it. The bytes that it was read from are not needed any more.
     pub(super) fn add(&mut self, piece: Piece<'_>) -> Result<(), FileError> {
         if self.parts.is_empty() {
-            self.lacks = missing::turbulence(&piece.arrays(self.layout));
+            let arrays = piece.arrays(self.layout);
+            self.lacks = missing::turbulence(&arrays);
+            self.others = Some(missing::likely_velocities(&arrays));
         }
         let Self { layout, budget, warnings, gaps, ranges, sources, .. } = self;
         let mut blanks = Blanks::read(&piece.grid, [&piece.point_data, &piece.cell_data], budget)?;
@@ -75,7 +80,7 @@ impl<'l> Assembly<'l> {
 
     /// The field of all pieces.
     pub(super) fn finish(self) -> Result<(Field, Vec<Fault>), FileError> {
-        let Self { layout, parts, mut warnings, gaps, ranges, mut sources, lacks, .. } = self;
+        let Self { layout, parts, mut warnings, gaps, ranges, mut sources, lacks, others, .. } = self;
         let quantity = [Measure::K, Measure::Epsilon, Measure::Omega]
             .into_iter()
             .find(|measure| measure.request(layout).is_some());
@@ -117,10 +122,16 @@ impl<'l> Assembly<'l> {
             )
             .into());
         }
+        let mut velocities = parts.iter().flat_map(|part| &part.values.velocity);
+        let is_still = velocities.all(|velocity| *velocity == Vec3::default());
+        let still = others.filter(|_| is_still).and_then(|others| missing::movement(&sources, &others));
         warnings.extend(hidden(&parts));
         warnings.extend(gaps.warnings());
         let (mut field, more) = join(parts, &gaps)?;
         warnings.extend(more);
+        if let Some(fault) = still {
+            return Err(fault.into());
+        }
         if !field.has_turbulence() {
             sources.retain(|(quantity, _)| *quantity == Measure::Velocity.name());
         }

@@ -26,9 +26,26 @@ pub(super) fn velocity(arrays: &Arrays<'_>) -> Fault {
     Fault::new(format!("none of the arrays is a velocity ({})", arrays.listed()), remedy)
 }
 
+/// The fault of a velocity that is zero everywhere, as a mean is before its averaging has begun, beside others.
+///
+/// * `others` – arrays that may be the velocity
+pub(super) fn movement(sources: &[(&'static str, String)], others: &[String]) -> Option<Fault> {
+    let (name, key) = (Measure::Velocity.name(), Measure::Velocity.key());
+    let (_, read) = sources.iter().find(|(quantity, _)| *quantity == name)?;
+    let others: Vec<&str> = others.iter().map(String::as_str).filter(|other| other != read).take(3).collect();
+    (!others.is_empty()).then(|| {
+        Fault::new(
+            format!(
+                "has a velocity that is zero everywhere ({read}), as a mean is before its averaging begins"
+            ),
+            format!("write {key} = {} for another array", one_of(&others)),
+        )
+    })
+}
+
 /// The arrays that may be the velocity, as the key takes them: those of three components, or else three with
 /// the endings of components.
-fn likely_velocities(arrays: &Arrays<'_>) -> Vec<String> {
+pub(super) fn likely_velocities(arrays: &Arrays<'_>) -> Vec<String> {
     let short = |name: &str| can_be_written(name) && !name.contains(',');
     let named = |i: usize| arrays.names[i].written.trim();
     let all = || (0..arrays.names.len()).filter(|i| short(named(*i)));

@@ -5,7 +5,7 @@ use crate::air::{mesh, samples, values};
 use crate::meshes::{Block, Made};
 use crate::vtk::{ASCII, DataPlace, Squeeze, Style, legacy, vti, vtu};
 use proptest::prelude::*;
-use spunlaid_field::Field;
+use spunlaid_field::{Field, FieldLayout};
 use std::path::Path;
 
 fn refused(bytes: &[u8]) -> String {
@@ -305,6 +305,21 @@ fn rejects_columns_that_stand_twice_and_a_missing_component() {
     assert!(Field::parse(plane.as_bytes(), "a.csv").is_ok());
     let along_z = refused(table("x,y,z,u,v", |[x, y, z]| format!("{},{y}", 20.0 + x - z)).as_bytes());
     assert!(along_z.contains("has no velocity along z, and its points lie at different z"), "{along_z}");
+}
+
+/// A mean is zero before its averaging begins; the velocity of the time stands beside it.
+#[test]
+fn rejects_a_mean_that_is_zero_everywhere() {
+    let heads = "x,y,z,UMean:0,UMean:1,UMean:2,U:0,U:1,U:2";
+    let mean = |of: f64| table(heads, |_| format!("{of},0,0,10,0,0"));
+    let said = refused(mean(0.0).as_bytes());
+    assert!(
+        said.contains("zero everywhere (UMean:0, UMean:1, UMean:2)") && said.contains("\"U:0, U:1, U:2\""),
+        "{said}"
+    );
+    Field::parse(mean(9.0).as_bytes(), "a").unwrap();
+    let layout = FieldLayout { velocity: Some("U:0, U:1, U:2".to_owned()), ..FieldLayout::default() };
+    Field::parse_as(mean(0.0).as_bytes(), "a", &layout).unwrap();
 }
 
 #[test]

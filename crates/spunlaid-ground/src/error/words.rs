@@ -70,12 +70,18 @@ pub fn memory(bytes: f64) -> String {
 pub fn excerpt(text: &str, longest: usize) -> String {
     let mut excerpt = String::new();
     for c in text.trim().chars().take(longest) {
-        if c.is_control() { excerpt.extend(c.escape_debug()) } else { excerpt.push(c) }
+        if c.is_control() || is_invisible(c) { excerpt.extend(c.escape_debug()) } else { excerpt.push(c) }
     }
     if text.trim().chars().count() > longest {
         excerpt.push('…');
     }
     excerpt
+}
+
+/// Whether a character takes no room: zero-width spaces and joiners, marks of direction and of the order of bytes, soft
+/// hyphens. Text that is copied from a page or a document has some.
+pub const fn is_invisible(c: char) -> bool {
+    matches!(c, '\u{ad}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{2064}' | '\u{feff}')
 }
 
 /// A formatter that escapes control characters as `\u{1b}`, so that no message can act on the terminal.

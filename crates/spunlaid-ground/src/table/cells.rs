@@ -47,7 +47,7 @@ impl Parting {
         let all = Self::ALL.into_iter().chain([Self::Vectors]);
         all.filter(|parting| parting.occurs(text)).find(|parting| {
             parting.split(text, &mut cells);
-            let looks = || cells.iter().map(|cell| Looks::new(&text[cell.clone()], *parting));
+            let looks = || cells.iter().map(|cell| Looks::new(&text[cell.clone()]));
             looks().all(|looks| looks != Looks::Text) && looks().any(|looks| looks == Looks::Number)
         })
     }
@@ -99,8 +99,8 @@ pub(super) enum Looks {
 }
 
 impl Looks {
-    pub(super) fn new(cell: &str, parting: Parting) -> Self {
-        match parsed(cell, parting) {
+    pub(super) fn new(cell: &str) -> Self {
+        match parsed(cell) {
             // It is refused where it is read.
             None if has_thousands(cell) => Self::Number,
             None => Self::Text,
@@ -117,9 +117,9 @@ pub(super) fn is_comment(text: &str) -> bool {
 /// The number in a cell; NaN if it is missing.
 ///
 /// * `decimals` – decimal sign of the cells read so far
-pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) -> Result<f64, Fault> {
+pub(super) fn number(cell: &str, decimals: &mut Option<u8>) -> Result<f64, Fault> {
     let text = excerpt(cell, 40);
-    let Some(number) = parsed(cell, parting) else {
+    let Some(number) = parsed(cell) else {
         if has_thousands(cell) {
             return Err(refusal(&text));
         }
@@ -131,7 +131,7 @@ pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) ->
     if number.is_infinite() {
         return Err(Fault::infinite(&text));
     }
-    if let Some(sign) = decimal_sign(cell, parting)
+    if let Some(sign) = decimal_sign(cell)
         && !number.is_nan()
         && *decimals.get_or_insert(sign) != sign
     {
@@ -143,18 +143,18 @@ pub(super) fn number(cell: &str, parting: Parting, decimals: &mut Option<u8>) ->
     Ok(number)
 }
 
-fn decimal_sign(cell: &str, parting: Parting) -> Option<u8> {
-    let sign = cell.bytes().find(|byte| matches!(byte, b'.' | b','));
-    sign.filter(|_| parting != Parting::Sign(b','))
+/// Between commas, a cell in quotation marks may have one.
+fn decimal_sign(cell: &str) -> Option<u8> {
+    cell.bytes().find(|byte| matches!(byte, b'.' | b','))
 }
 
 /// The number in a cell: NaN if it is missing, infinite if it is too large, none if there is something else.
-fn parsed(cell: &str, parting: Parting) -> Option<f64> {
+fn parsed(cell: &str) -> Option<f64> {
     #[rustfmt::skip]
     const MISSING: [&str; 13] = [
         "", "-", "--", "na", "n/a", "#n/a", "null", "none", "nan", "-nan", "-nan(ind)", "1.#qnan", "-1.#ind",
     ];
-    let with_point = match decimal_sign(cell, parting) {
+    let with_point = match decimal_sign(cell) {
         Some(b',') => Cow::Owned(cell.replacen(',', ".", 1)),
         _ => Cow::Borrowed(cell),
     };
@@ -171,8 +171,8 @@ fn double_precision(cell: &str) -> Option<String> {
 }
 
 /// Whether a cell holds a finite number, or says that it is missing.
-pub(super) fn is_number(cell: &str, parting: Parting) -> bool {
-    parsed(cell, parting).is_some_and(|number| !number.is_infinite())
+pub(super) fn is_number(cell: &str) -> bool {
+    parsed(cell).is_some_and(|number| !number.is_infinite())
 }
 
 /// The unit of the last digit of a number as it is written.
@@ -229,9 +229,15 @@ pub(super) struct Digits {
     small: Option<(f64, String)>,
     /// One cannot be written so: `0.998`, `1.02`, `1002`.
     decimals: bool,
+    /// Whether commas part the cells of the table.
+    between_commas: bool,
 }
 
 impl Digits {
+    pub(super) fn new(parting: Parting) -> Self {
+        Self { between_commas: parting == Parting::Sign(b','), ..Self::default() }
+    }
+
     /// Looks at a cell that is a number.
     pub(super) fn look(&mut self, cell: &str, place: impl FnOnce() -> Position) {
         if self.decimals {
@@ -257,8 +263,20 @@ impl Digits {
 
     /// The fault of a column in which `998` stands beside `1.002` and no number has other decimals, with its
     /// place. Beside `5` the same number has decimals: it is nearer to five as one than as a thousand.
+    ///
+    /// Between commas only numbers in quotation marks have a comma, and `"1,234"` may be either.
     pub(super) fn doubt(&self) -> Option<(Fault, Position)> {
         let (value, parted, place) = self.parted.as_ref()?;
+        if self.between_commas && parted.contains(',') && !self.decimals {
+            let [decimal, whole] = [".", ""].map(|sign| parted.replace(',', sign));
+            let fault = Fault::new(
+                format!(
+                    "\"{parted}\" may be {decimal} or {whole}, and no other number in this column shows which"
+                ),
+                format!("write {decimal} or {whole}"),
+            );
+            return Some((fault, *place));
+        }
         let (largest, small) = self.small.as_ref()?;
         if self.decimals || largest * largest < 1000.0 * value * value {
             return None;
@@ -290,7 +308,7 @@ mod tests {
 
     #[test]
     fn exponents_of_fortran_are_read() {
-        let read = |cell| number(cell, Parting::Blanks, &mut None);
+        let read = |cell| number(cell, &mut None);
         for (cell, value, last) in [
             ("1.0043D+01", 10.043, 1e-3),
             ("-0.5d-3", -5e-4, 1e-4),

@@ -20,7 +20,9 @@ impl Head {
         let text = text.trim();
         let head = |name: &str, unit: Option<&str>| {
             let name = excerpt(name.trim().trim_matches(['_', '/', '-', ':']), 40);
-            Self { text: text.to_owned(), name, unit: unit.map(|unit| unit.trim().to_owned()) }
+            // Spellings of "no dimension".
+            let unit = unit.map(str::trim).filter(|unit| !["-", "–", "1"].contains(unit));
+            Self { text: text.to_owned(), name, unit: unit.map(str::to_owned) }
         };
         for (open, close) in [('[', ']'), ('(', ')')] {
             if let Some((name, rest)) = text.split_once(open)

@@ -113,7 +113,7 @@ impl<R: Read> Table<R> {
         let numbered = || (1..=start.cells).map(|i| format!("column {i}")).collect();
         let heads: Vec<Head> =
             start.names.unwrap_or_else(numbered).iter().map(|name| Head::new(name)).collect();
-        let digits = vec![Digits::default(); heads.len()];
+        let digits = vec![Digits::new(start.parting); heads.len()];
         Ok(Self {
             lines,
             ahead,
@@ -169,6 +169,16 @@ impl<R: Read> Table<R> {
             }
             blank += 1;
         }
+        if self.begins_faces() {
+            self.ahead.clear();
+            while self.lines.next(&mut self.row)? {
+                if self.row.text.starts_with("[Name]") || self.row.text.starts_with("[Data]") {
+                    self.parting.split(&self.row.text, &mut self.cells);
+                    return Err(self.wrong_count(1, self.heads.len()));
+                }
+            }
+            return self.finish();
+        }
         self.row.blank = blank;
         let (found, wanted) = (self.cells.len(), self.heads.len());
         // Separators may end a row, and a remark behind its numbers may be left out with its separator.
@@ -181,9 +191,14 @@ impl<R: Read> Table<R> {
         if fits { Ok(true) } else { Err(self.wrong_count(found, wanted)) }
     }
 
-    /// Whether this is the head of a further block in a file of LabVIEW.
+    /// Whether this is the head of a further block in a file of LabVIEW or of CFX-Post.
     fn begins_block(&self) -> bool {
-        matches!(self.text(0), "Channels" | "***End_of_Header***")
+        matches!(self.text(0), "Channels" | "***End_of_Header***" | "[Name]" | "[Data]")
+    }
+
+    /// Whether this is the head of the faces or lines that follow the points in a file of CFX-Post.
+    fn begins_faces(&self) -> bool {
+        self.cells.len() == 1 && matches!(self.text(0), "[Faces]" | "[Lines]")
     }
 
     /// The error of a row with too few or too many cells, or of none.
@@ -239,7 +254,7 @@ impl<R: Read> Table<R> {
     pub fn number(&mut self, column: usize) -> Result<f64, FileError> {
         let mut decimals = self.decimals;
         let text = self.cells.get(column).map_or("", |cell| &self.row.text[cell.clone()]);
-        let number = number(text, self.parting, &mut decimals);
+        let number = number(text, &mut decimals);
         self.decimals = decimals;
         if let Some(digits) = self.digits.get_mut(column) {
             digits.look(text, || Position::Line(self.row.number));
@@ -258,7 +273,7 @@ impl<R: Read> Table<R> {
         let cells = first.map_or_else(Vec::new, |line| self.parting.cells(&line.text));
         let of = |cell: &str| match Stamp::parse(cell) {
             Some(_) => FirstCell::Stamp,
-            None if Looks::new(cell, self.parting) == Looks::Text => FirstCell::Text(excerpt(cell, 40)),
+            None if Looks::new(cell) == Looks::Text => FirstCell::Text(excerpt(cell, 40)),
             None => FirstCell::Number,
         };
         cells.into_iter().map(of).collect()
@@ -266,7 +281,7 @@ impl<R: Read> Table<R> {
 
     /// Whether a column of the row holds a finite number, with whatever decimal sign, or says that it is missing.
     pub fn is_number(&self, column: usize) -> bool {
-        cells::is_number(self.text(column), self.parting)
+        cells::is_number(self.text(column))
     }
 
     /// The unit of the last digit of the number in a column as it is written: 1e-3 for `0,125`, 1e-5 for `1.25e-3`.

@@ -3,7 +3,7 @@
 use super::LONGEST_LINE;
 use super::cells::{Looks, Parting, is_comment};
 use super::head::{Head, is_unit, names_of_probes};
-use crate::error::{Fault, FileError, FileKind, Position};
+use crate::error::{Fault, FileError, FileKind, Position, is_invisible};
 use std::io::{BufRead, BufReader, Chain, Cursor, Read};
 
 /// What is known before the first row is read.
@@ -57,9 +57,9 @@ pub(super) fn find(lines: &[TextLine]) -> Option<Start> {
         |row: usize, parting, names, header| Some(Start { row, parting, cells: width, names, header });
     // The header is the nearest line above with one word for each column. Lines between it and the first row count as
     // rows.
-    let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n, parting))?)));
+    let header = (0..first).rev().find_map(|i| Some((i, names_in(text(i)).filter(|n| words(n))?)));
     if let Some((i, mut names)) = header {
-        let mut above = (0..i).rev().map_while(|i| names_in(text(i)).filter(|n| words(n, parting)));
+        let mut above = (0..i).rev().map_while(|i| names_in(text(i)).filter(|n| words(n)));
         let (mut units, mut at) = (None, i);
         while notes(&names) || names.iter().any(|name| is_unit(name)) {
             let Some(line) = above.next() else { break };
@@ -82,7 +82,7 @@ pub(super) fn find(lines: &[TextLine]) -> Option<Start> {
     }
     let above = row.checked_sub(1).map(|i| lines[i].text.as_str());
     if let Some(comment) = above.filter(|text| is_comment(text)) {
-        let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n, parting));
+        let names = names_in(comment.trim_start_matches(['#', '%', '/', ' '])).filter(|n| words(n));
         return start(row, parting, names, row - 1);
     }
     // The line above is the header all the same. Below a single name a comma is a decimal comma.
@@ -108,8 +108,7 @@ fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, 
             (None, Some((_, _, cells))) => {
                 // Numbers above the header, as a rate on a line of its own, are not as many as those below it.
                 let parting = Parting::first_in(text(i));
-                let header =
-                    parting.cells(text(i)).iter().all(|cell| Looks::new(cell, parting) != Looks::Number);
+                let header = parting.cells(text(i)).iter().all(|cell| Looks::new(cell) != Looks::Number);
                 let next = rows.get(i + 1).copied().flatten();
                 if header && next.is_some_and(|(_, below)| below != cells) {
                     first = None;
@@ -125,7 +124,7 @@ fn numbers<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, 
 fn mixed<'a>(lines: usize, text: impl Fn(usize) -> &'a str) -> Option<(usize, Parting)> {
     let looks = |i: usize| {
         let parting = Parting::first_in(text(i));
-        let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::new(cell, parting)).collect();
+        let looks: Vec<Looks> = parting.cells(text(i)).iter().map(|cell| Looks::new(cell)).collect();
         (parting, looks)
     };
     let alike = |a: &[Looks], b: &[Looks]| {
@@ -175,10 +174,10 @@ fn names(line: &str, parting: Parting) -> Vec<String> {
 }
 
 /// Whether a line has names and no numbers.
-fn words(names: &[String], parting: Parting) -> bool {
+fn words(names: &[String]) -> bool {
     !names.is_empty()
-        && names.iter().all(|name| Looks::new(name, parting) != Looks::Number)
-        && names.iter().any(|name| Looks::new(name, parting) == Looks::Text)
+        && names.iter().all(|name| Looks::new(name) != Looks::Number)
+        && names.iter().any(|name| Looks::new(name) == Looks::Text)
 }
 
 /// Whether a line says how values were sampled, like the fourth line of a TOA5 file.
@@ -255,7 +254,7 @@ impl<R: Read> Lines<R> {
             }
             line.text.clear();
             match std::str::from_utf8(&self.buffer) {
-                Ok(text) => line.text.push_str(text.trim_start_matches('\u{feff}')),
+                Ok(text) => line.text.extend(text.chars().filter(|c| !is_invisible(*c))),
                 // Older instruments write Latin-1.
                 Err(_) => line.text.extend(self.buffer.iter().map(|byte| char::from(*byte))),
             }

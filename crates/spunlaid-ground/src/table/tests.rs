@@ -22,6 +22,8 @@ fn headers_are_taken_apart_however_they_are_spelt() {
         ("v m/s", "v", Some("m/s")),
         ("mean_u_cm_s", "mean_u", Some("cm_s")),
         ("velocity_x", "velocity_x", None),
+        ("intensity [-]", "intensity", None),
+        ("ratio (1)", "ratio", None),
         ("cutoff_frequency_hz", "cutoff_frequency", Some("hz")),
         ("", "", None),
         ("_", "", None),
@@ -43,6 +45,11 @@ fn rows_begin_below_the_names_whatever_is_above_them() {
         "t s u m/s\n0 1.5\n1 2.5\n".replace("t s", "t_s").as_str(),
         "t\tu\ns\tm/s\n0\t1.5\n1\t2.5\n",
         "\"t_s\",\"u_m_s\"\n\"0\",\"1.5\"\n\"1\",\"2.5\",,\n",
+        // Decimal commas in quotation marks, and characters that take no room.
+        "\"t_s\",\"u_m_s\"\n\"0,0\",\"1,5\"\n\"1,0\",\"2,5\"\n",
+        "\u{feff}t_s\u{200b},u\u{ad}_m_s\n0,1.5\u{2060}\n\u{200e}1,2.5\n",
+        // The faces between points that CFX-Post writes below them.
+        "[Name]\nPlane 1\n\n[Data]\nt [ s ], u [ m s^-1 ]\n0, 1.5\n1, 2.5\n\n[Faces]\n0, 1, 2\n1, 2, 3, 4\n",
     ] {
         let (names, read) = read(text, &[0, 1]);
         assert_eq!((names, &read), (vec!["t".to_owned(), "u".to_owned()], &rows), "{text}");
@@ -95,6 +102,25 @@ fn faults_name_line_and_column() {
     );
     assert!(message("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cell and needs 2"));
     assert_eq!(message("t,u\n0,1\n1,\n"), "");
+}
+
+#[test]
+fn rejects_a_comma_in_quotation_marks_that_may_be_either_sign_and_a_further_block() {
+    let refused = |text: &str| {
+        let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
+        loop {
+            match table.next_row() {
+                Ok(true) => table.number(1).map(drop).unwrap(),
+                Ok(false) => return String::new(),
+                Err(error) => return error.to_string(),
+            }
+        }
+    };
+    let said = refused("t_s,u\n0,\"1,234\"\n1,\"2,345\"\n");
+    assert!(said.contains("may be 1.234 or 1234"), "{said}");
+    assert_eq!(refused("t_s,u\n0,\"1,234\"\n1,\"2,34\"\n"), "");
+    let said = refused("[Data]\nt_s,u\n0,1\n1,2\n[Faces]\n0,1,2\n[Name]\nPlane 2\n[Data]\nt_s,u\n0,1\n");
+    assert!(said.contains("another block of data begins here"), "{said}");
 }
 
 #[test]

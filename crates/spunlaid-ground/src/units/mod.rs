@@ -4,6 +4,7 @@ mod expression;
 mod spelling;
 mod table;
 
+use crate::error::is_invisible;
 pub use crate::error::{excerpt, shortest};
 pub use expression::{Expression, Powers, unknown_name};
 pub use spelling::{plain_spelling, readings, si_unit_of, udunits, with_decimal_point};
@@ -82,7 +83,8 @@ impl Dimension {
     /// If the text is not a finite number followed by a unit of this dimension.
     pub fn parse(self, text: &str) -> Result<f64, Fault> {
         let wrong = |message: Cow<'static, str>| Fault::new(message, format!("write {}", UnitAdvice(self)));
-        let text = text.trim();
+        let visible: String = text.trim().chars().filter(|c| !is_invisible(*c)).collect();
+        let text = visible.trim();
         let (number, rest) = split_number(text);
         if number.is_empty() {
             let word = text.trim_start_matches(['+', '-']).to_ascii_lowercase();

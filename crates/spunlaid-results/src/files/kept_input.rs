@@ -64,18 +64,33 @@ pub fn copy<'a>(
 ) -> Result<BTreeMap<PathBuf, PathBuf>, Failure> {
     let mut copied = BTreeMap::new();
     for (file, parts) in files {
-        if copied.contains_key(file) {
-            continue;
-        }
-        let name = unused(file, !parts.is_empty(), &copied);
+        let Some(name) = place(file, parts, &mut copied) else { continue };
         copy_file(file, &folder.join(&name))?;
         // The parts of a list lie where it says, seen from its own folder.
         let [from, to] =
             [file, &folder.join(&name)].map(|file| file.parent().unwrap_or(Path::new("")).to_owned());
         parts.iter().try_for_each(|part| copy_file(&from.join(part), &to.join(part)))?;
-        copied.insert(file.to_owned(), Path::new(CASE_FILES).join(name));
     }
     Ok(copied)
+}
+
+/// The path that the copy of each file has, relative to the results folder.
+pub fn places<'a>(files: impl IntoIterator<Item = FileWithParts<'a>>) -> BTreeMap<PathBuf, PathBuf> {
+    let mut copied = BTreeMap::new();
+    for (file, parts) in files {
+        place(file, parts, &mut copied);
+    }
+    copied
+}
+
+/// Adds the copy of a file to those that there are. Returns its path in their folder; None if there is one already.
+fn place(file: &Path, parts: &[PathBuf], copied: &mut BTreeMap<PathBuf, PathBuf>) -> Option<PathBuf> {
+    if copied.contains_key(file) {
+        return None;
+    }
+    let name = unused(file, !parts.is_empty(), copied);
+    copied.insert(file.to_owned(), Path::new(CASE_FILES).join(&name));
+    Some(name)
 }
 
 fn copy_file(from: &Path, to: &Path) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ mod report;
 use crate::Failure;
 use crate::failure::other_study;
 use crate::files::folder::{CASE_FILES, Staging};
-use crate::files::kept_input::copy;
+use crate::files::kept_input::{copy, places};
 use crate::files::origin::Origin;
 use crate::files::table::TABLES;
 use crate::folders::{Contents, JournalFolder, Maker, Making, Page, Work, remove};
@@ -23,8 +23,9 @@ use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{MOST_REPLICATES, SpinSpec, spinline};
 use spunlaid::ground::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::{fs, io};
 
@@ -128,10 +129,20 @@ fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Fai
 
 /// The error that lists how the study in a folder differs.
 fn differs(place: &Path, file: &StudyFile) -> Failure {
+    let copied = places(files_of(file));
     let mut all = Vec::new();
-    for (name, now) in [(STUDY, &file.text), (file.base_name(), &file.base_text)] {
+    for (name, now) in [(STUDY, &file.text), (file.base_name(), &with_files_at(file, &copied))] {
         let was = fs::read_to_string(place.join(name)).unwrap_or_default();
         all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+    }
+    for (from, to) in &copied {
+        let copy = place.join(to);
+        if copy.exists() && fs::read(from).ok() != fs::read(&copy).ok() {
+            let [from, copy] = [from, &copy].map(|path| path.display());
+            all.push(format!(
+                "{from}: its content has changed; {copy} has what the results were computed with"
+            ));
+        }
     }
     other_study(place, all)
 }
@@ -181,19 +192,31 @@ impl Contents for FoundStudy<'_> {
 
 /// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
 fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
-    let files = file.study.points.iter().flat_map(|point| match &point.experiment {
+    let copied = copy(files_of(file), &staging.place(CASE_FILES).0)?;
+    Ok(with_files_at(file, &copied))
+}
+
+/// The files that all points name, with the files that these name.
+fn files_of(file: &StudyFile) -> impl Iterator<Item = (&Path, &[PathBuf])> {
+    file.study.points.iter().flat_map(|point| match &point.experiment {
         Experiment::Case(case) => case.files(),
         Experiment::Spinline(spec) => spec.files(),
         Experiment::Web(web) => web.files(),
-    });
-    let copied = copy(files, &staging.place(CASE_FILES).0)?;
+    })
+}
+
+/// The text of the case with the paths of copies.
+fn with_files_at(file: &StudyFile, copied: &BTreeMap<PathBuf, PathBuf>) -> String {
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
-    Ok(copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
+    copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
         let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+        let literal = |path: &Path| format!("'{}'", path.display());
         // A case is the text of its user; a web has been written with whole paths.
         let written = [from, from.strip_prefix(folder).unwrap_or(from)];
-        written.into_iter().fold(text, |text, from| text.replace(&quoted(from), &quoted(to)))
-    }))
+        written.into_iter().fold(text, |text, from| {
+            text.replace(&quoted(from), &quoted(to)).replace(&literal(from), &quoted(to))
+        })
+    })
 }
 
 /// Largest number of lost fibres that are listed.
