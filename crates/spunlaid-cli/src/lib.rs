@@ -64,9 +64,20 @@ fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
+/// The same program, whose options take numbers below zero as values, so that the message is that of the value.
+fn with_negative_numbers(program: clap::Command) -> clap::Command {
+    let takes_values = |argument: &clap::Arg| argument.get_action().takes_values();
+    program.mut_subcommands(|command| {
+        command.mut_args(|argument| match takes_values(&argument) {
+            true => argument.allow_negative_numbers(true),
+            false => argument,
+        })
+    })
+}
+
 /// The command of a command line.
 fn parse(words: &[OsString]) -> Result<(Invocation, Arguments), clap::Error> {
-    let matches = Arguments::command().try_get_matches_from(words)?;
+    let matches = with_negative_numbers(Arguments::command()).try_get_matches_from(words)?;
     Ok((Invocation::new(&matches, words), Arguments::from_arg_matches(&matches)?))
 }
 

@@ -27,6 +27,13 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
         let fault = Fault::new(format!("is read as a {kind}, and {option} is for {other} only"), remedy);
         return Err(refuse(fault).into());
     }
+    if analyse.record.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let fault = Fault::new(
+            "is the file of a case, a web or a study by its name, not a velocity record or a scan",
+            "`spunlaid check` shows what it says; name the record or the scan",
+        );
+        return Err(refuse(fault).into());
+    }
     let is_told = is_scan || invocation.first_option::<RecordOptions>().is_some();
     let unnamed = columns_of_map(&analyse.record).filter(|_| !is_told);
     unnamed.map_or(Ok(()), |columns| Err(refuse(unknown_table(columns))))?;

@@ -28,14 +28,15 @@ impl fmt::Display for UnitAdvice {
             return f.write_str("a plain number like 0.1, or a percentage like \"10 %\"");
         }
         write!(f, "{} with its unit: ", self.0.name())?;
-        let units = self.0.units();
+        let units: Vec<&str> =
+            self.0.units().iter().map(|unit| unit.shown).filter(|shown| !shown.is_empty()).collect();
         for (i, unit) in units.iter().enumerate() {
             let joint = match i {
                 0 => "",
                 _ if i + 1 == units.len() => " or ",
                 _ => ", ",
             };
-            write!(f, "{joint}{}", unit.shown)?;
+            write!(f, "{joint}{unit}")?;
         }
         Ok(())
     }
@@ -69,6 +70,11 @@ impl Dimension {
         }
     }
 
+    /// Whether a number without a unit is a value.
+    pub fn takes_plain_numbers(self) -> bool {
+        self.units().iter().any(|unit| unit.plain.is_empty())
+    }
+
     /// The fault of a number without a unit.
     pub fn no_unit(self) -> Fault {
         Fault::new("has no unit", format!("write {}", UnitAdvice(self)))
@@ -96,7 +102,8 @@ impl Dimension {
         }
         let digit_follows = rest.chars().nth(1).is_some_and(|c| c.is_ascii_digit());
         if digit_follows && rest.starts_with(',') {
-            return Err(spelling::comma(text));
+            return with_decimal_point(text)
+                .map_or_else(|| Err(spelling::comma(text)), |text| self.parse(&text));
         }
         if digit_follows && rest.starts_with('_') {
             let mended = excerpt(&text.replace('_', ""), 40);
@@ -120,7 +127,7 @@ impl Dimension {
             Ten(power) => shifted(number, power),
             Times(factor) => shifted(number, 0).map(|value| value * factor),
             Over(divisor) => shifted(number, 0).map(|value| value / divisor),
-            Above(zero) => shifted(number, 0).map(|value| value + zero),
+            Above(zero, size) => shifted(number, 0).map(|value| value * size + zero),
         };
         match value {
             Some(value) if value.is_finite() => Ok(value),
@@ -139,7 +146,7 @@ impl Dimension {
             return plain;
         }
         let short = |unit: &table::Unit| {
-            let zero = if let Above(zero) = unit.scale { zero } else { 0.0 };
+            let zero = if let Above(zero, _) = unit.scale { zero } else { 0.0 };
             let number: f64 = format!("{:.*e}", FEW - 1, (value - zero) / unit.scale.size()).parse().ok()?;
             let text = with_unit(&shortest(number), unit.shown);
             self.parse(&text).is_ok_and(|read| read == value).then_some((unit.pretty, text))
@@ -170,7 +177,7 @@ impl Dimension {
         let decimals = digits.saturating_sub(1).min(16);
         let best = self.unit_for(value, decimals);
         let zero = self.units().iter().find_map(|unit| match unit.scale {
-            Above(zero) if unit.pretty => Some((zero, unit.shown)),
+            Above(zero, _) if unit.pretty => Some((zero, unit.shown)),
             _ => None,
         });
         let (number, unit) = zero.map_or((value / best.0, best.1), |(zero, unit)| (value - zero, unit));
@@ -186,7 +193,7 @@ impl Dimension {
         let others = self.units().iter().filter(|unit| unit.shown != own && unit.shown != "%");
         let fits = others.filter(|unit| match unit.scale {
             Ten(power) => (least..=greatest).contains(&(digits.abs() * 10f64.powi(power))),
-            Times(_) | Over(_) | Above(_) => false,
+            Times(_) | Over(_) | Above(..) => false,
         });
         fits.map(|unit| with_unit(&shortest(digits), unit.shown)).collect()
     }
@@ -208,7 +215,7 @@ impl Dimension {
         if value != 0.0 && value.is_finite() {
             // The largest unit that gives a number of at least one, or else the smallest unit.
             let mut sizes: Vec<(f64, &str)> = (self.units().iter().filter(|unit| unit.pretty))
-                .filter(|unit| !matches!(unit.scale, Above(_)))
+                .filter(|unit| !matches!(unit.scale, Above(..)))
                 .map(|unit| (unit.scale.size(), unit.shown))
                 .collect();
             sort_by_key(&mut sizes, |(size, _)| Reverse(*size));

@@ -9,8 +9,8 @@ pub(super) enum Scale {
     Times(f64),
     /// The inverse: one SI unit is this number of these units.
     Over(f64),
-    /// Counted from a zero that is this number of SI units.
-    Above(f64),
+    /// Counted from a zero that is this number of SI units, in steps of so many.
+    Above(f64, f64),
 }
 
 impl Scale {
@@ -20,7 +20,7 @@ impl Scale {
             Self::Ten(power) => 10f64.powi(power),
             Self::Times(size) => size,
             Self::Over(number) => 1.0 / number,
-            Self::Above(_) => 1.0,
+            Self::Above(_, size) => size,
         }
     }
 }
@@ -95,8 +95,11 @@ dimensions! {
         unit("kg/m", "kg/m", Ten(0)), also("g/m", "g/m", Ten(-3)), unit("tex", "tex", Ten(-6)),
         unit("dtex", "dtex", Ten(-7)), also("den", "den", Over(9e6))];
     /// [kg/m²]
+    // An ounce is 28.349523125 g, a yard 0.9144 m.
     BasisWeight "a basis weight" [-2.0, 1.0, 0.0, 0.0, 0.0] [
-        unit("kg/m²", "kg/m2", Ten(0)), unit("g/m²", "g/m2", Ten(-3)), also("gsm", "gsm", Ten(-3))];
+        unit("kg/m²", "kg/m2", Ten(0)), unit("g/m²", "g/m2", Ten(-3)), also("gsm", "gsm", Ten(-3)),
+        also("osy", "osy", Times(0.028_349_523_125 / (0.9144 * 0.9144))),
+        also("oz/yd²", "oz/yd2", Times(0.028_349_523_125 / (0.9144 * 0.9144)))];
     /// [Pa]
     Pressure "a pressure" [-1.0, 1.0, -2.0, 0.0, 0.0] [
         unit("Pa", "Pa", Ten(0)), unit("kPa", "kPa", Ten(3)), unit("MPa", "MPa", Ten(6)),
@@ -108,7 +111,8 @@ dimensions! {
     Acceleration "an acceleration" [1.0, 0.0, -2.0, 0.0, 0.0] [unit("m/s²", "m/s2", Ten(0))];
     /// [K]
     Temperature "a temperature" [0.0, 0.0, 0.0, 1.0, 0.0] [
-        unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15))];
+        unit("K", "K", Ten(0)), unit("°C", "°C", Above(273.15, 1.0)),
+        also("°F", "°F", Above(459.67 * 5.0 / 9.0, 5.0 / 9.0))];
     /// [Pa s]
     DynamicViscosity "a viscosity" [-1.0, 1.0, -1.0, 0.0, 0.0] [
         unit("Pa s", "Pa s", Ten(0)), also("Pa·s", "Pa·s", Ten(0)), also("mPa s", "mPa s", Ten(-3))];
@@ -168,6 +172,9 @@ dimensions! {
     Angle "an angle" [0.0, 0.0, 0.0, 0.0, 0.0] [
         also("rad", "rad", Ten(0)), unit("°", "°", Over(180.0 / std::f64::consts::PI)),
         also("deg", "deg", Over(180.0 / std::f64::consts::PI))];
+    /// [g/10 min], as it is always given; a plain number is one too.
+    MeltFlowRate "a melt flow rate" [0.0, 0.0, 0.0, 0.0, 0.0] [
+        unit("g/10min", "g/10min", Ten(0)), also("g/10 min", "g/10 min", Ten(0)), also("", "", Ten(0))];
     /// A plain number, or a percentage.
     Ratio "a ratio" [0.0, 0.0, 0.0, 0.0, 0.0] [unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 }

@@ -87,6 +87,18 @@ pub fn keys_page(word: &str, of: Option<FileKind>) -> Result<String, Fault> {
 /// The keys with a word.
 fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> Result<Vec<KeyEntry>, Fault> {
     let word = pattern.trim().to_lowercase();
+    let is_plain = |word: &str| {
+        let has =
+            |key: &WebKey| key.has_word(word) || key.key_of_case().is_some_and(|key| key.has_word(word));
+        WEB_KEYS.iter().any(has)
+            || keys::all().iter().any(|key| key.has_word(word))
+            || STUDY.rows.iter().any(|key| key.has_word(word))
+    };
+    // A plural that stands nowhere is its singular.
+    let word = match word.strip_suffix('s') {
+        Some(singular) if singular.len() > 2 && !is_plain(&word) => singular.to_owned(),
+        _ => word,
+    };
     let is_of_web =
         |key: &&WebKey| key.has_word(&word) || key.key_of_case().is_some_and(|key| key.has_word(&word));
     let web_keys = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::from_web_key);

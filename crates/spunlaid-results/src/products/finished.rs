@@ -18,7 +18,12 @@ const SUMMARY: &str = "summary.json";
 pub fn read_summary_of_run(folder: &Path) -> Result<Json, Failure> {
     let summary = read_summary(folder)?;
     if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
-        let reason = format!("{SUMMARY} is not that of a run");
+        let reason = match summary.get("spinline") {
+            Some(_) => {
+                "it holds a spinline, which has no chance in it: read its numbers side by side".to_owned()
+            }
+            None => format!("{SUMMARY} is not that of a run"),
+        };
         return Err(Error::not_a_run(folder, &reason));
     }
     Ok(summary)

@@ -162,7 +162,7 @@ pub(super) fn number(dimension: Dimension, value: &DeValue<'_>) -> Result<f64, F
             return Err(Fault::wrong_type(kind(other), UnitAdvice(dimension)));
         }
     };
-    if dimension == Dimension::Ratio { dimension.parse(text) } else { Err(dimension.no_unit()) }
+    if dimension.takes_plain_numbers() { dimension.parse(text) } else { Err(dimension.no_unit()) }
 }
 
 fn vector(value: &DeValue<'_>) -> Result<Vec3<f64>, Fault> {

@@ -2,7 +2,7 @@
 
 use crate::fibre::case::keys::{self, Key, Omission, Value};
 use crate::ground::error::Place;
-use crate::ground::{Fault, Finding, Problem};
+use crate::ground::{Fault, Finding, Position, Problem};
 use crate::simulation::layers::full_names::displaced_by;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -189,8 +189,11 @@ impl WrittenValues {
     }
 }
 
-/// Sorts findings by their place: first the file, then the overrides.
+/// Sorts findings by their place: first what is written in the file, then the overrides, then what is missing, which
+/// may follow from the others.
 pub(super) fn sorted<W>(mut findings: Vec<Finding<W>>) -> Vec<Finding<W>> {
-    findings.sort_by(|a, b| a.place.cmp(&b.place));
+    let is_missing =
+        |finding: &Finding<W>| matches!(finding.place, Place::File { position: Position::Whole, .. });
+    findings.sort_by(|a, b| is_missing(a).cmp(&is_missing(b)).then_with(|| a.place.cmp(&b.place)));
     findings
 }

@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Remark;
+use spunlaid::ground::{Fault, FileError, Problem};
 use spunlaid::input::Resources;
 use spunlaid_results::products::air::{AirFolder, AirViews, Slices};
 use std::sync::atomic::AtomicU64;
@@ -28,7 +29,16 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         return points::points(air, file);
     }
     let mut resources = Resources::default();
-    let is_uniform = air.source.read(&[], &resources)?.0.air.lateral == Lateral::Uniform;
+    let (case, _) = air.source.read(&[], &resources)?;
+    if !case.air.records.is_empty() {
+        let fault = Fault::new(
+            "has the air of a record (air.record), which was measured at one point, so that nothing is known of its \
+             gusts in space",
+            "take the numbers and the spectrum of the record (spunlaid analyse) instead of it",
+        );
+        return Err(FileError::from(Problem::with_path(&air.source.case, fault)).into());
+    }
+    let is_uniform = case.air.lateral == Lateral::Uniform;
     let more = is_uniform.then(|| ("air.lateral", "von-karman".to_owned()));
     let read = |resources: &Resources| air.source.read(more.as_slice(), resources);
     let (case, notes) = settled_with(&mut resources, air.threads, air.output.quiet, read)?;

@@ -70,7 +70,7 @@ impl FabricKeys {
     };
 }
 
-/// Words, and what there is for them.
+/// Words that are no keys, and what there is for them.
 const WORDS: &[(&[&str], &str)] = &[
     (
         &["formation", "cloudiness", "evenness", "uniformity"],
@@ -98,13 +98,23 @@ const WORDS: &[(&[&str], &str)] = &[
         the ratio of two webs, not the number (docs/fabric.md).",
     ),
     (
+        &["bond", "bonding", "calender", "calendering", "thermal bonding"],
+        "There is nothing for bonds and calender: the web ends on the belt. What they make of it, strength, softness \
+        and holes, is not known here.",
+    ),
+    (
+        &["cabin", "cabin pressure", "blower", "fan"],
+        "Pressures of cabin and blower are not read: write the speed of the air that they make, which the line \
+        shows or a probe measures (air.velocity; `spunlaid new --web` asks for it as --air-speed).",
+    ),
+    (
         &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
         "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
         program knows nothing.",
     ),
 ];
 
-/// What there is for a word of those who buy fabric; None for any other word.
+/// What there is for a word of those who make or buy fabric that is no key; None for any other word.
 pub fn about(word: &str) -> Option<&'static str> {
     let word = word.trim().to_lowercase().replace('-', " ");
     let singular = word.strip_suffix('s').unwrap_or(&word);

@@ -23,6 +23,7 @@ pub(super) const KEYS: &[Key] = &[
              fine fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Sources and ranges: \
              docs/theory.md.",
         )
+        .synonyms(&["drag law", "drag coefficient"])
         .label("Law of the drag across the fibre")
         .in_flight(),
     quantity("drag.friction_coefficient", Dimension::Ratio, NotNegative, (0.01, 10.0))

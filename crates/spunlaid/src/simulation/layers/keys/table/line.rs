@@ -240,7 +240,7 @@ pub(super) const DEFECTS: &[WebKey] = &[
              `defects = [{ from = \"0.5 m\" }, …]`. `from` alone is the nearest hole, by default a \
              blocked one; with `to`, all holes between.",
         )
-        .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak"])
+        .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak", "stripe"])
         .label("Place where a defect begins"),
     quantity("line.defects.to", Dimension::Length, Sign::NotNegative, (1e-6, 30.0))
         .access(at!(defect, defect_mut, to))

@@ -68,7 +68,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .meaning(
             "Measured velocity record, CSV or Parquet, whose fluctuation moves the fibre. A list has \
              one for each eddy.",
-        ),
+        )
+        .synonyms(&["hot wire", "anemometer"]),
     quantity("air.record_rate", Dimension::Frequency, Positive, (10.0, 1e6))
         .access(of_record!(rate, Value::Number, number))
         .follows("the rate of the record's time column")

@@ -85,7 +85,7 @@ const LINE: &[Key] = &[
         )
         .label("Polymer")
         .varies(),
-    quantity("spinline.melt_flow_rate", Dimension::Ratio, Positive, (0.5, 3000.0))
+    quantity("spinline.melt_flow_rate", Dimension::MeltFlowRate, Positive, (0.5, 3000.0))
         .access(Access {
             get: |case| match case.spinline.as_ref()?.melt {
                 Melt::FlowRate(rate) => Some(Value::Number(rate)),
