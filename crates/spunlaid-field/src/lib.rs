@@ -57,7 +57,8 @@
 //! The air at any place, [`Local`]: velocity, `k`, `ε` and whether the place lies in the field. On a
 //! [lattice](Field::lattice) it is linear in each coordinate. In a [mesh](Field::mesh) it is linear in tetrahedra.
 //! Among [points](Field::points) of a plane flow it is linear in triangles, and in space a weighted mean of the nearest
-//! eight. A flow that is linear in space is reproduced exactly. Outside the field it is the air at the edge. Warnings say what was left out or corrected.
+//! eight. A flow that is linear in space is reproduced exactly. Outside the field it is the air at the edge. Warnings
+//! say what was left out or corrected.
 //!
 //! **Limits.** Coordinates and values lie within ±1e30. A file is held in memory while it is read. Further memory is
 //! taken only for the bytes that are there, never for what a header promises.

@@ -2,6 +2,7 @@
 
 use crate::source::{Source, full_path, stem};
 use crate::value::{overrides, to_python};
+use crate::warning::{CALLED, warn_at};
 use crate::watched::{guarded, settled};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -14,7 +15,7 @@ use spunlaid::ground::{FileKind, Vec3};
 use spunlaid::input::{
     Overrides, Resources, read_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
-use spunlaid_results::products::air::{POINT_COLUMNS, point_row};
+use spunlaid_results::products::air::{POINT_COLUMNS, outside, point_row};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -227,9 +228,12 @@ impl Case {
         points: &Bound<'py, PyAny>,
         axes: Option<&str>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let places: Vec<[f64; 3]> = points.extract().map_err(|_| {
+        let wrong = |_| {
             PyValueError::new_err("points must have three coordinates in metres each, as an array of n x 3")
-        })?;
+        };
+        // Also what NumPy makes an array of, as tables of pandas.
+        let array = py.import("numpy")?.call_method1("asarray", (points, "float64")).map_err(wrong)?;
+        let places: Vec<[f64; 3]> = array.extract().map_err(wrong)?;
         let places: Vec<Vec3<f64>> = places.into_iter().map(|[x, y, z]| Vec3::new(x, y, z)).collect();
         let axes = match axes {
             None => self.case.air.usual_axes(),
@@ -238,6 +242,7 @@ impl Case {
             })?,
         };
         let found = guarded(py, || self.case.air.at_points(&places, axes))?;
+        outside(&places, &found).into_iter().try_for_each(|text| warn_at(py, CALLED, "", &text))?;
         let rows: Vec<_> = places.iter().zip(&found).map(|(at, air)| point_row(*at, *air)).collect();
         let column = |i: usize| PyArray1::from_iter(py, rows.iter().map(|row| row[i]));
         POINT_COLUMNS.into_iter().zip((0..).map(column)).into_py_dict(py)

@@ -6,6 +6,7 @@ use crate::save::{Figures, figure_files};
 use crate::source::Source;
 use crate::table::{column, locked};
 use crate::value::overrides;
+use crate::warning::warn_of;
 use crate::watched::{Watch, guarded, settled, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -13,10 +14,12 @@ use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Overrides, read_spinline, write_spinline};
 use spunlaid::simulation::{CurveValue, Trajectory};
+use spunlaid::web::Map;
 use spunlaid_results::Failure;
 use spunlaid_results::files::folder::{Staging, copy};
 use spunlaid_results::folders::Contents;
 use spunlaid_results::products::comparison::{ComparedFolders, Folders};
+use spunlaid_results::products::finished::read_measured_web;
 use spunlaid_results::products::run::RunFolder;
 use spunlaid_results::products::scan::ScanFolder;
 use spunlaid_results::products::spinline::SpinFolder;
@@ -109,9 +112,7 @@ impl Computed {
             Of::Scan(scan) => &scan.findings.map,
             _ => return Ok(None),
         };
-        let weight = map.weight_of_quantum();
-        let values = py.detach(|| map.cells.iter().map(|cell| f64::from(*cell) * weight).collect());
-        locked(PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?.as_any()).map(Some)
+        weights(py, map).map(Some)
     }
 
     /// The measures of a run that are curves: a dict for each.
@@ -206,6 +207,7 @@ pub(crate) fn solve_spinline(
     let set = Overrides::new(&changes, "spin:");
     let Source { name, text, file } = Source::read(py, path, FileKind::Case, "spinline")?;
     let file = settled(py, None, |resources| read_spinline((&text, &file), set.with(resources)))?;
+    warn_of(py, &file.notes)?;
     let spinline = guarded(py, || SpinFolder::solve(name.clone(), file))?;
     Ok(Computed { name, of: Of::Spinline(Box::new(spinline)) })
 }
@@ -214,6 +216,20 @@ pub(crate) fn solve_spinline(
 #[pyfunction]
 pub(crate) fn copy_results(py: Python<'_>, source: PathBuf, target: PathBuf, force: bool) -> PyResult<()> {
     guarded(py, || copy(&source, &target, force, &AtomicBool::new(false)))
+}
+
+/// The map of a web that was laid or scanned, from its results folder.
+#[pyfunction]
+pub(crate) fn map_of_folder(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>> {
+    let map = guarded(py, || Ok(read_measured_web(&folder)?.map))?;
+    weights(py, &map)
+}
+
+/// Basis weight of every cell [kg/m2]: rows in machine direction x columns in cross direction.
+fn weights<'py>(py: Python<'py>, map: &Map) -> PyResult<Bound<'py, PyAny>> {
+    let weight = map.weight_of_quantum();
+    let values = py.detach(|| map.cells.iter().map(|cell| f64::from(*cell) * weight).collect());
+    locked(PyArray1::from_vec(py, values).reshape([map.rows, map.columns])?.as_any())
 }
 
 /// Compares folders. See spunlaid.compare, which calls it.

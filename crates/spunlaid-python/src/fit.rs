@@ -3,6 +3,7 @@
 use crate::save::{Figures, figure_files};
 use crate::source::stem;
 use crate::value::overrides;
+use crate::warning::warn_of;
 use crate::watched::{Watch, guarded, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::{Journal, WebInProgress};
@@ -45,6 +46,7 @@ pub(crate) fn find_fit(
     let vary: Vec<String> = vary.collect();
     let set = Overrides::new(&changes, "set:");
     let file = settled(py, threads, |resources| read_fit(&path, set.with(resources), &vary, "vary:"))?;
+    warn_of(py, &file.start.notes)?;
     let target = guarded(py, || folder::target(&to, &file, spectrum))?;
     let (name, figures) = (stem(&path), figure_files(figures)?);
     let paths = [&path, &to].map(|path| path.display().to_string());

@@ -63,14 +63,14 @@ impl Flight {
     /// Advances all fibres by a time, to the nearest whole step: step("10 ms"), or step(0.01) in seconds.
     fn step(&self, py: Python<'_>, duration: &Bound<'_, PyAny>) -> PyResult<()> {
         let duration = seconds(duration)?;
-        let now = self.time(py)?;
-        self.fly_to(py, now + duration)
+        self.fly_to(py, |now| now + duration)
     }
 
     /// Advances all fibres to a time, "10 ms" or in seconds, to the nearest whole step. Ctrl-C stops them at
     /// a step in between.
     fn step_to(&self, py: Python<'_>, time: &Bound<'_, PyAny>) -> PyResult<()> {
-        self.fly_to(py, seconds(time)?)
+        let time = seconds(time)?;
+        self.fly_to(py, |_| time)
     }
 
     /// Changes a key while the fibres fly: set("air.velocity", 12.0) in SI units, or "12 m/s". keys() says which keys
@@ -171,13 +171,17 @@ impl Flight {
         lock(&self.packs)
     }
 
-    fn fly_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+    /// Flies to a time.
+    ///
+    /// * `end` – the time from that of now: no other thread steps the fibres in between
+    fn fly_to(&self, py: Python<'_>, end: impl FnOnce(f64) -> f64 + Send) -> PyResult<()> {
         let watch = Watch::default();
         let stop = &watch.stop;
         watched(py, &watch, None, || {
             let mut packs = self.lock();
             let Some(first) = packs.first() else { return Ok(()) };
             let (mut now, slice) = (first.time(), STEPS * first.time_step());
+            let time = end(now);
             // Slices for a time that can be reached; any other goes to the library, which says what is wrong with it.
             let is_far = time / first.time_step() < MOST_STEPS && time > now + slice;
             loop {

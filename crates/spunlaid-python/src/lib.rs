@@ -4,6 +4,7 @@
 //! ```text
 //! failure   errors as exceptions        value     values of Python as those of keys
 //! watched   work without the lock of the interpreter, with Ctrl-C and progress
+//! warning   what the program prints as a warning, as one of Python
 //! save      figures as asked for        source    the file that a user names
 //! computed  results of a run, a web, a scan, a spinline, a comparison, which are what goes into their folder
 //! case, run, flight, air, study, web, scan, record, fit, keys     the other classes and functions
@@ -17,6 +18,7 @@ mod failure;
 mod save;
 mod source;
 mod value;
+mod warning;
 mod watched;
 
 mod case;
@@ -45,7 +47,7 @@ mod _spunlaid {
         air::AirSampler,
         bundle::fly_bundle,
         case::Case,
-        computed::{Computed, compare_folders, copy_results, solve_spinline},
+        computed::{Computed, compare_folders, copy_results, map_of_folder, solve_spinline},
         fit::find_fit,
         flight::Flight,
         keys::{column_unit, keys, measures, program, removed},

@@ -1,12 +1,14 @@
 //! `analyse`: the statistics of the air in a velocity record.
 
+use crate::value::positive;
+use crate::warning::warn;
 use crate::watched::{Watch, watched};
 use numpy::{PyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use spunlaid::air::record::{analyse as analysed, read_record};
 use spunlaid::air::{Component, IntegralRule, Layout, Reading, Record, Samples, Settings};
-use spunlaid::ground::Error;
+use spunlaid::ground::{Dimension, Error};
 use spunlaid_results::products::record::{air_block, analysis_json};
 use std::path::PathBuf;
 
@@ -30,7 +32,7 @@ type Curves<'py> = [Bound<'py, PyArray1<f64>>; 4];
 pub(crate) fn analyse<'py>(
     py: Python<'py>,
     record: &Bound<'py, PyAny>,
-    rate: Option<f64>,
+    rate: Option<Bound<'py, PyAny>>,
     mean_velocity: Option<f64>,
     flat_until: Option<f64>,
     integral: Option<&str>,
@@ -43,7 +45,8 @@ pub(crate) fn analyse<'py>(
     let integral =
         integral.map(rule).transpose().map_err(|text| PyValueError::new_err(format!("integral = {text}")))?;
     let integral = integral.unwrap_or_default();
-    for (name, value) in [("rate", rate), ("mean_velocity", mean_velocity), ("flat_until", flat_until)] {
+    let rate = rate.map(|rate| positive("rate", &rate, Dimension::Frequency)).transpose()?;
+    for (name, value) in [("mean_velocity", mean_velocity), ("flat_until", flat_until)] {
         let positive = name != "mean_velocity";
         if value.is_some_and(|value| !value.is_finite() || positive && value <= 0.0) {
             return Err(PyValueError::new_err(format!(
@@ -62,6 +65,7 @@ pub(crate) fn analyse<'py>(
         let analysis = analysed(&record, &settings).map_err(Error::File)?;
         Ok((record, analysis))
     })?;
+    analysis.warnings.iter().try_for_each(|text| warn(py, &text.to_string()))?;
     let curves = |component: &Component| {
         let (density, coefficients) = (&component.spectrum.density, &component.autocorrelation.coefficients);
         let frequencies = (0..density.len()).map(|i| component.spectrum.frequency(i));

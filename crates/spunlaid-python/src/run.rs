@@ -2,13 +2,14 @@
 
 use crate::case::Case;
 use crate::computed::{Computed, Of};
-use crate::watched::{Watch, watched};
+use crate::warning::{warn, warn_of};
+use crate::watched::{Watch, guarded, watched};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::products::run::{Flights, RunFolder, fly as flown};
+use spunlaid_results::products::run::{Flights, RunFolder, fly as flown, found};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -29,6 +30,7 @@ pub(crate) fn fly(
 ) -> PyResult<Computed> {
     let (case, notes, name) = case.settled(py, threads).map(|(of, notes)| (of, notes, case.stem()))?;
     let plans = if check_step { FinerPlans::for_case(&case) } else { FinerPlans::none(Unchecked::NotAsked) };
+    warn_of(py, &notes)?;
     let watch = Watch::new(case.run.steps.saturating_mul(case.run.replicates));
     let (started, computing) = (Instant::now(), watch.control(threads));
     let flown = watched(py, &watch, progress.as_ref(), || {
@@ -40,6 +42,13 @@ pub(crate) fn fly(
     let (is_whole, paths) = (flown.paths.is_some(), flown.paths);
     let results = (flown.results, flown.replicates, is_whole);
     let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, (started, computing));
+    let [lost, outside, _] = found(&run.case, &run.results);
+    lost.iter().chain(&outside).try_for_each(|text| warn(py, text))?;
+    // As many shapes as memory holds may be kept, and each open file counts.
+    for (number, trajectory) in run.results.trajectories.iter_mut().enumerate() {
+        let kept = place.with_file_name(format!("shapes_{number}"));
+        guarded(py, || Ok(trajectory.shapes.close(&kept)?))?;
+    }
     let checks = Mutex::new(plans.before_flight());
     watch.begin(plans.fibre_steps());
     let checked = watched(py, &watch, progress.as_ref().filter(|_| plans.all().next().is_some()), || {

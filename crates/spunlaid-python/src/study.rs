@@ -6,6 +6,7 @@ use crate::failure::{raised_as, without_lines};
 use crate::save::{Figures, figure_files};
 use crate::source::{full_path, stem};
 use crate::value::{AxisScale, overrides, scale};
+use crate::warning::warn_of;
 use crate::watched::{LOOK, Watch, guarded, settled, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyIndexError;
@@ -102,6 +103,7 @@ impl Study {
                 (STUDY.to_owned(), settled(py, threads, read)?)
             }
         };
+        warn_of(py, file.notes.iter().map(|note| &note.note))?;
         let journal = guarded(py, || match &out {
             Some(out) => Ok(folder::open(out, &file, force, None, &NEVER)?.1),
             None => Ok(Journal::in_memory()),
@@ -327,6 +329,27 @@ impl Study {
             // The folder is opened anew, which also sees whether it still holds this study.
             *self.journal() = None;
             let (mut place, mut journal, _) = folder::open(out, &self.file, false, None, &NEVER)?;
+            place.figures = figures;
+            let watch = Watch::default();
+            folder::write(&mut place, &self.name, &self.file, &mut journal, watch.making()).map(drop)
+        })
+    }
+
+    /// Writes the study with all its records to a folder.
+    fn save(&self, py: Python<'_>, path: PathBuf, force: bool, figures: Figures<'_>) -> PyResult<()> {
+        let figures = figure_files(figures)?;
+        guarded(py, || {
+            let points = self.file.study.points.len();
+            let all = self.with_journal(|journal| {
+                let records = (0..points).map(|point| journal.records(point, u64::MAX));
+                Ok(records.collect::<Result<Vec<_>, _>>()?.concat())
+            })?;
+            let (mut place, mut journal, _) = folder::open(&path, &self.file, force, None, &NEVER)?;
+            let lacking: Vec<Record> = all
+                .into_iter()
+                .filter(|record| !journal.holds(record.point as usize, record.replicate))
+                .collect();
+            journal.add(&lacking)?;
             place.figures = figures;
             let watch = Watch::default();
             folder::write(&mut place, &self.name, &self.file, &mut journal, watch.making()).map(drop)

@@ -72,8 +72,8 @@ fn text_of(key: &str, kind: Option<Kind>, value: &Bound<'_, PyAny>) -> PyResult<
     if value.is_none() {
         return Ok("auto".to_owned());
     }
-    if let Ok(flag) = value.cast::<PyBool>() {
-        return Ok(flag.is_true().to_string());
+    if let Some(flag) = flag(value)? {
+        return Ok(flag.to_string());
     }
     if let Ok(text) = value.cast::<PyString>() {
         return unicode(text, || format!("the value of {key} is"));
@@ -122,6 +122,21 @@ fn number_or_path(dimension: Option<Dimension>, value: &Bound<'_, PyAny>) -> PyR
     Ok(path.map(|path| quoted(&path.to_string_lossy())))
 }
 
+/// The value as a boolean, if it is one: of Python or NumPy.
+fn flag(value: &Bound<'_, PyAny>) -> PyResult<Option<bool>> {
+    let is_of_numpy = || {
+        let kind = value.getattr("dtype").and_then(|dtype| dtype.getattr("kind"));
+        kind.is_ok_and(|kind| kind.extract::<String>().is_ok_and(|kind| kind == "b")) && is_single(value)
+    };
+    let is_flag = value.is_instance_of::<PyBool>() || is_of_numpy();
+    if is_flag { value.is_truthy().map(Some) } else { Ok(None) }
+}
+
+/// Whether this is a number of NumPy. Arrays with one element are meant too, but not longer ones.
+fn is_single(value: &Bound<'_, PyAny>) -> bool {
+    value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0))
+}
+
 /// A number of Python.
 pub(crate) enum Number {
     Whole(String),
@@ -156,9 +171,7 @@ pub(crate) fn number(value: &Bound<'_, PyAny>) -> PyResult<Option<Number>> {
         let digits = value.str().and_then(|text| text.to_str().map(str::to_owned));
         return Ok(Some(digits.map_or(Number::Float(f64::INFINITY), Number::Whole)));
     }
-    // Numbers of NumPy; arrays with one element are meant too, but not longer ones.
-    let is_number = value.hasattr("dtype")?
-        && value.getattr("ndim").is_ok_and(|n| n.extract::<usize>().is_ok_and(|n| n == 0));
+    let is_number = value.hasattr("dtype")? && is_single(value);
     Ok(if is_number { value.extract::<f64>().ok().map(Number::Float) } else { None })
 }
 
@@ -188,7 +201,7 @@ pub(crate) fn type_name(value: &Bound<'_, PyAny>) -> String {
 
 /// A value for [`spunlaid::fibre::case::keys::Key::set`] and for changes in flight.
 pub(crate) fn value_of(value: &Bound<'_, PyAny>) -> PyResult<Value> {
-    if value.is_instance_of::<PyBool>() {
+    if flag(value)?.is_some() {
         return Err(PyTypeError::new_err(
             "a key takes a text with a unit or a number in SI units, not a bool",
         ));
@@ -244,7 +257,7 @@ fn unit(dimension: Dimension) -> &'static str {
 }
 
 fn number_of(value: &Bound<'_, PyAny>, wanted: impl Fn() -> String) -> PyResult<f64> {
-    match number(value)?.filter(|_| !value.is_instance_of::<PyBool>()) {
+    match number(value)?.filter(|_| !flag(value).is_ok_and(|flag| flag.is_some())) {
         Some(number) => Ok(number.float()),
         None => Err(PyTypeError::new_err(format!("{}, not {}", wanted(), type_name(value)))),
     }

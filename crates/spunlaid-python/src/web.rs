@@ -3,6 +3,7 @@
 use crate::computed::{Computed, Of};
 use crate::source::Source;
 use crate::value::overrides;
+use crate::warning::warn_of;
 use crate::watched::{LOOK, Watch, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::Change;
@@ -36,6 +37,7 @@ pub(crate) fn lay_web(
     let advice = advice.then(|| read(Changes::OfLine)).transpose()?;
     let guesses = guesses.then(|| read(Changes::OfGuesses)).transpose()?;
     let file = settled(py, threads, |resources| read_web((&text, &file), set.with(resources)))?;
+    warn_of(py, &file.notes)?;
     let watch = Watch::default();
     // The flights have a counter of their own; it is looked at while they fly.
     let follow = |Flights { done, steps, .. }: Flights<'_>, work: &mut (dyn FnMut() + Send)| {

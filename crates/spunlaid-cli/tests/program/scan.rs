@@ -293,7 +293,7 @@ fn rejects_scans_with_the_option_that_helps() {
         ("analyse scan.png --pixel 0mm", "is not above zero"),
         (
             "analyse scan.png --pixel 1mm --weight 15mm",
-            "is a length; write a basis weight with its unit: kg/m², g/m² or gsm",
+            "is a length; write a basis weight with its unit: kg/m², g/m², gsm, osy or oz/yd²",
         ),
         ("analyse scan.png --pixel 1mm --white 100", "(--white, --lamp, --light weight)\n"),
         ("analyse scan.png --pixel 1mm --white x", "write a number above zero, like 240"),

@@ -62,7 +62,8 @@ fn rejects_another_study_in_the_folder_of_an_unfinished_one_showing_what_differs
 #[test]
 fn rejects_an_unfinished_study_whose_file_has_changed_naming_it() {
     for quote in ['"', '\''] {
-        let air = "velocity = '10 m/s'\nturbulence_intensity = 0.1\nlength_scale = '50 mm'\ncutoff_frequency = '100 Hz'";
+        let air = "velocity = '10 m/s'\nturbulence_intensity = 0.1\nlength_scale = '50 mm'\n\
+                   cutoff_frequency = '100 Hz'";
         let with_profile = case(0.02).replace(air, &format!("profile = {quote}air.csv{quote}"));
         assert!(with_profile.contains("air.csv"));
         let study = STUDY.replace("'air.velocity' = ['5 m/s', '10 m/s', '20 m/s']\n", "");

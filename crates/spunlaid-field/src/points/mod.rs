@@ -2,8 +2,8 @@
 //!
 //! In a plane flow the points are joined to triangles, and the values are linear in each.
 //!
-//! In space each point has gradients that are fitted to its neighbours. The value anywhere is a weighted mean: each of the
-//! nearest points extrapolates its own value along its gradients. The weight of a point falls to zero with
+//! In space each point has gradients that are fitted to its neighbours. The value anywhere is a weighted mean: each of
+//! the nearest points extrapolates its own value along its gradients. The weight of a point falls to zero with
 //! distance before another point replaces it among the nearest, so the field is continuous. The weights are those
 //! of Franke & Little, in Franke 1982. No point extrapolates `k` and `ε` to less than half of its own values.
 

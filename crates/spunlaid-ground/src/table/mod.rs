@@ -151,10 +151,8 @@ impl<R: Read> Table<R> {
     pub fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;
         loop {
-            match self.ahead.pop_front() {
-                Some(line) => self.row = line,
-                None if self.lines.next(&mut self.row)? => {}
-                None => return self.finish(),
+            if !self.next_line()? {
+                return self.finish();
             }
             blank += self.row.blank;
             if cells::is_comment(&self.row.text) {
@@ -169,15 +167,8 @@ impl<R: Read> Table<R> {
             }
             blank += 1;
         }
-        if self.begins_faces() {
-            self.ahead.clear();
-            while self.lines.next(&mut self.row)? {
-                if self.row.text.starts_with("[Name]") || self.row.text.starts_with("[Data]") {
-                    self.parting.split(&self.row.text, &mut self.cells);
-                    return Err(self.wrong_count(1, self.heads.len()));
-                }
-            }
-            return self.finish();
+        if start::begins_faces(&self.row.text) {
+            return self.skip_faces();
         }
         self.row.blank = blank;
         let (found, wanted) = (self.cells.len(), self.heads.len());
@@ -191,14 +182,33 @@ impl<R: Read> Table<R> {
         if fits { Ok(true) } else { Err(self.wrong_count(found, wanted)) }
     }
 
+    fn next_line(&mut self) -> Result<bool, FileError> {
+        match self.ahead.pop_front() {
+            Some(line) => {
+                self.row = line;
+                Ok(true)
+            }
+            None => self.lines.next(&mut self.row),
+        }
+    }
+
+    /// Goes to the end of the file.
+    ///
+    /// # Errors
+    /// If another block begins before it.
+    fn skip_faces(&mut self) -> Result<bool, FileError> {
+        while self.next_line()? {
+            self.parting.split(&self.row.text, &mut self.cells);
+            if self.begins_block() {
+                return Err(self.wrong_count(self.cells.len(), self.heads.len()));
+            }
+        }
+        self.finish()
+    }
+
     /// Whether this is the head of a further block in a file of LabVIEW or of CFX-Post.
     fn begins_block(&self) -> bool {
         matches!(self.text(0), "Channels" | "***End_of_Header***" | "[Name]" | "[Data]")
-    }
-
-    /// Whether this is the head of the faces or lines that follow the points in a file of CFX-Post.
-    fn begins_faces(&self) -> bool {
-        self.cells.len() == 1 && matches!(self.text(0), "[Faces]" | "[Lines]")
     }
 
     /// The error of a row with too few or too many cells, or of none.

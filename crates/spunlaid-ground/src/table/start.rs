@@ -20,6 +20,9 @@ pub(super) struct Start {
 
 /// Finds the first row and the names above it.
 pub(super) fn find(lines: &[TextLine]) -> Option<Start> {
+    // The faces that CFX-Post writes below the points are no rows.
+    let faces = lines.iter().position(|line| begins_faces(&line.text));
+    let lines = &lines[..faces.unwrap_or(lines.len())];
     // Lines that are not comments.
     let is_content = |line: &TextLine| !is_comment(&line.text) && !line.is_blank();
     let content: Vec<usize> = (0..lines.len()).filter(|i| is_content(&lines[*i])).collect();
@@ -94,6 +97,11 @@ pub(super) fn find(lines: &[TextLine]) -> Option<Start> {
         _ => parting,
     };
     start(row, parting, names, row.saturating_sub(1))
+}
+
+/// Whether a line is the head of the faces or lines that follow the points in a file of CFX-Post.
+pub(super) fn begins_faces(line: &str) -> bool {
+    matches!(line.trim(), "[Faces]" | "[Lines]")
 }
 
 /// The first row of nothing but numbers.

@@ -174,7 +174,7 @@ dimensions! {
         also("deg", "deg", Over(180.0 / std::f64::consts::PI))];
     /// [g/10 min], as it is always given; a plain number is one too.
     MeltFlowRate "a melt flow rate" [0.0, 0.0, 0.0, 0.0, 0.0] [
-        unit("g/10min", "g/10min", Ten(0)), also("g/10 min", "g/10 min", Ten(0)), also("", "", Ten(0))];
+        unit("g/10min", "g/10min", Ten(0)), also("", "g/10 min", Ten(0)), also("", "", Ten(0))];
     /// A plain number, or a percentage.
     Ratio "a ratio" [0.0, 0.0, 0.0, 0.0, 0.0] [unit("", "", Ten(0)), also("%", "%", Ten(-2))];
 }

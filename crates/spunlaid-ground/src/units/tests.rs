@@ -57,11 +57,35 @@ fn identical_to_the_decimal_number_meant() {
         (Dimension::Temperature, "0°C", 273.15),
         (Dimension::Ratio, "10 %", 0.1),
         (Dimension::Ratio, "0.1", 0.1),
+        (Dimension::MeltFlowRate, "35 g/10min", 35.0),
+        (Dimension::MeltFlowRate, "35 g/10 min", 35.0),
+        (Dimension::MeltFlowRate, "35", 35.0),
+        // A comma that can only be a decimal sign, and a space that takes no room.
+        (Dimension::Length, "1,5 m", 1.5),
+        (Dimension::Length, "-0,125 mm", -1.25e-4),
+        (Dimension::Velocity, "10 m/s\u{200b}", 10.0),
     ];
     for (dimension, text, value) in cases {
         let read = dimension.parse(text).map(f64::to_bits);
         assert_eq!(read, Ok(value.to_bits()), "{text}");
     }
+}
+
+#[test]
+fn units_of_the_united_states_are_read() {
+    for (dimension, text, value) in [
+        // The freezing and the boiling point of water, and 446 °F, which are 230 °C.
+        (Dimension::Temperature, "32 °F", 273.15),
+        (Dimension::Temperature, "212°F", 373.15),
+        (Dimension::Temperature, "446 °F", 503.15),
+        // NIST SP 811: an ounce per square yard is 33.90575 g/m².
+        (Dimension::BasisWeight, "0.5 osy", 0.5 * 33.90575e-3),
+        (Dimension::BasisWeight, "2 oz/yd²", 2.0 * 33.90575e-3),
+    ] {
+        let read = dimension.parse(text).unwrap();
+        assert!((read / value - 1.0).abs() < 1e-7, "{text}: {read} for {value}");
+    }
+    assert_eq!(Dimension::MeltFlowRate.parse("35 %").unwrap_err().message, "is a ratio");
 }
 
 #[test]
@@ -90,7 +114,6 @@ fn rejects_what_is_no_quantity() {
         ),
         (Dimension::Length, "1e400 m", "is too large; write a length with its unit: m, cm, mm, µm or nm"),
         (Dimension::Time, "1e308 min", "is too large; write a time with its unit: s, ms, µs, ns, min or h"),
-        (Dimension::Length, "1,5 m", "has a comma; write the number with a decimal point, like \"1.5 m\""),
         (
             Dimension::Length,
             "1_000 m",

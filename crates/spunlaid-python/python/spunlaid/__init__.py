@@ -25,6 +25,7 @@ from ._errors import (
     InternalError,
     Interrupted,
     Problem,
+    SpunlaidWarning,
 )
 from ._keys import Key, keys
 from ._spunlaid import Case, Flight, __version__
@@ -36,7 +37,8 @@ if TYPE_CHECKING:
     from ._comparison import Comparison, compare
     from ._fit import Fit, fit
     from ._measures import Curve, Measure, Measures, Shapes
-    from ._run import Run, load, run
+    from ._load import load
+    from ._run import Run, run
     from ._scan import Scan, scan
     from ._spinline import Spinline, spin
     from ._study import Study, sweep
@@ -67,6 +69,7 @@ __all__ = [
     "Scan",
     "Shapes",
     "Spinline",
+    "SpunlaidWarning",
     "Study",
     "Web",
     "__version__",
@@ -90,7 +93,8 @@ _LATER = {
         "_comparison": ["Comparison", "compare"],
         "_fit": ["Fit", "fit"],
         "_measures": ["Curve", "Measure", "Measures", "Shapes"],
-        "_run": ["Run", "load", "run"],
+        "_load": ["load"],
+        "_run": ["Run", "run"],
         "_scan": ["Scan", "scan"],
         "_spinline": ["Spinline", "spin"],
         "_study": ["Study", "sweep"],

@@ -37,7 +37,7 @@ class Analysis:
 
     def _interval(self, name: str) -> Interval:
         of = self.results[name]
-        return Interval(of["value"], of["low"], of["high"])
+        return Interval(*(np.nan if of[name] is None else of[name] for name in ("value", "low", "high")))
 
     @property
     def mean_velocity(self) -> Interval:
@@ -99,7 +99,7 @@ class Analysis:
 
 def analyse(
     record: ArrayLike | str | os.PathLike[str],
-    rate: float | None = None,
+    rate: str | float | None = None,
     *,
     mean_velocity: float | None = None,
     flat_until: float | None = None,
@@ -110,7 +110,7 @@ def analyse(
 
     record: velocities [m/s] as an array, samples or samples × components with the one along the flow first; or the path
         of a file
-    rate: sampling rate [Hz]; an array needs it
+    rate: sampling rate, "20 kHz" or in Hz; an array needs it
     mean_velocity: replaces the mean of the record [m/s]
     flat_until: end of the flat part of the spectrum [Hz]
     integral: the limit of the integral of the autocorrelation: "first-zero", "e-fold" or "fixed=20 ms"

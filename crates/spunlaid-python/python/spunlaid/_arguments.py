@@ -25,8 +25,15 @@ def split_source(
 ) -> tuple[str | None, dict[str, Any]]:
     """The path of a file and the changes to it; for a dict of tables no path, and its values are the changes."""
     if isinstance(source, Mapping):
-        return None, {**source, **(changes or {})}
-    return os.fspath(source), dict(changes or {})
+        return None, {**source, **changes_of(changes)}
+    return os.fspath(source), changes_of(changes)
+
+
+def changes_of(changes: Mapping[str, Any] | None) -> dict[str, Any]:
+    """The keys that an argument `set` replaces."""
+    if changes is not None and not isinstance(changes, Mapping):
+        raise TypeError(f'set takes a dict, {{"air.velocity": "20 m/s"}}, not {type(changes).__name__}')
+    return dict(changes or {})
 
 
 def check_figures(

@@ -1,4 +1,4 @@
-"""The exceptions of spunlaid."""
+"""The exceptions and warnings of spunlaid."""
 
 from __future__ import annotations
 
@@ -7,6 +7,19 @@ from typing import Any, NamedTuple
 
 class Error(Exception):
     """Any error of spunlaid."""
+
+
+class SpunlaidWarning(UserWarning):
+    """What the program prints as a warning: the results may mislead. `warnings.filterwarnings("error", category=...)` makes an
+    error of it."""
+
+    def __init__(self, text: str, key: str | None = None) -> None:
+        super().__init__(text)
+        self.key = key
+        """The key that it is about, `air.velocity`; None if it is about none."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.args[0], self.key)
 
 
 class Problem(NamedTuple):

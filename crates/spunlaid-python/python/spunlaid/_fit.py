@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
-from ._arguments import check_figures, check_threads
+from ._arguments import changes_of, check_figures, check_threads
 from ._plot import plot_fit
 from ._progress import Progress, shown
 
@@ -86,7 +86,7 @@ def fit(
             os.fspath(web),
             os.fspath(to),
             (list(ranges), ends[0], ends[1]),
-            dict(set or {}),
+            changes_of(set),
             spectrum,
             webs,
             folder,

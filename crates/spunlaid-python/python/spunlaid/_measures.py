@@ -26,10 +26,10 @@ class Measure(NamedTuple):
     """Its unit as the CF conventions write it, `m` or `m2/Hz`; `1` of a plain number."""
     mean: float
     """Mean over the replicates."""
-    standard_error: float | None
-    """Standard error of the mean, by chance alone; None from a single replicate."""
-    error: float | None
-    """Its whole error, by chance and by what the checks of step and mesh found beyond their limit; None if not known."""
+    standard_error: float
+    """Standard error of the mean, by chance alone; NaN from a single replicate."""
+    error: float
+    """Its whole error, by chance and by what the checks of step and mesh found beyond their limit; NaN if not known."""
     shown: float
     """What stands for all replicates in reports: the mean, the median or the largest value."""
     values: NDArray[np.float64]
@@ -39,7 +39,7 @@ class Measure(NamedTuple):
         return self.mean
 
     def __repr__(self) -> str:
-        error = "" if self.error is None else f" ± {self.error:.2g}"
+        error = "" if np.isnan(self.error) else f" ± {self.error:.2g}"
         return f"<{self.column}: {self.mean:.6g}{error}>"
 
 

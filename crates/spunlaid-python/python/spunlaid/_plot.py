@@ -108,7 +108,7 @@ def plot_number(measure: Measure, scales: Sequence[Scale], ax: Axes | None) -> A
     ax.plot(np.arange(1, len(measure.values) + 1), up.place(measure.values), "o", label="replicates")
     mean, error = float(up.place(measure.mean)), measure.standard_error
     line = ax.axhline(mean, color="black", linewidth=0.8, label="mean")
-    if error is not None:
+    if np.isfinite(error):
         half = error * up.per_si
         ax.axhspan(mean - half, mean + half, color=line.get_color(), alpha=0.15, linewidth=0)
     ax.legend()

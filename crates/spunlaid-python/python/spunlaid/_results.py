@@ -30,6 +30,18 @@ class Place:
         finalize(self, _remove, self.path, os.getpid())
 
 
+def read_files(folder: Path) -> dict[str, bytes]:
+    """The files of a folder, by their names in it."""
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def write_files(folder: Path, files: dict[str, bytes]) -> None:
+    """Writes what `read_files` has read."""
+    for file, content in files.items():
+        (folder / file).parent.mkdir(parents=True, exist_ok=True)
+        (folder / file).write_bytes(content)
+
+
 class Kept:
     """Results in place of what was computed: the files of their folder.
 
@@ -43,9 +55,7 @@ class Kept:
         if path is None:
             self._place = Place()
             path = self._place.path
-            for file, content in (files or {}).items():
-                (path / file).parent.mkdir(parents=True, exist_ok=True)
-                (path / file).write_bytes(content)
+            write_files(path, files or {})
         self.path = Path(path)
         try:
             self.summary = (self.path / "summary.json").read_text("utf-8")
@@ -127,8 +137,7 @@ class Results:
         place = Place()
         folder = place.path / "results"
         self._save(str(folder), False, (None, None), whole=False)
-        files = {path.relative_to(folder).as_posix(): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
-        return Kept(None, files, self._computed.name)
+        return Kept(None, read_files(folder), self._computed.name)
 
     def _repr_html_(self) -> str:
         page = escape(self.report(), quote=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _spunlaid
-from ._arguments import check_threads
+from ._arguments import changes_of, check_threads
 from ._case import CaseLike, case_of
 from ._errors import FolderError
 from ._measures import Curve, Measure, MeasureMapping, Measures, Shapes, unknown_measure
@@ -147,7 +147,7 @@ class Run(Results):
         self._computed.save(path, force, figures, os.fspath(self._tables.path))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _of_kept, (self._packed(), self._case)
+        return of_kept, (self._packed(), self._case)
 
     def __repr__(self) -> str:
         lines = [f"<Run of {self.case!r}"]
@@ -185,7 +185,7 @@ def run(
     Ctrl-C stops it. Raises FibreLost if a fibre's positions become infinite.
     """
     case = case_of(case)
-    changes = dict(set or {})
+    changes = changes_of(set)
     if replicates is not None:
         changes["run.replicates"] = replicates
     if seed is not None:
@@ -202,14 +202,7 @@ def run(
     return Run(case, flown, Tables(folder, flown.summary, place))
 
 
-def load(path: str | os.PathLike[str]) -> Run:
-    """The results of a run from the folder that `Run.save` or `spunlaid run` wrote.
-
-    It has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves.
-    """
-    return _of_kept(Kept(path))
-
-
-def _of_kept(kept: Kept, case: Case | None = None) -> Run:
+def of_kept(kept: Kept, case: Case | None = None) -> Run:
+    """A run from the files of its folder."""
     tables = Tables(kept.path, kept.summary)
     return Run(case or Case.read(kept.path / "case.toml"), kept, tables)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _spunlaid
 from ._arguments import split_source
-from ._results import Results
+from ._results import Kept, Results
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,9 +21,7 @@ class Spinline(Results):
     Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.freezing["distance_m"]`.
     """
 
-    _computed: _spunlaid.Computed
-
-    def __init__(self, solved: _spunlaid.Computed) -> None:
+    def __init__(self, solved: _spunlaid.Computed | Kept) -> None:
         super().__init__(solved)
         self._measures: dict[str, Any] = self.summary["spinline"]
 
@@ -42,7 +40,16 @@ class Spinline(Results):
     @property
     def rows(self) -> list[dict[str, NDArray[np.float64]]]:
         """The same for each row of the curtain, the quenched side first; one if there is no curtain."""
-        return self._computed.stations
+        return list(self._keep("rows", self._rows))
+
+    def _rows(self) -> list[dict[str, NDArray[np.float64]]]:
+        if not isinstance(self._computed, Kept):
+            return self._computed.stations
+        table = _spunlaid.read_table(self._computed.path / "spinline.parquet")
+        row = table.pop("row", None)
+        if row is None:
+            return [table]
+        return [{name: of[row == number] for name, of in table.items()} for number in sorted(set(row))]
 
     @property
     def influences(self) -> list[dict[str, Any]]:
@@ -53,7 +60,12 @@ class Spinline(Results):
     @property
     def text(self) -> str:
         """The spinline with every default written out, as a file."""
+        if isinstance(self._computed, Kept):
+            return (self._computed.path / "spinline.toml").read_text("utf-8")
         return self._computed.text or ""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._packed(),)
 
     def __getattr__(self, name: str) -> Any:
         measures = self.__dict__.get("_measures", {})

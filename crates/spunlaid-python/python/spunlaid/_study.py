@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,8 +13,10 @@ from . import _spunlaid
 from ._arguments import check_figures, check_threads
 from ._case import case_of
 from ._optional import needed
+from ._errors import FolderError
 from ._plot import Axis, plot_points
 from ._progress import Progress, shown
+from ._results import Place, read_files, write_files
 from ._spunlaid import Case
 from ._toml import study_toml
 
@@ -197,6 +200,28 @@ class Study:
         """How the values of a measure stand on an axis."""
         return next(Axis(*scale) for name, *_, scale in self._study.measures if name == column)
 
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        figures: Sequence[str] | str | None = None,
+        figure_width: str | float | None = None,
+    ) -> None:
+        """Writes the folder that `spunlaid sweep` writes, with the journal, so that it can go on from there.
+
+        force: whether other results in the folder are replaced
+        figures, figure_width: as of `Run.save`
+        """
+        _spunlaid.check_figures((figures, figure_width))
+        self._study.save(os.fspath(path), force, (figures, figure_width))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        place = Place()
+        folder = place.path / "study"
+        self.save(folder, figures=["svg"])
+        return _of_files, (read_files(folder),)
+
     def __repr__(self) -> str:
         factors = ", ".join(self.factors) or "no factors"
         return f"<Study {self._study.name}: {len(self)} points of {factors}, {int(self.n.sum())} {self.noun}s>"
@@ -207,6 +232,22 @@ class Study:
         except ImportError:
             # Without pandas a notebook shows the text.
             return None
+
+
+def of_folder(folder: Path) -> Study:
+    """A study from its folder; one that was stopped is refused."""
+    begun = _spunlaid.Study(os.fspath(folder / "study.toml"), out=os.fspath(folder))
+    flown, wanted = begun.fibres
+    if flown < wanted:
+        raise FolderError(f"{folder}: holds {flown} of {wanted} {begun.noun}s; spunlaid.sweep or `spunlaid sweep` goes on with it")
+    return Study(begun)
+
+
+def _of_files(files: dict[str, bytes]) -> Study:
+    """A study that was pickled. It is read from a folder, which goes then."""
+    place = Place()
+    write_files(place.path, files)
+    return of_folder(place.path)
 
 
 _FIRST = ("amplitude_y_m", "sigma_cd_m", "cv_10_mm", "final_diameter_m")

@@ -46,7 +46,7 @@ class Tables:
                 mean = np.nan if number["mean"] is None else number["mean"]
                 shown = number.get("median", number.get("largest", mean))
                 chance = number["standard_error"]
-                errors = {"standard_error": chance, "error": number.get("error", chance)}
+                errors = {"standard_error": _known(chance), "error": _known(number.get("error", chance))}
                 found.append({**of, "mean": mean, **errors, "shown": shown, "values": values})
         return found
 
@@ -127,6 +127,11 @@ class Tables:
         if not (self.path / name).exists():
             return {}
         return read_table(self.path / name)
+
+
+def _known(number: float | None) -> float:
+    """A number; NaN if it is not known."""
+    return np.nan if number is None else number
 
 
 def _lines(path: Path) -> list[Any]:

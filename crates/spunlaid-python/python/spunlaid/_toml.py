@@ -58,6 +58,11 @@ def _value(name: str, value: Any, key: Key | None) -> str:
         # The number of levels of a range has no unit.
         parts = (f"{_text(part)} = {_value(name, of, None if part == 'steps' else key)}" for part, of in value.items())
         return "{ " + ", ".join(parts) + " }"
+    # Columns of tables, of pandas, polars and Arrow.
+    for listed in ("tolist", "to_list", "to_pylist"):
+        if not isinstance(value, np.ndarray) and hasattr(value, listed):
+            value = getattr(value, listed)()
+            break
     if isinstance(value, (list, tuple, np.ndarray, range)):
         return "[" + ", ".join(_value(name, part, key) for part in value) + "]"
     raise TypeError(f"{name} takes texts, numbers, lists and dicts, not {type(value).__name__}")

@@ -213,8 +213,8 @@ impl Lid {
     }
 }
 
-/// A lid of any level, with or without noise, on all sides or above and below, turned or not: it is cut off, and what is
-/// left is what the same rectangle alone gives with the level of the lamp that is known by construction.
+/// A lid of any level, with or without noise, on all sides or above and below, turned or not: it is cut off, and what
+/// is left is what the same rectangle alone gives with the level of the lamp that is known by construction.
 #[test]
 fn analytic_a_lid_of_one_level_around_the_web_is_cut_off() {
     let through = Light::Transmitted { mean: None, white: None };

@@ -23,7 +23,7 @@ use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{MOST_REPLICATES, SpinSpec, spinline};
 use spunlaid::ground::Fault;
 use spunlaid::input::{StudyFile, StudyNote, differences};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -135,15 +135,17 @@ fn differs(place: &Path, file: &StudyFile) -> Failure {
         let was = fs::read_to_string(place.join(name)).unwrap_or_default();
         all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
     }
-    for (from, to) in &copied {
-        let copy = place.join(to);
-        if copy.exists() && fs::read(from).ok() != fs::read(&copy).ok() {
-            let [from, copy] = [from, &copy].map(|path| path.display());
-            all.push(format!(
-                "{from}: its content has changed; {copy} has what the results were computed with"
-            ));
-        }
+    let mut changed = BTreeSet::new();
+    for (file, parts) in files_of(file) {
+        let Some(to) = copied.get(file).map(|to| place.join(to)) else { continue };
+        let beside = parts.iter().map(|part| (file.with_file_name(part), to.with_file_name(part)));
+        let all = std::iter::once((file.to_owned(), to.clone())).chain(beside);
+        changed.extend(all.filter(|(from, to)| to.exists() && fs::read(from).ok() != fs::read(to).ok()));
     }
+    all.extend(changed.iter().map(|(from, to)| {
+        let [from, to] = [from, to].map(|path| path.display());
+        format!("{from}: its content has changed; {to} has what the results were computed with")
+    }));
     other_study(place, all)
 }
 

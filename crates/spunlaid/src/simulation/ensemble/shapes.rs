@@ -46,10 +46,12 @@ struct Span {
     number: usize,
 }
 
-/// A file that no other shapes use, and the path for messages about it.
+/// A file that no other shapes use.
 #[derive(Clone, Debug)]
 struct ShapeFile {
-    file: Arc<Mutex<File>>,
+    /// None once it is closed; then it is opened for each look.
+    file: Option<Arc<Mutex<File>>>,
+    /// Where it is, or what a message about it names.
     path: PathBuf,
 }
 
@@ -59,8 +61,24 @@ impl Shapes {
     /// * `file` – an empty file that can be read and written
     /// * `path` – the path that a message about it names
     pub fn in_file(file: File, path: &Path) -> Self {
-        let file = Some(ShapeFile { file: Arc::new(Mutex::new(file)), path: path.to_owned() });
+        let file = Some(ShapeFile { file: Some(Arc::new(Mutex::new(file))), path: path.to_owned() });
         Self { file, ..Self::default() }
+    }
+
+    /// Closes the file, so that shapes that are kept hold none open. Nothing is added any more.
+    ///
+    /// * `path` – where the numbers are from then on, if some are in the file
+    ///
+    /// # Errors
+    /// The file cannot be copied there.
+    pub fn close(&mut self, path: &Path) -> Result<(), Error> {
+        let Some(file) = self.file.take().filter(|_| self.filed > 0) else { return Ok(()) };
+        file.with(|file| {
+            file.seek(SeekFrom::Start(0))?;
+            io::copy(file, &mut File::create(path)?).map(drop)
+        })?;
+        self.file = Some(ShapeFile { file: None, path: path.to_owned() });
+        Ok(())
     }
 
     /// Number of shapes.
@@ -182,8 +200,11 @@ impl ShapeFile {
     }
 
     fn with(&self, act: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), Error> {
-        let mut file = lock(&self.file);
-        act(&mut file).map_err(Error::unwritable(&self.path))
+        let done = match &self.file {
+            Some(file) => act(&mut lock(file)),
+            None => File::open(&self.path).and_then(|mut file| act(&mut file)),
+        };
+        done.map_err(Error::unwritable(&self.path))
     }
 }
 
@@ -191,6 +212,7 @@ impl ShapeFile {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use std::fs;
 
     /// A shape whose number of nodes changes now and then.
     fn some(i: usize) -> Shape {
@@ -203,18 +225,23 @@ mod tests {
     fn identical_shapes_from_memory_and_from_a_file() {
         let count = 3 * IN_MEMORY / 10;
         let memory: Shapes = (0..count).map(some).collect();
+        let folder = tempfile::tempdir().unwrap();
         let mut filed = Shapes::in_file(tempfile::tempfile().unwrap(), Path::new("r/shape"));
         for i in 0..count {
             let Shape { time, position } = some(i);
             filed.push(time, position.into_iter()).unwrap();
         }
         assert!(filed.filed > IN_MEMORY && filed.numbers.len() <= IN_MEMORY + 32);
-        for shapes in [&memory, &filed] {
+        let mut closed = filed.clone();
+        closed.close(&folder.path().join("kept")).unwrap();
+        for shapes in [&memory, &filed, &closed] {
             assert_eq!((shapes.len(), shapes.most_nodes(), shapes.interval()), (count, 6, Some(0.3)));
             assert!(shapes.iter().map(Result::unwrap).eq((0..count).map(some)));
             assert_eq!(shapes.last(), Some(some(count - 1)));
             assert_eq!(shapes.get(count).unwrap(), None);
         }
+        fs::remove_file(folder.path().join("kept")).unwrap();
+        assert!(closed.get(0).is_err() && filed.get(0).is_ok());
         assert!(Shapes::default().last().is_none() && Shapes::default().interval().is_none());
     }
 

@@ -36,7 +36,8 @@ fn of_points(raw: &RawPicture, heads: &[Head]) -> Result<RawPicture, Fault> {
     let no_lattice = || {
         Fault::new(
             format!(
-                "has three columns, as x, y and the value at each point, and its {} points are no lattice of square cells",
+                "has three columns, as x, y and the value at each point, and its {} points are no lattice of square \
+                 cells",
                 raw.rows
             ),
             "write a line for each row of the map, or the value at each point of a square lattice",

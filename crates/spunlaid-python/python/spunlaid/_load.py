@@ -1,0 +1,43 @@
+"""Results from their folders."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+from . import _spunlaid
+from ._errors import FolderError
+from ._results import Kept
+
+
+def load(path: str | os.PathLike[str]) -> Any:
+    """The results in a folder, as the program or `save` wrote them: a Run, a Web, a Scan, a Spinline or a Study.
+
+    A run has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves. A web and a scan
+    have their map, and a study goes on to be one that was flown. What is of another kind raises FolderError.
+    """
+    folder = Path(path)
+    if (folder / "study.toml").is_file():
+        from ._study import of_folder
+
+        return of_folder(folder)
+    kept = Kept(folder)
+    try:
+        summary = json.loads(kept.summary)
+    except ValueError as error:
+        raise FolderError(f"{folder}: is not the results of a run: summary.json: {error}") from error
+    holds = set(summary) if isinstance(summary, dict) else set()
+    if "spinline" in holds and not {"end_node", "laydown"} & holds:
+        from ._spinline import Spinline
+
+        return Spinline(kept)
+    if "web" in holds:
+        from ._scan import Scan
+        from ._web import Web
+
+        return (Scan if "scan" in holds else Web)(kept, _spunlaid.map_of_folder(folder))
+    from ._run import of_kept
+
+    return of_kept(kept)
