@@ -19,7 +19,6 @@ use spunlaid_results::Failure;
 use spunlaid_results::files::folder::{Staging, copy};
 use spunlaid_results::folders::Contents;
 use spunlaid_results::products::comparison::{ComparedFolders, Folders};
-use spunlaid_results::products::finished::read_measured_web;
 use spunlaid_results::products::run::RunFolder;
 use spunlaid_results::products::scan::ScanFolder;
 use spunlaid_results::products::spinline::SpinFolder;
@@ -216,13 +215,6 @@ pub(crate) fn solve_spinline(
 #[pyfunction]
 pub(crate) fn copy_results(py: Python<'_>, source: PathBuf, target: PathBuf, force: bool) -> PyResult<()> {
     guarded(py, || copy(&source, &target, force, &AtomicBool::new(false)))
-}
-
-/// The map of a web that was laid or scanned, from its results folder.
-#[pyfunction]
-pub(crate) fn map_of_folder(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyAny>> {
-    let map = guarded(py, || Ok(read_measured_web(&folder)?.map))?;
-    weights(py, &map)
 }
 
 /// Basis weight of every cell [kg/m2]: rows in machine direction x columns in cross direction.

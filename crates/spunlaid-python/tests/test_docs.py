@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import doctest
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -34,3 +36,13 @@ def test_the_examples_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
             assert doctest.DocTestRunner().run(session, clear_globs=False).failed == 0
         else:
             exec(compile(example, str(PAGE), "exec"), names)  # noqa: S102 - the page is of this repository
+
+
+def test_the_examples_have_types(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    page = tmp_path / "examples.py"
+    page.write_text("\n".join(example for example in EXAMPLES if not example.startswith(">>>")), "utf-8")
+    settings = ROOT / "crates" / "spunlaid-python" / "pyproject.toml"
+    words = [sys.executable, "-m", "mypy", "--config-file", str(settings), "--cache-dir", str(tmp_path / "cache"), str(page)]
+    checked = subprocess.run(words, capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout + checked.stderr

@@ -28,14 +28,15 @@ def told(work: Any) -> list[SpunlaidWarning]:
 
 
 def test_each_function_warns_of_what_the_program_warns_of(short: Case, tmp_path: Path) -> None:
-    thick = {"fibre.diameter": "9 mm"}
-    said = told(lambda: spunlaid.run(short.with_(thick)))
-    assert any(warning.key == "fibre.diameter" for warning in said), said
-    study = {"case": short.with_(thick), "vary": {"air.velocity": [5, 10]}, "replicates": 2}
-    assert any(warning.key == "fibre.diameter" for warning in told(lambda: spunlaid.sweep(study)))
-    web = lambda: spunlaid.web(CASES / "web_known.toml", set={"line.basis_weight": "2 g/m2", "web.length": "0.2 m"})  # noqa: E731
-    assert any(warning.key for warning in told(web))
-    line = lambda: spunlaid.spin(CASES / "spinline.toml", set={"spinline.throughput": "40 g/min"})  # noqa: E731
+    key = "air.turbulence_intensity"
+    gusty = short.with_({key: 1.2, "run.time_step": None})
+    said = told(lambda: spunlaid.run(gusty))
+    assert any(warning.key == key for warning in said), said
+    study = {"case": gusty, "vary": {"air.velocity": [5, 10]}, "replicates": 2}
+    assert any(warning.key == key for warning in told(lambda: spunlaid.sweep(study)))
+    web = lambda: spunlaid.web(CASES / "web_known.toml", set={"line.belt_speed": "20 m/s", "web.length": "0.2 m"})  # noqa: E731
+    assert any(warning.key == "line.basis_weight" for warning in told(web))
+    line = lambda: spunlaid.spin(CASES / "spinline.toml", set={"spinline.length": "40 m"})  # noqa: E731
     assert any(str(warning.key).startswith("spinline") for warning in told(line))
     # A record of a few integral times.
     record = np.random.default_rng(1).normal(10.0, 1.0, 500)
@@ -52,7 +53,8 @@ def test_a_run_outside_its_field_warns(tmp_path: Path) -> None:
     made = Case.from_dict({**far, **air, "air.field_root": ["0.9 m", "0.5 m", "0.5 m"]})
     said = told(lambda: spunlaid.run(made))
     assert any("outside the region where the flow is known" in str(warning) for warning in said), said
-    assert any("outside" in str(warning) for warning in told(lambda: made.air_at([[9.0, 0.0, 0.0]])))
+    assert told(lambda: made.air_at([[0.5, 0.5, 0.5], [9.0, 0.0, 0.0]]))
+    assert not told(lambda: made.air_at([[0.5, 0.5, 0.5]]))
 
 
 def test_frames_are_arrays_and_columns_are_values(short: Case) -> None:
@@ -129,7 +131,7 @@ def test_results_of_each_kind_are_loaded_and_pickled(short: Case, tmp_path: Path
     web.save(tmp_path / "web")
     again = spunlaid.load(tmp_path / "web")
     assert isinstance(again, spunlaid.Web)
-    np.testing.assert_allclose(again.map, web.map, rtol=1e-3, atol=1e-3 * web.map.mean())
+    np.testing.assert_allclose(again.map, web.map, rtol=1e-6)
     np.testing.assert_array_equal(again.patches["cv"], web.patches["cv"])
     with pytest.raises(spunlaid.FolderError):
         spunlaid.load(tmp_path)

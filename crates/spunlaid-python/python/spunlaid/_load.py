@@ -7,7 +7,8 @@ import os
 from pathlib import Path
 from typing import Any
 
-from . import _spunlaid
+import numpy as np
+
 from ._errors import FolderError
 from ._results import Kept
 
@@ -33,11 +34,15 @@ def load(path: str | os.PathLike[str]) -> Any:
         from ._spinline import Spinline
 
         return Spinline(kept)
-    if "web" in holds:
+    if "web" in holds and isinstance(summary["web"], dict):
         from ._scan import Scan
         from ._web import Web
 
-        return (Scan if "scan" in holds else Web)(kept, _spunlaid.map_of_folder(folder))
+        try:
+            weights = np.asarray(np.load(folder / "map.npy"), dtype=float)
+        except (OSError, ValueError) as error:
+            raise FolderError(f"{folder}: holds no map that can be read: map.npy: {error}") from error
+        return (Scan if "scan" in holds else Web)(kept, weights)
     from ._run import of_kept
 
     return of_kept(kept)

@@ -26,7 +26,7 @@ class Place:
     """A folder of its own, as long as the process uses it that has made it."""
 
     def __init__(self) -> None:
-        self.path = Path(mkdtemp(prefix="spunlaid-"))
+        self.path: Path = Path(mkdtemp(prefix="spunlaid-"))
         finalize(self, _remove, self.path, os.getpid())
 
 
@@ -51,14 +51,15 @@ class Kept:
     """
 
     def __init__(self, path: str | os.PathLike[str] | None, files: dict[str, bytes] | None = None, name: str = "") -> None:
-        self.files, self.name = files, name
+        self.files: dict[str, bytes] | None = files
+        self.name: str = name
         if path is None:
             self._place = Place()
             path = self._place.path
             write_files(path, files or {})
-        self.path = Path(path)
+        self.path: Path = Path(path)
         try:
-            self.summary = (self.path / "summary.json").read_text("utf-8")
+            self.summary: str = (self.path / "summary.json").read_text("utf-8")
         except (OSError, ValueError) as error:
             raise FolderError(f"{self.path}: is not the results of a run: summary.json: {error}") from error
 

@@ -23,7 +23,8 @@ class Tables:
     """
 
     def __init__(self, path: Path, summary: str, place: Place | None = None) -> None:
-        self.path, self._place = path, place
+        self.path: Path = path
+        self._place = place
         try:
             self._read: dict[str, Any] = json.loads(summary)
         except ValueError as error:
