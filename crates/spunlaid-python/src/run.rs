@@ -47,7 +47,7 @@ pub(crate) fn fly(
     // As many shapes as memory holds may be kept, and each open file counts.
     for (number, trajectory) in run.results.trajectories.iter_mut().enumerate() {
         let kept = place.with_file_name(format!("shapes_{number}"));
-        guarded(py, || Ok(trajectory.shapes.close(&kept)?))?;
+        guarded(py, || trajectory.shapes.close(&kept))?;
     }
     let checks = Mutex::new(plans.before_flight());
     watch.begin(plans.fibre_steps());

@@ -277,10 +277,14 @@ fn analytic_the_rest_of_a_scan_that_was_not_finished_is_cut_off() {
     let grey = |at: usize| if at / COLUMNS < scanned { web[at] } else { 32_768.0 };
     let last_line = |at: usize| web[(at / COLUMNS).min(scanned - 1) * COLUMNS + at % COLUMNS];
     let last_column = |at: usize| web[at / COLUMNS * COLUMNS + (at % COLUMNS).min(scanned - 1)];
-    let cases: [(&str, &dyn Fn(usize) -> f64, bool); 3] =
-        [("grey", &grey, true), ("last line", &last_line, true), ("last column", &last_column, false)];
-    for (name, level, is_row) in cases {
-        let (cv, found) = numbers_of(COLUMNS, &(0..web.len()).map(level).collect::<Vec<_>>());
+    let scan = |level: &dyn Fn(usize) -> f64| (0..web.len()).map(level).collect::<Vec<f64>>();
+    let cases = [
+        ("grey", scan(&grey), true),
+        ("last line", scan(&last_line), true),
+        ("last column", scan(&last_column), false),
+    ];
+    for (name, levels, is_row) in cases {
+        let (cv, found) = numbers_of(COLUMNS, &levels);
         let (columns, rows) = if is_row { (COLUMNS, scanned) } else { (scanned, ROWS) };
         let lost = columns * rows - found.map.columns * found.map.rows;
         let of_line = if is_row { columns } else { rows };
