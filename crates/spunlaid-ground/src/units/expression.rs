@@ -25,6 +25,11 @@ impl Powers {
         Self(dimension.row().powers)
     }
 
+    /// The factor of its number where metre, kilogram, second, kelvin and ampere are so many times smaller.
+    pub fn factor(self, smaller: [f64; 5]) -> f64 {
+        self.0.iter().zip(smaller).map(|(power, factor)| factor.powf(*power)).product()
+    }
+
     /// Whether the two are equal apart from rounding.
     pub fn agree(self, other: Self) -> bool {
         self.plus(other, -1.0).0.iter().all(|power| power.abs() < 1e-9)
