@@ -101,16 +101,25 @@ impl Head {
     }
 }
 
-/// Refuses a table of which a column that is read has the name of another column.
+/// Refuses a table of which a column that is read has the header of another column, or the name of another one that is
+/// read, as `u_m_s` beside `u [m/s]`.
 ///
 /// * `read` – the columns that are read
 ///
 /// # Errors
 /// The first such column, with its places.
 pub fn refuse_twice(heads: &[Head], read: &[usize]) -> Result<(), FileError> {
-    let name = |head: &Head| head.text.to_lowercase();
+    let is_same = |one: &str, other: &str| one.to_lowercase() == other.to_lowercase();
     for &column in read {
-        let other = (0..heads.len()).find(|i| *i != column && name(&heads[*i]) == name(&heads[column]));
+        let own = &heads[column];
+        let is_twice = |other: &usize| {
+            let head = &heads[*other];
+            // In `U [i]` and `U [j]` the brackets hold no unit.
+            let have_units = [own, head].iter().all(|head| head.unit.as_deref().is_some_and(is_unit));
+            let is_of_name = have_units && read.contains(other) && is_same(&head.name, &own.name);
+            *other != column && (is_same(&head.text, &own.text) || is_of_name)
+        };
+        let other = (0..heads.len()).find(is_twice);
         let Some(other) = other.filter(|_| !heads[column].text.is_empty()) else { continue };
         let (first, second) = (column.min(other) + 1, column.max(other) + 1);
         let fault = Fault::new(

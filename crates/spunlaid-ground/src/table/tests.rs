@@ -144,3 +144,17 @@ fn probes_of_openfoam_have_names_and_units() {
     let unknown = Table::open(&b"# Time\n0 (10 1 0)\n1 (11 2 0)\n"[..], FileKind::Record, 0).unwrap();
     assert_eq!((unknown.named(), unknown.heads().len()), (false, 4));
 }
+
+#[test]
+fn rejects_columns_with_one_name_also_in_other_spellings() {
+    let refused = |heads: [&str; 4], read: &[usize]| {
+        refuse_twice(&heads.map(Head::new), read).map_err(|error| error.to_string()).err().unwrap_or_default()
+    };
+    for heads in [["t_s", "u_m_s", "u [m/s]", "v_m_s"], ["t_s", "U (mm/s)", "u_m_s", "v_m_s"]] {
+        assert!(refused(heads, &[1, 2]).contains("stands twice, in columns 2 and 3"), "{heads:?}");
+        // One of them alone is read.
+        assert_eq!(refused(heads, &[0, 1]), "", "{heads:?}");
+    }
+    assert!(refused(["t", "u", "v", "U"], &[1]).contains("stands twice, in columns 2 and 4"));
+    assert_eq!(refused(["t", "U [i]", "U [j]", "w"], &[1, 2]), "");
+}
