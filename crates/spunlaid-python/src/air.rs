@@ -1,6 +1,7 @@
 //! `AirSampler`: the turbulent air of a case, which Python looks at.
 
 use crate::case::Case;
+use crate::warning::warn_of;
 use crate::watched::{guarded, threads};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -22,6 +23,7 @@ impl AirSampler {
     /// * `replicate` – from 0
     #[new]
     fn new(py: Python<'_>, case: &Case, replicate: u64) -> PyResult<Self> {
+        warn_of(py, &case.notes)?;
         let description = &*case.case;
         let air = guarded(py, || description.air_at_places(replicate, threads(None)))?;
         Ok(Self { air: Mutex::new(air) })

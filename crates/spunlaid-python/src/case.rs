@@ -2,7 +2,7 @@
 
 use crate::source::{Source, full_path, stem};
 use crate::value::{overrides, to_python};
-use crate::warning::{CALLED, warn_at};
+use crate::warning::{CALLED, warn_at, warn_of_at};
 use crate::watched::{guarded, settled};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -242,6 +242,7 @@ impl Case {
             })?,
         };
         let found = guarded(py, || self.case.air.at_points(&places, axes))?;
+        warn_of_at(py, CALLED, &self.notes)?;
         outside(&places, &found).into_iter().try_for_each(|text| warn_at(py, CALLED, "", &text))?;
         let rows: Vec<_> = places.iter().zip(&found).map(|(at, air)| point_row(*at, *air)).collect();
         let column = |i: usize| PyArray1::from_iter(py, rows.iter().map(|row| row[i]));

@@ -11,8 +11,17 @@ const BELOW: usize = 2;
 
 /// Warns of what may make results mislead; of notes it says nothing.
 pub(crate) fn warn_of<'a>(py: Python<'_>, notes: impl IntoIterator<Item = &'a Note>) -> PyResult<()> {
+    warn_of_at(py, BELOW, notes)
+}
+
+/// The same with the frames to the line of the user.
+pub(crate) fn warn_of_at<'a>(
+    py: Python<'_>,
+    level: usize,
+    notes: impl IntoIterator<Item = &'a Note>,
+) -> PyResult<()> {
     let warnings = notes.into_iter().filter(|note| note.what.is_warning());
-    warnings.into_iter().try_for_each(|note| warn_at(py, BELOW, &note.key, &note.to_string()))
+    warnings.into_iter().try_for_each(|note| warn_at(py, level, &note.key, &note.to_string()))
 }
 
 /// Warns of something that is about no key.

@@ -274,8 +274,8 @@ fn as_likely(one: &Json, other: &Json, what: &str, factor: impl Fn(&str) -> Opti
     Outcome::Holds
 }
 
-/// By what the number at a path is larger in smaller units; None of what is of the input or has a unit that is not known
-/// here.
+/// By what the number at a path is larger in smaller units; None of what is of the input or has a unit that is not
+/// known here.
 fn factor_of(path: &str, smaller: [f64; 5]) -> Option<f64> {
     const PARTS: [&str; 6] = ["mean", "error", "standard_error", "median", "largest", "values"];
     const LENGTHS_AND_TIMES: [Dimension; 4] =

@@ -6,7 +6,7 @@ use super::border::Border;
 use super::findings::Settings;
 use super::levels::{FILLED, per_cent};
 use super::picture::{Picture, Rectangle, cut};
-use super::spots::{FEWEST, KEPT, Level, largest, region, widen};
+use super::spots::{FEWEST, Level, largest, region, widen};
 use super::weigh::Light;
 use crate::ground::{Dimension, Fault};
 use std::ops::Range;
@@ -147,7 +147,7 @@ impl Frame {
             Outside::Dark => "has a dark border",
             Outside::Repeated => "has rows or columns that are all the same, as one that is not finished,",
         };
-        if (part.sides[0] * part.sides[1]) as f64 <= KEPT * (marks.len() - marked) as f64 {
+        if !part.is_large(marks.len() - marked) {
             let share = (100.0 * marked as f64 / marks.len() as f64).round();
             let message = format!(
                 "{what} on {share} % of its area, along its edges, and no large rectangle of web can be cut out"

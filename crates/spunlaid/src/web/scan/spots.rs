@@ -1,6 +1,7 @@
 //! Finds the parts of a picture that are not web: the bare lamp beside it, dust and blots.
 
 use super::picture::{Picture, Rectangle, cut};
+use super::read::LEAST_SIDE;
 use crate::ground::Fault;
 use crate::ground::sort::sort_by_key;
 use crate::ground::statistics::{median, quantile};
@@ -42,7 +43,15 @@ const SAMPLE: usize = 1 << 18;
 /// At most this share of the web may be dark spots.
 const MOST: f64 = 0.05;
 /// At least this share of the web must be in the rectangle that is cut out.
-pub(super) const KEPT: f64 = 0.6;
+const KEPT: f64 = 0.6;
+
+impl Rectangle {
+    /// Whether it holds most of so many pixels of web, and enough of them either way for a picture.
+    pub(super) fn is_large(&self, web: usize) -> bool {
+        let [columns, rows] = self.sides;
+        (columns * rows) as f64 > KEPT * web as f64 && columns.min(rows) >= LEAST_SIDE
+    }
+}
 
 /// Values on a lattice; NaN where there is none.
 pub(super) struct Level {
@@ -88,7 +97,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
     let web =
         if found { largest(&bare, columns) } else { Rectangle { corner: [0, 0], sides: [columns, rows] } };
     let covered = bare.iter().filter(|is| !**is).count();
-    if (web.sides[0] * web.sides[1]) as f64 <= KEPT * covered as f64 {
+    if !web.is_large(covered) {
         let share = 1.0 - covered as f64 / density.len() as f64;
         return Err(Fault::new(
             format!(
