@@ -17,7 +17,7 @@ from spunlaid import Case, SpunlaidWarning
 from conftest import CASES
 
 
-def told(work: Any) -> list[SpunlaidWarning]:
+def warnings_of(work: Any) -> list[SpunlaidWarning]:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         work()
@@ -30,18 +30,18 @@ def told(work: Any) -> list[SpunlaidWarning]:
 def test_each_function_warns_of_what_the_program_warns_of(short: Case, tmp_path: Path) -> None:
     key = "air.turbulence_intensity"
     gusty = short.with_({key: 1.2, "run.time_step": None})
-    said = told(lambda: spunlaid.run(gusty))
+    said = warnings_of(lambda: spunlaid.run(gusty))
     assert any(warning.key == key for warning in said), said
-    assert any(warning.key == key for warning in told(lambda: spunlaid.Air(gusty.with_({"air.lateral": "von-karman"}))))
+    assert any(warning.key == key for warning in warnings_of(lambda: spunlaid.Air(gusty.with_({"air.lateral": "von-karman"}))))
     study = {"case": gusty, "vary": {"air.velocity": [5, 10]}, "replicates": 2}
-    assert any(warning.key == key for warning in told(lambda: spunlaid.sweep(study)))
+    assert any(warning.key == key for warning in warnings_of(lambda: spunlaid.sweep(study)))
     web = lambda: spunlaid.web(CASES / "web_known.toml", set={"line.belt_speed": "20 m/s", "web.length": "0.2 m"})  # noqa: E731
-    assert any(warning.key == "line.basis_weight" for warning in told(web))
+    assert any(warning.key == "line.basis_weight" for warning in warnings_of(web))
     line = lambda: spunlaid.spin(CASES / "spinline.toml", set={"spinline.length": "40 m"})  # noqa: E731
-    assert any(str(warning.key).startswith("spinline") for warning in told(line))
+    assert any(str(warning.key).startswith("spinline") for warning in warnings_of(line))
     # A record of a few integral times.
     record = np.random.default_rng(1).normal(10.0, 1.0, 500)
-    assert told(lambda: spunlaid.analyse(record, rate="1 kHz"))
+    assert warnings_of(lambda: spunlaid.analyse(record, rate="1 kHz"))
     assert pickle.loads(pickle.dumps(said[0])).key == said[0].key
 
 
@@ -52,10 +52,10 @@ def test_a_run_outside_its_field_warns(tmp_path: Path) -> None:
     air = {"air": {"field": tmp_path / "field.csv", "cutoff_frequency": 100.0, "turbulence_intensity": 0.1, "length_scale": 0.05}}
     far = {name: value for name, value in dict(case).items() if not name.startswith("air.")}
     made = Case.from_dict({**far, **air, "air.field_root": ["0.9 m", "0.5 m", "0.5 m"]})
-    said = told(lambda: spunlaid.run(made))
+    said = warnings_of(lambda: spunlaid.run(made))
     assert any("outside the region where the flow is known" in str(warning) for warning in said), said
     within, beyond = ([0.5, 0.5, 0.5], [9.0, 0.0, 0.0])
-    assert len(told(lambda: made.air_at([within, beyond]))) == len(told(lambda: made.air_at([within]))) + 1
+    assert len(warnings_of(lambda: made.air_at([within, beyond]))) == len(warnings_of(lambda: made.air_at([within]))) + 1
 
 
 def test_frames_are_arrays_and_columns_are_values(short: Case) -> None:

@@ -69,7 +69,7 @@ impl Program {
                 Err(error) => Said::Failed(format!("prints no JSON: {error}")),
             },
             Some(1) => Said::Refused(words),
-            // A fibre that is lost is told, and what else there is has its numbers.
+            // Fibres that are lost are reported, and the input is left out here.
             Some(2) if words.contains("lost") || words.contains("diverge") => Said::Refused(words),
             code => Said::Failed(format!("exit code {code:?}: {words}")),
         }

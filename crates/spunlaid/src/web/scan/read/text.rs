@@ -97,7 +97,7 @@ impl Positions {
 /// When the positions show that the cells are not square.
 fn square(steps: [f64; 2], unit: Option<f64>) -> Result<Option<[f64; 2]>, Fault> {
     let [width, height] = steps.map(f64::abs);
-    // One of the two may count, where the other one tells positions.
+    // One of the two may count, where the other one has positions.
     let counts = [width, height].iter().filter(|step| **step == 1.0).count();
     if (unit.is_some() || counts != 1) && (width / height - 1.0).abs() > EVEN {
         let [wide, high] = [width, height].map(|step| {
