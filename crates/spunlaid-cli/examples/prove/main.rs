@@ -4,7 +4,7 @@
 //!     release/prove --minutes 10 --seed 3
 //!     release/prove --only threads
 //!
-//! A finding is shrunk to the fewest keys and printed with the command that shows it. The exit code is 1 if there is one.
+//! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
