@@ -87,6 +87,16 @@ const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
 
+/// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half as
+/// large, because these are the smallest that such waves make uneven. The two fillings may be off alike, and over
+/// patches the few say so without them.
+fn error_of_waves([from, to]: [f64; 2], of_patches: &[(f64, f64)]) -> f64 {
+    let middle = 0.5 * (from * to).sqrt();
+    let distance = |patch: f64| libm::log(patch / middle).abs();
+    let nearest = of_patches.iter().min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
+    nearest.map_or(0.0, |(_, error)| *error)
+}
+
 impl FewFilaments<'_> {
     /// What they say of all filaments.
     ///
@@ -115,6 +125,8 @@ impl FewFilaments<'_> {
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
         let mut told = LayerFew { filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
+        // How far the variance of the filled map may be off over patches of a side, as a part of it.
+        let mut of_variance: Vec<(f64, f64)> = Vec::new();
         let clouds = filled.map(|filled| [&filled.of_all, &filled.of_every_second].map(Clouds::measure));
         if let Some([Some(all), Some(half)]) = clouds {
             told.octaves = all.apart(&half);
@@ -165,8 +177,14 @@ impl FewFilaments<'_> {
                     let apart = (by_filling.cv - cv).powi(2) - by_pitch * by_pitch;
                     by_filling.by_pitch = by_filling.by_pitch.max(apart.max(0.0).sqrt());
                 }
+                of_variance.push((*patch, 2.0 * by_filling.by_pitch / by_filling.cv));
                 told.cvs.push(by_filling);
                 continue;
+            }
+            let beyond_filling = of_filled.map_or(0.0, |filled| whole[0] - of_places - filled.cv * filled.cv);
+            if let Some(filled) = of_filled {
+                of_variance
+                    .push((*patch, (2.0 * by_pitch / cv).hypot(beyond_filling / (filled.cv * filled.cv))));
             }
             told.cvs.push(FewFilamentsCv {
                 patch: *patch,
@@ -178,8 +196,11 @@ impl FewFilaments<'_> {
                 of_halves: off / cv,
                 own: whole[1],
                 few: all.cv,
-                beyond_filling: of_filled.map_or(0.0, |filled| whole[0] - of_places - filled.cv * filled.cv),
+                beyond_filling,
             });
+        }
+        for ([from, to], error) in &mut told.octaves {
+            *error = error.max(error_of_waves([*from, *to], &of_variance));
         }
         Ok(told)
     }
