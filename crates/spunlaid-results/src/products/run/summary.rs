@@ -86,24 +86,26 @@ fn check(check: &FinerCheck) -> Json {
     told
 }
 
-/// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean
-/// has also its whole error, as headline and tables have it, or what says that it has not converged.
+/// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean,
+/// also that of the largest values, has its whole error, as headline and tables have it, or what says that it has not
+/// converged.
 fn summary_of(number: &Number, checks: &FinerChecks) -> Json {
     let estimate = with_values(&number.estimate);
+    let name = number.measure.name;
+    let error = || {
+        let whole = doubt::with_error_of_checks(number.estimate.clone(), name, checks);
+        json!({"error": whole.standard_error})
+    };
+    let open = || match doubt::not_converged(name, checks) {
+        Some((length, change)) => {
+            json!({"not_converged": {"element_length_m": length, "difference": change.mean}})
+        }
+        None => json!({}),
+    };
     match number.measure.aggregate {
         Aggregate::Median => joined([json!({"median": number.value()}), estimate]),
-        Aggregate::Largest => joined([json!({"largest": number.value()}), estimate]),
-        Aggregate::Mean => {
-            let name = number.measure.name;
-            let whole = doubt::with_error_of_checks(number.estimate.clone(), name, checks);
-            let open = doubt::not_converged(name, checks).map_or_else(
-                || json!({}),
-                |(length, change)| {
-                    json!({"not_converged": {"element_length_m": length, "difference": change.mean}})
-                },
-            );
-            joined([json!({"error": whole.standard_error}), estimate, open])
-        }
+        Aggregate::Largest => joined([json!({"largest": number.value()}), error(), estimate, open()]),
+        Aggregate::Mean => joined([error(), estimate, open()]),
     }
 }
 

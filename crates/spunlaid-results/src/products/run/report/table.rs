@@ -52,7 +52,9 @@ fn row(one: &Number, whole: &Whole<'_>) -> Row {
     let n = count(one);
     let cells = [value, measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
     let note = if n > 1 { note } else { String::new() };
-    Row::new(unbroken(measure.label), cells).detail(not_converged.unwrap_or(note))
+    let notes: Vec<String> =
+        [Some(note), not_converged].into_iter().flatten().filter(|note| !note.is_empty()).collect();
+    Row::new(unbroken(measure.label), cells).detail(notes.join("; "))
 }
 
 /// Number of replicates that it is taken over.

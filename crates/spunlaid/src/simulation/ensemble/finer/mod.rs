@@ -17,7 +17,7 @@ mod plan;
 use super::Trajectory;
 use crate::fibre::Run;
 use crate::fibre::chain::Scheme;
-use crate::ground::{Aggregate, Estimate};
+use crate::ground::Estimate;
 use crate::simulation::observe::{ENERGY, MEASURES};
 pub(super) use flights::Paths;
 pub use flights::RunPaths;
@@ -65,11 +65,11 @@ const OF_THE_LAID: &[Statistic] = &[
     Statistic { name: "chord_over_arc", label: "Chord over arc", measures: &["chord_over_arc"] },
 ];
 
-/// Every measure alone that is a mean over the replicates: what is finer changes each of them, and so its error. Energy
-/// checks and a number of nodes are of the discretisation itself.
+/// Every measure alone: what is finer changes each of them, and so its error. Energy checks and a number of nodes are of
+/// the discretisation itself.
 static OF_MEASURES: LazyLock<Vec<Statistic>> = LazyLock::new(|| {
-    let means = MEASURES.iter().filter(|measure| measure.aggregate == Aggregate::Mean);
-    means
+    let alone = MEASURES.iter();
+    alone
         .filter(|measure| measure.group != ENERGY && measure.name != "nodes_in_air")
         .map(|measure| Statistic {
             name: measure.name,
