@@ -1,7 +1,8 @@
 //! Inputs drawn at random: a small file of each kind, and values for some of the keys that its table has. A key that is
 //! new in the table is drawn from the day it is there.
 
-use spunlaid::fibre::case::keys::{self, Kind, Sign};
+use super::lines::Lines;
+use spunlaid::fibre::case::keys::{self, Kind, Omission, Sign};
 use spunlaid::ground::Dimension;
 use spunlaid::ground::random::{stream, uniform};
 use spunlaid::input::WEB_KEYS;
@@ -12,30 +13,48 @@ const KEY: u64 = 0x65766f7270;
 const MOST: usize = 5;
 /// A quantity without a slider lies within this factor of the middle of its usual range.
 const NEAR: f64 = 5.0;
+/// Layers of a base that has some.
+const LAYERS: usize = 2;
 
 /// A file that keys are changed in.
 pub struct Base {
+    /// The name of its file.
     pub name: &'static str,
     /// The command that computes it.
     pub command: &'static str,
     pub text: &'static str,
     /// Tables of the keys that are drawn.
-    pub tables: &'static [&'static str],
+    tables: &'static [&'static str],
     /// How often it is drawn, relative to the others.
     pub weight: f64,
 }
 
-/// Small enough for some tenths of a second each; `CASES` stands for the folder of cases.
-pub const BASES: [Base; 4] = [
+/// Small enough for some tenths of a second each, and some seconds where filaments fly; `CASES` stands for the folder of
+/// cases.
+pub const BASES: [Base; 9] = [
     Base {
-        name: "fixed fibre",
+        name: "fixed",
         command: "run",
         text: include_str!("fixed.toml"),
         tables: &["fibre", "air", "drag", "run"],
         weight: 3.0,
     },
     Base {
-        name: "fed fibre",
+        name: "field",
+        command: "run",
+        text: include_str!("field.toml"),
+        tables: &["fibre", "air", "drag", "run"],
+        weight: 1.0,
+    },
+    Base {
+        name: "record",
+        command: "run",
+        text: include_str!("record.toml"),
+        tables: &["fibre", "air", "drag", "run"],
+        weight: 1.0,
+    },
+    Base {
+        name: "fed",
         command: "run",
         text: include_str!("fed.toml"),
         tables: &["fibre", "air", "drag", "feed", "belt", "run"],
@@ -49,16 +68,37 @@ pub const BASES: [Base; 4] = [
         weight: 3.0,
     },
     Base {
+        name: "layers",
+        command: "web",
+        text: include_str!("layers.toml"),
+        tables: &["fibre", "laydown", "line", "web", "fabric"],
+        weight: 2.0,
+    },
+    Base {
+        name: "flown",
+        command: "web",
+        text: include_str!("flown.toml"),
+        tables: &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
+        weight: 1.0,
+    },
+    Base {
         name: "spinline",
         command: "spin",
         text: include_str!("spinline.toml"),
         tables: &["spinline", "drag"],
         weight: 2.0,
     },
+    Base {
+        name: "yarn",
+        command: "spin",
+        text: include_str!("yarn.toml"),
+        tables: &["spinline", "drag"],
+        weight: 2.0,
+    },
 ];
 
 /// What decides how long a computation takes or how much memory it may have, and is no number of the line.
-const FIXED: [&str; 16] = [
+const FIXED: [&str; 18] = [
     "run.duration",
     "run.time_step",
     "run.replicates",
@@ -67,6 +107,7 @@ const FIXED: [&str; 16] = [
     "run.checks",
     "run.error_tolerance",
     "run.spin_up",
+    "run.seed",
     "fibre.element_length",
     "air.harmonics",
     "air.lateral",
@@ -75,6 +116,7 @@ const FIXED: [&str; 16] = [
     "web.cell",
     "web.memory_limit",
     "web.window",
+    "web.flown",
 ];
 
 /// Random numbers of a draw.
@@ -86,11 +128,11 @@ impl Random {
         Self(Box::new(move || uniform(&mut random)))
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         ((self.0)() * count as f64) as usize
     }
 
-    /// The place of one of several, by their weights.
+    /// The position of one of several, by their weights.
     pub fn weighted(&mut self, weights: &[f64]) -> usize {
         let mut left = (self.0)() * weights.iter().sum::<f64>();
         let is_here = |weight: &f64| {
@@ -100,88 +142,207 @@ impl Random {
         weights.iter().position(is_here).unwrap_or(0)
     }
 
+    /// True with this probability.
+    pub fn is_within(&mut self, share: f64) -> bool {
+        (self.0)() < share
+    }
+
     /// Evenly in the logarithm.
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low * (high / low).powf((self.0)())
     }
 }
 
-/// An input: a base with values of some keys, as they stand after `--set`.
+/// A value of a key, as they stand after `--set`.
+#[derive(Clone, Debug)]
+pub struct Change {
+    pub key: String,
+    pub value: String,
+}
+
+impl Change {
+    pub fn new(key: &str, value: impl Into<String>) -> Self {
+        Self { key: key.to_owned(), value: value.into() }
+    }
+}
+
+/// An input: a base with values of some keys.
 #[derive(Clone)]
 pub struct Drawn {
     pub base: &'static Base,
-    pub changes: Vec<(&'static str, String)>,
+    pub changes: Vec<Change>,
+    /// A number of its own, from which relations draw.
+    pub number: u64,
 }
 
 /// What is drawn of a key.
 struct Drawable {
     name: &'static str,
     kind: Kind,
+    omission: Omission,
     slider: Option<(f64, f64)>,
     usual: Option<(f64, f64)>,
 }
 
 impl Drawn {
-    pub fn new(base: &'static Base, random: &mut Random) -> Self {
+    pub fn new(base: &'static Base, number: u64, random: &mut Random) -> Self {
         let all = drawable(base);
-        let mut changes: Vec<(&'static str, String)> = Vec::new();
+        let mut changes: Vec<Change> = Vec::new();
         for _ in 0..random.below(MOST + 1) {
             let key = &all[random.below(all.len())];
+            let place = base.place(key.name, random);
             if let Some(value) = key.value(random)
-                && changes.iter().all(|(name, _)| *name != key.name)
+                && changes.iter().all(|change| change.key != place)
             {
-                changes.push((key.name, value));
+                changes.push(Change { key: place, value });
             }
         }
-        Self { base, changes }
+        Self { base, changes, number }
+    }
+
+    /// Random numbers that belong to this input.
+    pub fn random(&self) -> Random {
+        Random::new(self.number, u64::MAX)
+    }
+
+    /// The value that a key has been given.
+    pub fn value(&self, key: &str) -> Option<&str> {
+        self.changes.iter().find(|change| change.key == key).map(|change| change.value.as_str())
+    }
+
+    /// With further values, which take the place of those that the same keys have.
+    pub fn with(&self, more: &[Change]) -> Self {
+        let mut other = self.clone();
+        other.changes.retain(|own| more.iter().all(|change| change.key != own.key));
+        other.changes.extend_from_slice(more);
+        other
+    }
+
+    /// With other values of some keys.
+    pub fn map(&self, other: impl Fn(&Change) -> Change) -> Self {
+        Self { changes: self.changes.iter().map(other).collect(), ..self.clone() }
     }
 
     /// The same values in SI units, `40e-6 m` in place of `40 µm`.
     pub fn in_si_units(&self) -> Self {
         let all = drawable(self.base);
-        let in_si = |(name, value): &(&'static str, String)| {
-            let kind = all.iter().find(|key| key.name == *name).map(|key| key.kind);
+        self.map(|Change { key, value }| {
+            let kind = all.iter().find(|own| own.name == unplaced(key)).map(|own| own.kind);
             let value = match kind {
                 Some(Kind::Quantity(dimension, _)) => dimension.parse(value).map(|si| dimension.exact(si)),
                 _ => Ok(value.clone()),
             };
-            (*name, value.expect("a value that was written"))
+            Change { key: key.clone(), value: value.expect("a value that was written") }
+        })
+    }
+
+    /// Values of keys that have a default, each the default.
+    pub fn defaults(&self) -> Vec<Change> {
+        let all = drawable(self.base)
+            .into_iter()
+            .filter(|key| !key.name[key.name.find('.').unwrap_or(0) + 1..].contains('.'));
+        let default = |key: Drawable| match key.omission {
+            Omission::Value(text) => Some(Change::new(&self.base.place(key.name, &mut self.random()), text)),
+            _ => None,
         };
-        Self { base: self.base, changes: self.changes.iter().map(in_si).collect() }
+        let base = Lines::new(self.base.text);
+        // A fed fibre has another default.
+        let is_fed = self.base.tables.contains(&"belt");
+        let is_written = |key: &str| {
+            (is_fed && key == "air.eddies")
+                || self.value(key).is_some()
+                || key.split_once('.').is_some_and(|(table, name)| base.value(table, name).is_some())
+        };
+        all.filter_map(default).filter(|change| !is_written(&change.key)).collect()
+    }
+
+    /// Quantities that are zero or not there if they are left out, far below what is usual.
+    pub fn next_to_nothing(&self) -> Vec<Change> {
+        let is_none = |key: &Drawable| matches!(key.omission, Omission::Follows(text) if text == "none");
+        let small = |key: Drawable| match (key.kind, key.usual) {
+            (Kind::Quantity(dimension, _), Some((low, _))) => {
+                Some(Change::new(&self.base.place(key.name, &mut self.random()), dimension.exact(1e-9 * low)))
+            }
+            _ => None,
+        };
+        drawable(self.base).into_iter().filter(is_none).filter_map(small).collect()
     }
 
     /// The commands that show a finding.
     pub fn command(&self) -> String {
-        let set = |(key, value): &(&str, String)| format!(" --set '{key}={value}'");
+        let set = |Change { key, value }: &Change| format!(" --set '{key}={value}'");
         let set: String = self.changes.iter().map(set).collect();
         format!(
             "spunlaid {} crates/spunlaid-cli/examples/prove/{}.toml{set}",
-            self.base.command,
-            self.base.name.split(' ').next().unwrap_or_default()
+            self.base.command, self.base.name
         )
     }
 }
 
+impl Base {
+    pub fn has_layers(&self) -> bool {
+        self.text.contains("[[layer]]")
+    }
+
+    /// Whether its filaments fly in one air.
+    pub fn flies_in_one_air(&self) -> bool {
+        self.text.contains("flown")
+    }
+
+    /// The full name of a key in this file, with the numbers of its layer and of its entry in a list.
+    fn place(&self, name: &str, random: &mut Random) -> String {
+        let (table, rest) = name.split_once('.').expect("a table");
+        let entry = rest.split_once('.').filter(|(list, _)| self.text.contains(&format!("{list} = [")));
+        let name = match entry {
+            Some((list, rest)) => format!("{table}.{list}.{}.{rest}", 1 + random.below(LAYERS)),
+            None => name.to_owned(),
+        };
+        match self.has_layers() && ["laydown", "line"].contains(&table) {
+            true if entry.is_some() => format!("layer.1.{name}"),
+            true => format!("layer.{}.{name}", 1 + random.below(LAYERS)),
+            false => name,
+        }
+    }
+}
+
+/// The name of a key in its table, without numbers of layers and entries.
+fn unplaced(key: &str) -> String {
+    let parts = key.split('.').filter(|part| *part != "layer" && part.parse::<u32>().is_err());
+    parts.collect::<Vec<_>>().join(".")
+}
+
 fn drawable(base: &Base) -> Vec<Drawable> {
+    macro_rules! drawable {
+        ($keys:expr) => {
+            $keys.iter().map(|key| Drawable {
+                name: key.name,
+                kind: key.kind,
+                omission: key.omission,
+                slider: key.slider,
+                usual: key.usual,
+            })
+        };
+    }
+    let of_case = drawable!(keys::all());
+    let of_web = drawable!(WEB_KEYS);
+    // A list that a base does not have cannot be set in it.
+    let is_there = |name: &str| {
+        let list = name
+            .splitn(3, '.')
+            .nth(1)
+            .filter(|_| name.starts_with("line.") && name.matches('.').count() == 2);
+        list.is_none_or(|list| base.text.contains(&format!("{list} = [")))
+    };
     let is_of_base = |name: &str| {
         name.split_once('.').is_some_and(|(table, _)| base.tables.contains(&table))
             && !FIXED.iter().any(|fixed| name.starts_with(fixed))
+            && is_there(name)
     };
-    let of_case = keys::all().iter().map(|key| Drawable {
-        name: key.name,
-        kind: key.kind,
-        slider: key.slider,
-        usual: key.usual,
-    });
-    let of_web = WEB_KEYS.iter().map(|key| Drawable {
-        name: key.name,
-        kind: key.kind,
-        slider: key.slider,
-        usual: key.usual,
-    });
-    let all: Box<dyn Iterator<Item = Drawable>> =
-        if base.command == "web" { Box::new(of_web) } else { Box::new(of_case) };
-    all.filter(|key| is_of_base(key.name)).collect()
+    let mut all: Vec<Drawable> = if base.command == "web" { of_web.collect() } else { Vec::new() };
+    let more: Vec<Drawable> = of_case.filter(|key| all.iter().all(|own| own.name != key.name)).collect();
+    all.extend(more);
+    all.retain(|key| is_of_base(key.name));
+    all
 }
 
 impl Drawable {

@@ -2,20 +2,27 @@
 //! that hold whatever the numbers are.
 //!
 //!     release/prove --minutes 10 --seed 3
-//!     release/prove --only threads
+//!     release/prove --only threads --base web
 //!
 //! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
+//! `--draw N` repeats one draw, `--threads` is the number of inputs at a time.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
 mod draw;
+mod evidence;
+mod lines;
+mod numbers;
 mod program;
 mod relations;
 
-use draw::{BASES, Drawn, Random};
+use draw::{BASES, Base, Drawn, Random};
+use evidence::Claims;
 use program::{Program, Said};
 use relations::{Outcome, RELATIONS, Relation};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// How often a relation was tried.
@@ -24,56 +31,154 @@ struct Tally {
     held: u64,
     broken: u64,
     refused: u64,
+    seconds: f64,
+}
+
+/// What is looked at.
+struct Search {
+    seed: u64,
+    /// One draw, or all that there is time for.
+    draw: Option<u64>,
+    most: Duration,
+    relations: Vec<&'static Relation>,
+    bases: Vec<&'static Base>,
+}
+
+/// What was found so far.
+#[derive(Default)]
+struct Found {
+    draws: u64,
+    tallies: BTreeMap<(&'static str, &'static str), Tally>,
+    claims: BTreeMap<String, Claims>,
+    /// What has been printed: of each relation, input and number the first one.
+    printed: BTreeSet<String>,
 }
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
     let word_after = |name: &str| Some(&words[words.iter().position(|word| word == name)? + 1]);
-    let number = |name: &str, or: f64| word_after(name).map_or(or, |word| word.parse().expect("a number"));
-    let (minutes, seed) = (number("--minutes", 1.0), number("--seed", 1.0) as u64);
-    let only = word_after("--only");
-    let chosen: Vec<&Relation> =
-        RELATIONS.iter().filter(|relation| only.is_none_or(|name| *name == relation.name)).collect();
-    assert!(
-        !chosen.is_empty(),
-        "the relations are {:?}",
-        RELATIONS.iter().map(|relation| relation.name).collect::<Vec<_>>()
-    );
-    let program = Program::new();
-    let (begun, most) = (Instant::now(), Duration::from_secs_f64(60.0 * minutes));
-    let mut tallies: BTreeMap<(&str, &str), Tally> = BTreeMap::new();
-    for number in 0.. {
-        if begun.elapsed() > most {
-            break;
+    let number = |name: &str| word_after(name).map(|word| word.parse::<f64>().expect("a number"));
+    let is_asked = |name: &str, of: &str| word_after(name).is_none_or(|word| word == of);
+    let search = Search {
+        seed: number("--seed").unwrap_or(1.0) as u64,
+        draw: number("--draw").map(|draw| draw as u64),
+        most: Duration::from_secs_f64(60.0 * number("--minutes").unwrap_or(1.0)),
+        relations: RELATIONS.iter().filter(|relation| is_asked("--only", relation.name)).collect(),
+        bases: BASES.iter().filter(|base| is_asked("--base", base.name)).collect(),
+    };
+    let names = || RELATIONS.iter().map(|relation| relation.name).collect::<Vec<_>>();
+    assert!(!search.relations.is_empty(), "the relations are {:?}", names());
+    assert!(!search.bases.is_empty(), "the bases are {:?}", BASES.map(|base| base.name));
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = number("--threads").map_or(threads, |threads| threads as usize);
+    let (found, next, begun) = (Mutex::default(), AtomicU64::new(0), Instant::now());
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let program = Program::new();
+                while begun.elapsed() < search.most {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    match search.draw {
+                        Some(draw) if number == 0 => search.look_at(draw, &program, &found),
+                        Some(_) => break,
+                        None => search.look_at(number, &program, &found),
+                    }
+                }
+            });
         }
-        let mut random = Random::new(seed, number);
-        let base = &BASES[random.weighted(&BASES.iter().map(|base| base.weight).collect::<Vec<_>>())];
-        let (drawn, results) = accepted(&program, Drawn::new(base, &mut random));
-        let Said::Results(results) = results else {
-            println!("\nFINDING: seed {seed}, draw {number}\n{}\n{}", results.words(), drawn.command());
-            tallies.entry(("is computed", base.name)).or_default().broken += 1;
-            continue;
+    });
+    std::process::exit(i32::from(found.into_inner().expect("what was found").report()));
+}
+
+impl Search {
+    /// Holds one draw against the relations.
+    fn look_at(&self, number: u64, program: &Program, found: &Mutex<Found>) {
+        let mut random = Random::new(self.seed, number);
+        let weights: Vec<f64> = self.bases.iter().map(|base| base.weight).collect();
+        let base = self.bases[random.weighted(&weights)];
+        let (drawn, results) =
+            accepted(program, Drawn::new(base, self.seed * 1_000_000 + number, &mut random));
+        let add = |relation: &'static str, outcome: &Outcome, seconds: f64| {
+            found.lock().expect("what was found").add(relation, base.name, outcome, seconds);
         };
-        for relation in chosen.iter().filter(|relation| relation.applies(base)) {
-            let tally = tallies.entry((relation.name, base.name)).or_default();
-            match relation.holds(&program, &drawn, &results) {
-                Outcome::Holds => tally.held += 1,
-                Outcome::Refused => tally.refused += 1,
-                Outcome::Broken(said) => {
-                    tally.broken += 1;
-                    let (fewest, said) = shrunk(relation, &program, drawn.clone(), said);
-                    println!("\nFINDING: seed {seed}, draw {number}, relation {}\n{said}", relation.name);
-                    println!("{}", fewest.command());
+        found.lock().expect("what was found").draws += 1;
+        let Said::Results(results) = results else {
+            println!(
+                "\nFINDING: --seed {} --draw {number}\n{}\n{}",
+                self.seed,
+                results.words(),
+                drawn.command()
+            );
+            return add("is computed", &Outcome::Broken(String::new()), 0.0);
+        };
+        for relation in &self.relations {
+            let is_chosen = self.relations.len() == 1 || random.is_within(relation.share);
+            if !relation.applies(&drawn) || !is_chosen {
+                continue;
+            }
+            let begun = Instant::now();
+            let outcome = relation.holds(program, &drawn, &results);
+            add(relation.name, &outcome, begun.elapsed().as_secs_f64());
+            if let Outcome::Broken(said) = outcome
+                && found.lock().expect("what was found").is_new(relation.name, base.name, &said)
+            {
+                let (fewest, said) = shrunk(relation, program, drawn.clone(), said);
+                println!(
+                    "\nFINDING: --seed {} --draw {number} --only '{}'\n{said}\n{}",
+                    self.seed,
+                    relation.name,
+                    fewest.command()
+                );
+            }
+        }
+    }
+}
+
+impl Found {
+    /// Whether no other input has shown this of a relation. Its words begin with the name of the number.
+    fn is_new(&mut self, relation: &str, base: &str, said: &str) -> bool {
+        let number: Vec<&str> = said.split(' ').take(2).collect();
+        self.printed.insert(format!("{relation} {base} {}", number.join(" ")))
+    }
+
+    fn add(&mut self, relation: &'static str, base: &'static str, outcome: &Outcome, seconds: f64) {
+        let tally = self.tallies.entry((relation, base)).or_default();
+        tally.seconds += seconds;
+        match outcome {
+            Outcome::Holds => tally.held += 1,
+            Outcome::Refused => tally.refused += 1,
+            Outcome::Broken(_) => tally.broken += 1,
+            Outcome::Claims(claims) => {
+                tally.held += 1;
+                for (name, is_false) in claims {
+                    self.claims.entry(name.clone()).or_default().take(*is_false);
                 }
             }
         }
     }
-    println!("\n{:16} {:12} {:>8} {:>8} {:>8}", "relation", "input", "held", "broken", "refused");
-    for ((relation, base), Tally { held, broken, refused }) in &tallies {
-        println!("{relation:16} {base:12} {held:>8} {broken:>8} {refused:>8}");
+
+    /// Prints what was found, and whether something does not hold.
+    fn report(&self) -> bool {
+        println!("\n{} draws", self.draws);
+        println!(
+            "{:18} {:10} {:>7} {:>7} {:>7} {:>9}",
+            "relation", "input", "held", "broken", "refused", "seconds"
+        );
+        for ((relation, base), Tally { held, broken, refused, seconds }) in &self.tallies {
+            println!("{relation:18} {base:10} {held:>7} {broken:>7} {refused:>7} {seconds:>9.1}");
+        }
+        let wrong: Vec<_> = self.claims.iter().filter(|(_, claims)| claims.are_wrong()).collect();
+        for (name, claims) in &wrong {
+            println!(
+                "\nFINDING: {name} is found changed where nothing is: {} of {}",
+                claims.false_ones, claims.all
+            );
+        }
+        let all: u64 = self.claims.values().map(|claims| claims.all).sum();
+        let false_ones: u64 = self.claims.values().map(|claims| claims.false_ones).sum();
+        println!("claims that something has changed where nothing has: {false_ones} of {all}");
+        self.tallies.values().any(|tally| tally.broken > 0) || !wrong.is_empty()
     }
-    let broken: u64 = tallies.values().map(|tally| tally.broken).sum();
-    std::process::exit(i32::from(broken > 0));
 }
 
 /// The input without the changes that the program refuses, and its results, or why it has none.

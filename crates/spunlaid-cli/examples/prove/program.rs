@@ -1,14 +1,16 @@
 //! The program, as its user calls it.
 
-use super::draw::Drawn;
+use super::draw::{Change, Drawn};
+use super::numbers::{Numbers, numbers};
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 /// The program and a folder of its own.
 pub struct Program {
     path: PathBuf,
-    pub desk: tempfile::TempDir,
+    desk: tempfile::TempDir,
 }
 
 /// What the program has said of an input.
@@ -28,6 +30,13 @@ impl Said {
             Self::Refused(words) | Self::Failed(words) => words,
         }
     }
+
+    pub fn results(self) -> Option<Json> {
+        match self {
+            Self::Results(results) => Some(results),
+            _ => None,
+        }
+    }
 }
 
 impl Program {
@@ -43,36 +52,78 @@ impl Program {
         self.desk.path().join(name)
     }
 
+    /// The same without what was there before.
+    pub fn new_place(&self, name: &str) -> PathBuf {
+        let place = self.place(name);
+        let _ = std::fs::remove_dir_all(&place);
+        place
+    }
+
     /// Computes an input, with further arguments.
     pub fn computed(&self, drawn: &Drawn, more: &[&str]) -> Said {
-        let set = drawn.changes.iter().map(|(key, value)| format!("--set={key}={value}"));
+        let set = drawn.changes.iter().map(|Change { key, value }| format!("--set={key}={value}"));
         let more = more.iter().map(|word| (*word).to_owned()).chain(set).collect::<Vec<_>>();
         self.computed_text(drawn.base.command, &with_folder(drawn.base.text), &more)
     }
 
+    /// The numbers of an input that have an error; none if it has no results.
+    pub fn numbers(&self, drawn: &Drawn) -> Option<Numbers> {
+        self.computed(drawn, &[]).results().map(|results| numbers(&results))
+    }
+
     /// Computes the text of a file.
     pub fn computed_text(&self, command: &str, text: &str, more: &[String]) -> Said {
-        let file = self.place("input.toml");
-        std::fs::write(&file, text).expect("a file");
-        let output = Command::new(&self.path)
-            .args([command, "input.toml", "--json", "--quiet"])
-            // Advice flies twice as long.
-            .args((command == "web").then_some("--no-advice"))
-            .args(more)
-            .current_dir(self.desk.path())
-            .output()
-            .expect("the program");
-        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        std::fs::write(self.place("input.toml"), text).expect("a file");
+        self.computed_file(command, "input.toml", more)
+    }
+
+    /// Computes a file.
+    pub fn computed_file(&self, command: &str, file: &str, more: &[String]) -> Said {
+        let output = self.command(command).arg(file).args(more).output().expect("the program");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
         match output.status.code() {
             Some(0) => match serde_json::from_slice(&output.stdout) {
                 Ok(results) => Said::Results(results),
                 Err(error) => Said::Failed(format!("prints no JSON: {error}")),
             },
-            Some(1) => Said::Refused(words),
+            Some(1) => Said::Refused(said),
             // Fibres that are lost are reported, and the input is left out here.
-            Some(2) if words.contains("lost") || words.contains("diverge") => Said::Refused(words),
-            code => Said::Failed(format!("exit code {code:?}: {words}")),
+            Some(2) if said.contains("lost") || said.contains("diverge") => Said::Refused(said),
+            code => Said::Failed(format!("exit code {code:?}: {said}")),
         }
+    }
+
+    /// Computes an input of which results are kept, and kills the program after a while.
+    pub fn killed(&self, command: &str, text: &str, more: &[&str], after: Duration) {
+        std::fs::write(self.place("input.toml"), text).expect("a file");
+        let mut command = self.command(command);
+        let command = command.args(["input.toml"]).args(more).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut running = command.spawn().expect("the program");
+        std::thread::sleep(after);
+        let _ = running.kill();
+        let _ = running.wait();
+    }
+
+    fn command(&self, name: &str) -> Command {
+        let mut command = Command::new(&self.path);
+        command.arg(name).current_dir(self.desk.path());
+        if name != "compare" {
+            command.arg("--quiet");
+        }
+        if ["run", "web", "spin", "sweep", "compare"].contains(&name) {
+            command.arg("--json");
+        }
+        if name == "web" {
+            // Advice flies twice as long.
+            command.arg("--no-advice");
+        }
+        command
+    }
+
+    /// Compares two kept results.
+    pub fn compared(&self, one: &str, other: &str) -> Option<Json> {
+        let output = self.command("compare").args([one, other]).output().expect("the program");
+        serde_json::from_slice(&output.stdout).ok()
     }
 }
 

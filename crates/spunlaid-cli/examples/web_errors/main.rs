@@ -10,11 +10,14 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
 mod draw;
+#[path = "../prove/numbers.rs"]
 mod numbers;
+mod scatter;
 mod webs;
 
 use draw::{Family, line};
-use numbers::{BOUNDS, Numbers, Scatter, differences, scatter, table};
+use numbers::Numbers;
+use scatter::{BOUNDS, Scatter, differences, scatter, table};
 use spunlaid::ground::threads::each;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;

@@ -4,14 +4,19 @@
 #[path = "../../examples/web_errors/draw.rs"]
 mod draw;
 #[allow(dead_code)]
-#[path = "../../examples/web_errors/numbers.rs"]
+#[path = "../../examples/prove/numbers.rs"]
 mod numbers;
+#[allow(dead_code)]
+#[path = "../../examples/web_errors/scatter.rs"]
+mod scatter;
 #[path = "../../examples/web_errors/webs.rs"]
 mod webs;
 
 use draw::{Family, line};
-use numbers::{BOUNDS, Numbers, scatter};
+use numbers::Numbers;
+use scatter::{BOUNDS, scatter};
 use spunlaid::ground::threads::each;
+use spunlaid::input::read_web;
 
 /// All numbers of `summary.json` that have an error. Sampling moves the scatter of twelve webs by as much as a
 /// chi-square distribution says: three and a half standard deviations of it are allowed beyond the bounds of the bench.
@@ -27,4 +32,20 @@ fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
     });
     let wrong: Vec<String> = wrong.map(|(name, of)| format!("{name} {}: {:.2}", of.of, of.ratio)).collect();
     assert!(wrong.is_empty(), "scatter over error: {}", wrong.join(", "));
+}
+
+/// Where filaments are filled in between the simulated ones, the variance of the clouds may be off beyond what two
+/// fillings differ by: over patches of the same size the simulated ones say so without them. Against all filaments in the
+/// same air.
+#[test]
+fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
+    let text = include_str!("../../examples/prove/flown.toml").replace("flown = 800\n", "");
+    let web = read_web((&*text, "web.toml"), &[][..]).unwrap();
+    let [few, all] = ["800", "all"].map(|flown| webs::numbers_of(&web, 1, flown).unwrap());
+    let clouds: Vec<_> = few.iter().filter(|(name, _)| name.0 == "web.clouds.variance").collect();
+    assert!(clouds.len() > 3);
+    for (name, few) in clouds {
+        let off = (few.value - all[name].value) / few.error.hypot(all[name].error);
+        assert!(off.abs() < 3.0, "{name:?}: {few:?} against {:?}", all[name]);
+    }
 }

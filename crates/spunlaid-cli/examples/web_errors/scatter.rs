@@ -1,101 +1,12 @@
-//! The numbers of a summary that have an error, and their errors against the scatter of several webs.
+//! The errors of numbers against the scatter of several webs.
 
-use serde_json::{Map, Value as Json};
+use super::numbers::{Name, Numbers, Reported};
 use spunlaid::ground::NORMAL_95;
 use spunlaid::ground::statistics::median;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A number with its error.
-#[derive(Clone, Debug)]
-pub struct Reported {
-    pub value: f64,
-    /// Standard error by all causes.
-    pub error: f64,
-    /// The part of it that comes of the sample of filaments, if it is reported separately.
-    pub of_sample: Option<f64>,
-    pub interval: [f64; 2],
-}
-
-/// What a number is, and of which patch, layer or place.
-pub type Name = (String, String);
-/// All numbers with an error of a web.
-pub type Numbers = BTreeMap<Name, Reported>;
-
 /// The ratios of scatter to error that hold.
 pub const BOUNDS: [f64; 2] = [0.7, 1.5];
-/// By what a name says that it is the error of another, the whole one first.
-const ERRORS: [&str; 3] = ["whole_error", "standard_error", "_se"];
-const OF_SAMPLE: &str = "flight_error";
-
-/// All numbers of a summary that have an error.
-///
-/// # Panics
-/// If it has an error of which it is not known whose it is.
-pub fn numbers(summary: &Json) -> Numbers {
-    let mut found = Numbers::new();
-    walk(summary, (String::new(), String::new()), &mut found);
-    found
-}
-
-fn walk(json: &Json, (name, of): Name, found: &mut Numbers) {
-    match json {
-        Json::Array(entries) => {
-            for (place, entry) in entries.iter().enumerate() {
-                let size = |name| Some(format!("{} mm", (1e6 * entry.get(name)?.as_f64()?).round() / 1e3));
-                let which =
-                    size("patch_m").or_else(|| size("from_m")).unwrap_or_else(|| (place + 1).to_string());
-                walk(entry, (name.clone(), [&*of, &which].join(" ").trim().to_owned()), found);
-            }
-        }
-        Json::Object(entries) => {
-            let dotted =
-                |entry: &str| if name.is_empty() { entry.to_owned() } else { format!("{name}.{entry}") };
-            for (entry, error) in entries {
-                let Some(value) = whose(entries, entry) else { continue };
-                let full = if value == "value" || value == "mean" { name.clone() } else { dotted(&value) };
-                if let Some(reported) = reported(entries, &value, error.as_f64()) {
-                    let other = found.get(&(full.clone(), of.clone()));
-                    if other.is_none() || entry.contains(ERRORS[0]) {
-                        found.insert((full, of.clone()), reported);
-                    }
-                }
-            }
-            for (entry, part) in entries {
-                walk(part, (dotted(entry), of.clone()), found);
-            }
-        }
-        _ => {}
-    }
-}
-
-/// The name of the number whose error an entry is; none of what is no error.
-fn whose(entries: &Map<String, Json>, error: &str) -> Option<String> {
-    let is_one =
-        |word: &&&str| if word.starts_with('_') { error.ends_with(**word) } else { error.contains(**word) };
-    let Some(word) = ERRORS.iter().find(is_one) else {
-        assert!(!error.contains("error") || error.contains(OF_SAMPLE), "which error is {error}?");
-        return None;
-    };
-    let name = error.replace(word, "").replace("__", "_").trim_matches('_').to_owned();
-    let before = || entries.keys().take_while(|name| *name != error).last().cloned();
-    let name = if name.is_empty() { before() } else { Some(name) };
-    let name = name.filter(|name| entries.contains_key(name));
-    assert!(name.is_some(), "whose error is {error}? There are {:?}", entries.keys());
-    name
-}
-
-fn reported(entries: &Map<String, Json>, name: &str, error: Option<f64>) -> Option<Reported> {
-    let (value, error) = (entries[name].as_f64()?, error?);
-    let interval = entries.get(&format!("{name}_interval")).or_else(|| entries.get("interval"));
-    let end = |place: usize| interval?.get(place)?.as_f64();
-    let half = NORMAL_95 * error;
-    Some(Reported {
-        value,
-        error,
-        of_sample: entries.get(&format!("{name}_{OF_SAMPLE}")).and_then(Json::as_f64),
-        interval: [end(0).unwrap_or(value - half), end(1).unwrap_or(value + half)],
-    })
-}
 
 /// How a number of a line scatters over its webs.
 #[derive(Clone, Debug)]

@@ -1,0 +1,87 @@
+//! Whether a number is further from what it should be than its error allows, while observations come one by one.
+//!
+//! Each observation is a deviation in units of the error, converted to a standard normal score. The evidence against
+//! the error is the mean of several likelihood ratios, of scores that are shifted or wider against scores that are
+//! standard normal. By Ville's inequality it exceeds 1/α once, however long one looks and whenever one stops, with a
+//! probability of at most α: Ramdas et al., Statistical Science 38 (2023) 576.
+
+/// Shifts and widths of the scores of wrong errors.
+const WRONG: [(f64, f64); 10] = [
+    (0.5, 1.0),
+    (-0.5, 1.0),
+    (1.0, 1.0),
+    (-1.0, 1.0),
+    (3.0, 1.0),
+    (-3.0, 1.0),
+    (0.0, 1.5),
+    (0.0, 2.0),
+    (0.0, 4.0),
+    (0.0, 16.0),
+];
+/// An error may be too small by this factor before it counts as wrong.
+const TOLERANCE: f64 = 1.5;
+
+/// The evidence against one number.
+#[derive(Clone, Debug, Default)]
+pub struct Evidence {
+    logarithms: [f64; WRONG.len()],
+    pub observations: u32,
+}
+
+impl Evidence {
+    /// The evidence at which a number is reported. There are some 10⁷ numbers of inputs in ten hours of a processor, so
+    /// that there is a false one in ten such runs.
+    pub const REPORTED: f64 = 1e8;
+    /// Below this nothing is suspected.
+    pub const SUSPECTED: f64 = 4.0;
+
+    /// Takes a deviation, in units of its error, and the degrees of freedom of that error.
+    pub fn take(&mut self, deviation: f64, degrees: f64) {
+        let score = normal_score(deviation / TOLERANCE, degrees);
+        for (logarithm, (shift, width)) in self.logarithms.iter_mut().zip(WRONG) {
+            *logarithm += 0.5 * (score * score - ((score - shift) / width).powi(2)) - width.ln();
+        }
+        self.observations += 1;
+    }
+
+    /// By how much the observations are likelier if the error is wrong.
+    pub fn value(&self) -> f64 {
+        self.logarithms.iter().map(|logarithm| logarithm.exp()).sum::<f64>() / WRONG.len() as f64
+    }
+}
+
+/// The standard normal score that is as likely to be exceeded as a value of Student's t, by Wallace (Annals of
+/// Mathematical Statistics 30 (1959) 1121).
+fn normal_score(t: f64, degrees: f64) -> f64 {
+    let n = degrees.max(1.0);
+    let score = (8.0 * n + 1.0) / (8.0 * n + 3.0) * (n * (t * t / n).ln_1p()).sqrt();
+    score.min(40.0).copysign(t)
+}
+
+/// Claims of the program, of which one in twenty may be false.
+#[derive(Clone, Debug, Default)]
+pub struct Claims {
+    pub all: u64,
+    pub false_ones: u64,
+}
+
+impl Claims {
+    /// More may be false by this factor before they count as wrong.
+    const TOLERANCE: f64 = 2.0;
+
+    pub fn take(&mut self, is_false: bool) {
+        self.all += 1;
+        self.false_ones += u64::from(is_false);
+    }
+
+    /// Whether there are too many false ones, by the likelihood of several larger shares.
+    pub fn are_wrong(&self) -> bool {
+        /// Shares of wrong claims.
+        const SHARES: [f64; 4] = [0.2, 0.4, 0.7, 0.99];
+        let usual = 0.05 * Self::TOLERANCE;
+        let (wrong, right) = (self.false_ones as f64, (self.all - self.false_ones) as f64);
+        let likelihood =
+            |share: f64| (wrong * (share / usual).ln() + right * ((1.0 - share) / (1.0 - usual)).ln()).exp();
+        SHARES.map(likelihood).iter().sum::<f64>() / SHARES.len() as f64 > Evidence::REPORTED
+    }
+}
