@@ -71,8 +71,12 @@ impl Laid<'_> {
         let Some(nearest) = self.patches.iter().min_by(|a, b| far(a).total_cmp(&far(b))) else {
             return Some(Deviations::default());
         };
-        let error = |of: Unevenness| of.standard_error.map_or(0.0, |error| error / of.cv);
-        nearest.off.map(|of_map| Deviations { by_chance: nearest.reported.map_or(0.0, error), of_map })
+        // On a sheet that holds too few clouds or streaks for an error of the CV, nothing else has one.
+        let by_chance = match nearest.reported {
+            Some(of) => of.standard_error? / of.cv,
+            None => 0.0,
+        };
+        Some(Deviations { by_chance, of_map: nearest.off? })
     }
 }
 
@@ -142,7 +146,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
     let chance = Chance { closed: map.closed, streaks: laid.streaks };
-    let mut notes: Vec<String> = unknown(laid).into_iter().collect();
+    let mut notes = unknown(laid);
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
@@ -345,17 +349,26 @@ fn over_patches(laid: &Laid<'_>, map: &Map, patch: f64, of: impl Fn(f64) -> f64)
     (numbers.len() >= FEWEST).then(|| (with(mean, by_clouds), with(cv, cv.value())))
 }
 
-/// Over which patches the CV of the web is not known, so that nothing that follows has an error.
-fn unknown(laid: &Laid<'_>) -> Option<String> {
-    let sides = laid.patches.iter().filter(|of| of.off.is_none());
-    let sides: Vec<String> = sides.map(|of| Dimension::Length.pretty_to(of.patch, 2)).collect();
-    (!sides.is_empty()).then(|| {
+/// Over which patches the CV of the web or its error is not known, so that nothing that follows has an error.
+fn unknown(laid: &Laid<'_>) -> Vec<String> {
+    let of_sides = |is_one: &dyn Fn(&LaidPatch) -> bool| {
+        let sides = laid.patches.iter().filter(|of| is_one(of));
+        sides.map(|of| Dimension::Length.pretty_to(of.patch, 2)).collect::<Vec<String>>().join(", ")
+    };
+    let unknown = of_sides(&|of| of.off.is_none());
+    let has_no_error = |of: &Unevenness| of.standard_error.is_none();
+    let small = of_sides(&|of| of.off.is_some() && of.reported.as_ref().is_some_and(has_no_error));
+    let reasons = [
+        (unknown, "the CV of the web over these is not known, and the map may have another one"),
+        (small, "the sheet holds too few clouds or streaks for the error of the CV over these"),
+    ];
+    let note = |(sides, reason): (String, &str)| {
         format!(
-            "thin places, weights, strips, bare area and light have no error where they follow from patches of {}: \
-            the CV of the web over these is not known, and the map may have another one",
-            sides.join(", ")
+            "thin places, weights, strips, bare area and light have no error where they follow from patches of \
+            {sides}: {reason}"
         )
-    })
+    };
+    reasons.into_iter().filter(|(sides, _)| !sides.is_empty()).map(note).collect()
 }
 
 /// Any density, of which only the length of fibre is made, which depends on the titre alone.
