@@ -31,7 +31,7 @@ pub struct Base {
 
 /// Small enough for some tenths of a second each, and some seconds where filaments fly; `CASES` stands for the folder of
 /// cases.
-pub const BASES: [Base; 9] = [
+pub const BASES: [Base; 10] = [
     Base {
         name: "fixed",
         command: "run",
@@ -79,6 +79,13 @@ pub const BASES: [Base; 9] = [
         command: "web",
         text: include_str!("flown.toml"),
         tables: &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
+        weight: 1.0,
+    },
+    Base {
+        name: "places",
+        command: "web",
+        text: include_str!("places.toml"),
+        tables: &["fibre", "air", "drag", "belt", "web", "fabric"],
         weight: 1.0,
     },
     Base {
@@ -191,7 +198,7 @@ impl Drawn {
         for _ in 0..random.below(MOST + 1) {
             let key = &all[random.below(all.len())];
             let place = base.place(key.name, random);
-            if let Some(value) = key.value(random)
+            if let Some(value) = key.value(base, random)
                 && changes.iter().all(|change| change.key != place)
             {
                 changes.push(Change { key: place, value });
@@ -289,6 +296,12 @@ impl Base {
         self.text.contains("flown")
     }
 
+    /// The number that a key has in this file.
+    fn number(&self, name: &str) -> Option<f64> {
+        let (table, name) = name.rsplit_once('.')?;
+        Lines::new(self.text).value(table, name)?.parse().ok()
+    }
+
     /// The full name of a key in this file, with the numbers of its layer and of its entry in a list.
     fn place(&self, name: &str, random: &mut Random) -> String {
         let (table, rest) = name.split_once('.').expect("a table");
@@ -347,7 +360,7 @@ fn drawable(base: &Base) -> Vec<Drawable> {
 
 impl Drawable {
     /// A value; None of a kind that names files or lists.
-    fn value(&self, random: &mut Random) -> Option<String> {
+    fn value(&self, base: &Base, random: &mut Random) -> Option<String> {
         Some(match self.kind {
             Kind::Quantity(dimension, sign) => {
                 let (low, high) = self.slider.or(self.usual)?;
@@ -361,9 +374,11 @@ impl Drawable {
                 let is_turned = sign == Sign::Any && random.below(4) == 0;
                 rounded(dimension, if is_turned { -value } else { value })
             }
-            Kind::Whole(least, most) => {
-                (least + random.below(most.min(least + 20) as usize) as u64).to_string()
-            }
+            Kind::Whole(least, most) => match base.number(self.name) {
+                // A count lies near that of the file.
+                Some(own) => whole(random.between(own / NEAR, own * NEAR)).to_string(),
+                None => (least + random.below(most.min(least + 20) as usize) as u64).to_string(),
+            },
             Kind::Switch => ["true", "false"][random.below(2)].to_owned(),
             Kind::Choice(names) => {
                 let names = names();
@@ -372,6 +387,11 @@ impl Drawable {
             _ => return None,
         })
     }
+}
+
+/// A count of which a half is whole too, also that on a tenth of a metre.
+fn whole(value: f64) -> u64 {
+    20 * (value / 20.0).round().max(1.0) as u64
 }
 
 /// A value of few digits with its unit, as people write it.

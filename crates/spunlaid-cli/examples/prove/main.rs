@@ -5,7 +5,7 @@
 //!     release/prove --only threads --base web
 //!
 //! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
-//! `--draw N` repeats one draw, `--threads` is the number of inputs at a time.
+//! `--draw N` repeats one draw, `--first` stops at the first finding, `--threads` is the number of inputs at a time.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
@@ -40,6 +40,8 @@ struct Search {
     /// One draw, or all that there is time for.
     draw: Option<u64>,
     most: Duration,
+    /// Whether nothing is looked at after the first finding.
+    first: bool,
     relations: Vec<&'static Relation>,
     bases: Vec<&'static Base>,
 }
@@ -63,6 +65,7 @@ fn main() {
         seed: number("--seed").unwrap_or(1.0) as u64,
         draw: number("--draw").map(|draw| draw as u64),
         most: Duration::from_secs_f64(60.0 * number("--minutes").unwrap_or(1.0)),
+        first: words.iter().any(|word| word == "--first"),
         relations: RELATIONS.iter().filter(|relation| is_asked("--only", relation.name)).collect(),
         bases: BASES.iter().filter(|base| is_asked("--base", base.name)).collect(),
     };
@@ -76,7 +79,7 @@ fn main() {
         for _ in 0..threads {
             scope.spawn(|| {
                 let program = Program::new();
-                while begun.elapsed() < search.most {
+                while begun.elapsed() < search.most && !search.is_over(&found) {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     match search.draw {
                         Some(draw) if number == 0 => search.look_at(draw, &program, &found),
@@ -91,6 +94,10 @@ fn main() {
 }
 
 impl Search {
+    fn is_over(&self, found: &Mutex<Found>) -> bool {
+        self.first && found.lock().expect("what was found").is_broken()
+    }
+
     /// Holds one draw against the relations.
     fn look_at(&self, number: u64, program: &Program, found: &Mutex<Found>) {
         let mut random = Random::new(self.seed, number);
@@ -113,7 +120,7 @@ impl Search {
         };
         for relation in &self.relations {
             let is_chosen = self.relations.len() == 1 || random.is_within(relation.share);
-            if !relation.applies(&drawn) || !is_chosen {
+            if !relation.applies(&drawn) || !is_chosen || self.is_over(found) {
                 continue;
             }
             let begun = Instant::now();
@@ -177,7 +184,12 @@ impl Found {
         let all: u64 = self.claims.values().map(|claims| claims.all).sum();
         let false_ones: u64 = self.claims.values().map(|claims| claims.false_ones).sum();
         println!("claims that something has changed where nothing has: {false_ones} of {all}");
-        self.tallies.values().any(|tally| tally.broken > 0) || !wrong.is_empty()
+        self.is_broken() || !wrong.is_empty()
+    }
+
+    /// Whether some relation does not hold of some input.
+    fn is_broken(&self) -> bool {
+        self.tallies.values().any(|tally| tally.broken > 0)
     }
 }
 
