@@ -132,11 +132,11 @@ def mesh_of(case):
         grid.points = points
         return grid
     if kind == "plane":
-        return grid.cast_to_unstructured_grid()
+        return grid.cast_to_structured_grid().cast_to_unstructured_grid()
     if kind == "triangles":
-        return grid.cast_to_unstructured_grid().triangulate()
+        return grid.cast_to_structured_grid().cast_to_unstructured_grid().triangulate()
     if kind == "tetrahedra":
-        return grid.cast_to_unstructured_grid().triangulate()
+        return grid.cast_to_structured_grid().cast_to_unstructured_grid().triangulate()
     if kind == "wedges":
         cells, count = [], (len(x), len(y), len(z))
         at = lambda i, j, l: i + count[0] * (j + count[1] * l)
@@ -149,7 +149,7 @@ def mesh_of(case):
                         cells += [6, *lower, *upper]
         kinds = np.full(len(cells) // 7, pv.CellType.WEDGE)
         return pv.UnstructuredGrid(np.array(cells), kinds, grid.cast_to_structured_grid().points)
-    return grid.cast_to_unstructured_grid()
+    return grid.cast_to_structured_grid().cast_to_unstructured_grid()
 
 
 NAMES = {
@@ -206,16 +206,15 @@ def field_of_mesh(case):
     low, high = np.reshape(mesh.bounds, (3, 2)).T
     at = places_in(case, low, high)
     if isinstance(mesh, pv.StructuredGrid):
-        # Back into the sheared box.
-        slope = (mesh.points[:, 1].max() - 0) if False else 0
-        inside = np.asarray(mesh.cell_centers().points)
-        middle = np.abs(inside - inside.mean(axis=0)) < 0.3 * (high - low)
-        at = inside[middle.all(axis=1)][:12]
-        at = at + slope
+        # A sheared box does not fill its bounds.
+        centres = np.asarray(mesh.cell_centers().points)
+        middle = np.abs(centres - centres.mean(axis=0)) < 0.3 * (high - low)
+        at = centres[middle.all(axis=1)][:12]
     if case.plane:
         at[:, 2] = 0.0
-    if writer == "meshio" or (writer == "legacy" and not isinstance(mesh, pv.UnstructuredGrid)):
-        mesh = mesh.cast_to_unstructured_grid() if not isinstance(mesh, pv.UnstructuredGrid) else mesh
+    if writer == "meshio" and not isinstance(mesh, pv.UnstructuredGrid):
+        # Hexahedra, because meshio knows no voxels.
+        mesh = mesh.cast_to_structured_grid().cast_to_unstructured_grid()
     if writer == "meshio":
         file = "field.vtu"
         vtk = case.folder / "own.vtk"
@@ -241,17 +240,11 @@ def field_of_mesh(case):
         data[name] = values
         mesh.save(case.folder / file, binary=binary)
     more = ""
-    if damage == "unit":
-        # Coordinates in mm, said by field_unit.
-        mesh.points = mesh.points * 1e3 if not isinstance(mesh, (pv.ImageData, pv.RectilinearGrid)) else mesh.points
-        if isinstance(mesh, (pv.UnstructuredGrid, pv.StructuredGrid)):
-            mesh.save(case.folder / file, binary=binary)
-            more = 'field_unit = "1 mm"'
-    return compare_field(case, *read_and(case, file, at, more), wanted, k)
-
-
-def read_and(case, file, at, more):
-    return (read_field(case, file, at, more),)
+    if damage == "unit" and isinstance(mesh, (pv.UnstructuredGrid, pv.StructuredGrid)) and writer != "meshio":
+        mesh.points = mesh.points * 1e3
+        mesh.save(case.folder / file, binary=binary)
+        more = 'field_unit = "1 mm"'
+    return compare_field(case, read_field(case, file, at, more), wanted, k)
 
 
 def table_text(case, frame, style):
@@ -273,7 +266,7 @@ def table_text(case, frame, style):
     if style == "comsol":
         head = "% Model:              jet.mph\n% Version:            COMSOL 6.2\n% Dimension:          3\n"
         head += f"% Nodes:              {len(frame)}\n% Expressions:        {len(columns) - 3}\n% Length unit:        m\n"
-        names = {"k": "spf.k (m^2/s^2)", "e": "spf.ep (m^2/s^3)", "u": "u (m/s)", "v": "v (m/s)", "w": "w (m/s)"}
+        names = {"k": "k (m^2/s^2)", "e": "ep (m^2/s^3)", "u": "u (m/s)", "v": "v (m/s)", "w": "w (m/s)"}
         head += "% " + "  ".join(names.get(c, c) for c in columns) + "\n"
         return head + "\n".join("  ".join(f"{value:.10g}" for value in row) for row in frame.to_numpy()) + "\n"
     if style == "paraview":
@@ -390,7 +383,7 @@ def record(case):
     file = "record.parquet" if writer == "parquet" else "record.csv"
     path = case.folder / file
     if writer == "parquet":
-        frame.to_parquet(path, index=False, compression=case.choose("compression", ["snappy", "gzip", "zstd", None]))
+        frame.to_parquet(path, index=False, compression=case.choose("compression", ["snappy", None]))
     else:
         digits = {"float_format": "%.9g"}
         separator = {"pandas, semicolons": ";", "pandas, decimal commas": ";", "tabs": "\t"}.get(writer, ",")
@@ -471,10 +464,12 @@ def web(case):
             layout = case.choose("layout", [{}, {"tile": (64, 64)}, {"rowsperstrip": 7}])
             photometric = "rgb" if colours != "grey" else "minisblack"
             extra = {"extrasamples": ["unassalpha"]} if colours == "rgba" else {}
+            compression = case.choose("compression", [None, "zlib", "lzw", "packbits"])
+            # The decoder fails in tiles that reach beyond the picture, and the message says so.
+            case.damaged = compression == "lzw" and "tile" in layout
             tifffile.imwrite(case.folder / file, grey, photometric=photometric, bigtiff=case.choose("bigtiff", [False, True]),
-                             byteorder=case.choose("bytes", ["<", ">"]),
-                             compression=case.choose("compression", [None, "zlib", "lzw", "packbits"]),
-                             predictor=False, **layout, **more, **extra)
+                             byteorder=case.choose("bytes", ["<", ">"]), compression=compression, predictor=False,
+                             **layout, **more, **extra)
     damage = case.choose("damage", [None, None, None, "truncated"])
     path = case.folder / file
     if damage == "truncated":

@@ -10,6 +10,7 @@ use super::piece::{Piece, Range, Reader};
 use super::times::one_time;
 use crate::{Field, FieldLayout};
 use spunlaid_ground::error::{by_count, counted};
+use spunlaid_ground::units::shortest;
 use spunlaid_ground::{Fault, FileError, IS, Vec3};
 
 /// Part of the largest value up to which a negative one is taken for rounding of the solver or of an interpolation [-].
@@ -125,6 +126,9 @@ impl<'l> Assembly<'l> {
         let mut velocities = parts.iter().flat_map(|part| &part.values.velocity);
         let is_still = velocities.all(|velocity| *velocity == Vec3::default());
         let still = others.filter(|_| is_still).and_then(|others| missing::movement(&sources, &others));
+        if let Some(fault) = marked(&parts) {
+            return Err(fault.into());
+        }
         warnings.extend(hidden(&parts));
         warnings.extend(gaps.warnings());
         let (mut field, more) = join(parts, &gaps)?;
@@ -138,6 +142,31 @@ impl<'l> Assembly<'l> {
         (field.lacks, field.sources, field.layout) = (lacks, sources, layout.clone());
         Ok((field, warnings))
     }
+}
+
+/// A velocity of that size beside all others is a mark of places without a number, like -9999, if it stands there
+/// several times: no air is as fast, and no two such places would be equal.
+const MARK: f64 = 20.0;
+
+/// The fault of a velocity with marks of places without a number.
+fn marked(parts: &[Part]) -> Option<Fault> {
+    let numbers = || parts.iter().flat_map(|part| &part.values.velocity).flat_map(|of| [of.x, of.y, of.z]);
+    let mark = numbers()
+        .fold(0.0, |largest: f64, number| if number.abs() > largest.abs() { number } else { largest });
+    let others =
+        numbers().filter(|number| *number != mark).fold(0.0, |largest: f64, of| largest.max(of.abs()));
+    let count = numbers().filter(|number| *number == mark).count() as u64;
+    (count > 1 && others > 0.0 && mark.abs() > MARK * others).then(|| {
+        Fault::new(
+            format!(
+                "has {} of {} m/s and no other beyond {} m/s: it looks like a mark of places without a number",
+                counted(count, "velocity"),
+                shortest(mark),
+                shortest(others)
+            ),
+            "leave these places out, or write nan there",
+        )
+    })
 }
 
 /// How many points and cells are hidden, if any are.

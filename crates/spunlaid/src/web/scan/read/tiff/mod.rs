@@ -5,7 +5,7 @@ use super::{MOST_PIXELS, RawPicture, broken, unsupported, within_limits};
 use crate::ground::{Dimension, Fault};
 use std::io::{Cursor, ErrorKind, Read, Seek};
 use tiff::decoder::ifd::Value;
-use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::{PhotometricInterpretation, Tag};
 use tiff::{ColorType, TiffError, TiffFormatError, TiffUnsupportedError};
 
@@ -27,8 +27,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         Some(number @ 2..=4) => compressed(number),
         _ => fault,
     })?;
+    let is_tiled = decoder.get_chunk_type() == ChunkType::Tile;
     let image = decoder.read_image().map_err(|error| match (error, compression) {
         (TiffError::UnsupportedError(_), Some(number)) => compressed(number),
+        // The decoder fails in most tiles that reach beyond the picture (image-tiff, issue 395).
+        (TiffError::IoError(_), Some(LZW)) if is_tiled => unsupported(
+            "tiles with LZW compression, which may be whole",
+            "save it in strips, or without compression, or with Deflate",
+        ),
         (error, _) => failed(error),
     })?;
     let extra = extra(&mut decoder);
@@ -80,6 +86,8 @@ const COLOUR_PROFILE: u16 = 34675;
 const WHITE_IS_ZERO: u16 = 0;
 /// How a file says that its pixels are places in a palette.
 const PALETTE: u16 = 3;
+/// The tag of compression by LZW.
+const LZW: u16 = 5;
 /// What to do about a file whose pixels are of a kind that is not read.
 const GREY: &str = "save the scan in shades of grey, with 8 or 16 bits each, without compression";
 
