@@ -6,6 +6,7 @@ use spunlaid::fibre::case::keys::{self, Kind, Omission, Sign};
 use spunlaid::ground::Dimension;
 use spunlaid::ground::random::{stream, uniform};
 use spunlaid::input::WEB_KEYS;
+use std::collections::BTreeSet;
 
 /// Keeps the random numbers of this program apart from all others.
 const KEY: u64 = 0x65766f7270;
@@ -298,8 +299,17 @@ impl Base {
 
     /// The number that a key has in this file.
     fn number(&self, name: &str) -> Option<f64> {
+        self.value(name)?.parse().ok()
+    }
+
+    fn quantity(&self, name: &str, dimension: Dimension) -> Option<f64> {
+        dimension.parse(&self.value(name)?).ok()
+    }
+
+    fn value(&self, name: &str) -> Option<String> {
         let (table, name) = name.rsplit_once('.')?;
-        Lines::new(self.text).value(table, name)?.parse().ok()
+        let lines = Lines::new(self.text);
+        lines.value(table, name).or_else(|| lines.value(&format!("layer.{table}"), name))
     }
 
     /// The full name of a key in this file, with the numbers of its layer and of its entry in a list.
@@ -316,6 +326,21 @@ impl Base {
             false => name,
         }
     }
+}
+
+/// Keys of cases and webs that some input draws, and those that none does: files, texts and lists, and what decides how
+/// long a computation takes.
+pub fn drawn_keys() -> [Vec<&'static str>; 2] {
+    let mut random = Random::new(0, 0);
+    let mut of_bases: Vec<&str> = Vec::new();
+    for base in &BASES {
+        let has_value = |key: &Drawable| key.value(base, &mut random).is_some();
+        of_bases.extend(drawable(base).into_iter().filter(has_value).map(|key| key.name));
+    }
+    let all = keys::all().iter().map(|key| key.name).chain(WEB_KEYS.iter().map(|key| key.name));
+    let all: BTreeSet<&str> = all.collect();
+    let (drawn, others) = all.into_iter().partition(|name| of_bases.contains(name));
+    [drawn, others]
 }
 
 /// The name of a key in its table, without numbers of layers and entries.
@@ -363,11 +388,15 @@ impl Drawable {
     fn value(&self, base: &Base, random: &mut Random) -> Option<String> {
         Some(match self.kind {
             Kind::Quantity(dimension, sign) => {
-                let (low, high) = self.slider.or(self.usual)?;
-                let middle = (low.max(1e-12) * high).sqrt();
-                let (low, high) = match self.slider {
-                    Some(ends) => ends,
-                    None => (low.max(middle / NEAR), high.min(middle * NEAR)),
+                // A key whose range is that of another one lies near the value of the file.
+                let own = || base.quantity(self.name, dimension).map(|own| (own / NEAR, own * NEAR));
+                let (low, high) = match (self.slider, self.usual) {
+                    (Some(ends), _) => ends,
+                    (None, Some((low, high))) => {
+                        let middle = (low.max(1e-12) * high).sqrt();
+                        (low.max(middle / NEAR), high.min(middle * NEAR))
+                    }
+                    (None, None) => own()?,
                 };
                 let low = if low > 0.0 { low } else { high / (NEAR * NEAR) };
                 let value = random.between(low, high);

@@ -3,7 +3,7 @@ whole and damaged. The program must read the right value, refuse the file, or wa
 
     release/prove --files --minutes 10 --seed 3
 
-Needs NumPy, pandas, PyArrow, SciPy, PyVista, meshio, tifffile, imagecodecs and Pillow.
+Needs what requirements.txt names.
 """
 
 import argparse
@@ -214,7 +214,8 @@ def field_of_mesh(case):
         at[:, 2] = 0.0
     if writer == "meshio" and not isinstance(mesh, pv.UnstructuredGrid):
         # Hexahedra, because meshio knows no voxels.
-        mesh = mesh.cast_to_structured_grid().cast_to_unstructured_grid()
+        structured = mesh if isinstance(mesh, pv.StructuredGrid) else mesh.cast_to_structured_grid()
+        mesh = structured.cast_to_unstructured_grid()
     if writer == "meshio":
         file = "field.vtu"
         vtk = case.folder / "own.vtk"

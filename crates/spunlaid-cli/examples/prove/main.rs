@@ -5,7 +5,7 @@
 //!     release/prove --only threads --base web
 //!
 //! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
-//! `--draw N` repeats one draw, `--first` stops at the first finding, `--threads` is the number of inputs at a time.
+//! `--keys` says which keys are drawn. `--draw N` repeats one draw, `--first` stops at the first finding, `--threads` is the number of inputs at a time.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
@@ -16,7 +16,7 @@ mod numbers;
 mod program;
 mod relations;
 
-use draw::{BASES, Base, Drawn, Random};
+use draw::{BASES, Base, Drawn, Random, drawn_keys};
 use evidence::Claims;
 use program::{Program, Said};
 use relations::{Outcome, RELATIONS, Relation};
@@ -58,6 +58,11 @@ struct Found {
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
+    if words.iter().any(|word| word == "--keys") {
+        let [drawn, others] = drawn_keys();
+        println!("{} keys are drawn: {}", drawn.len(), drawn.join(", "));
+        return println!("\n{} keys are not: {}", others.len(), others.join(", "));
+    }
     let word_after = |name: &str| Some(&words[words.iter().position(|word| word == name)? + 1]);
     let number = |name: &str| word_after(name).map(|word| word.parse::<f64>().expect("a number"));
     let is_asked = |name: &str, of: &str| word_after(name).is_none_or(|word| word == of);

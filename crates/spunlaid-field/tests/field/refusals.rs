@@ -322,6 +322,22 @@ fn rejects_a_mean_that_is_zero_everywhere() {
     Field::parse_as(mean(0.0).as_bytes(), "a", &layout).unwrap();
 }
 
+/// Programs mark places without a number by one of their own, in any component; NaN is left out.
+#[test]
+fn rejects_velocities_that_mark_places_without_a_number() {
+    for (mark, shown) in [("-9999", "-9999"), ("1e30", "1e30"), ("999", "999")] {
+        let marked = |[x, y, _]: [f64; 3]| {
+            let u = if y > 0.0 && x > 0.0 { mark.to_owned() } else { format!("{}", 20.0 + x) };
+            format!("{u},{y},0")
+        };
+        let said = refused(table("x,y,z,u,v,w", marked).as_bytes());
+        assert!(said.contains(&format!("of {shown} m/s")) && said.contains("write nan there"), "{said}");
+    }
+    // A jet of one speed in still air is none.
+    let jet = |[x, y, _]: [f64; 3]| format!("{},0,0", if x + y > 0.0 { 40.0 } else { 2.5 });
+    assert!(Field::parse(table("x,y,z,u,v,w", jet).as_bytes(), "a.csv").is_ok());
+}
+
 #[test]
 fn rejects_a_slice_of_a_flow_around_an_axis() {
     // Wedges next to the axis and hexahedra outside, about x, as OpenFOAM writes them.

@@ -45,6 +45,13 @@ fn whole_tiffs_that_are_not_read_tell_why() {
     }
 }
 
+/// Written by tifffile; the decoder fails in one of its tiles, which reaches beyond the picture.
+#[test]
+fn tiles_with_lzw_compression_are_refused_by_name() {
+    let said = parse(include_bytes!("lzw_tiles.tif"), "a", 1e-3).unwrap_err().to_string();
+    assert!(said.contains("tiles with LZW compression") && said.contains("Deflate"), "{said}");
+}
+
 #[test]
 fn messages_name_no_types_of_the_decoders() {
     let mut png = png8(SIDE, &levels(|x| x));

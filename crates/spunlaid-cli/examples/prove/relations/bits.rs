@@ -118,10 +118,24 @@ pub fn study(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     let Some((text, change)) = study_of(program, drawn, replicates) else {
         return Outcome::Refused;
     };
-    let Said::Results(found) = program.computed_text("sweep", &text, &[]) else { return Outcome::Refused };
+    let out = program.new_place("swept");
+    let Said::Results(found) = program.computed_text("sweep", &text, &["--out=swept".to_owned()]) else {
+        return Outcome::Refused;
+    };
+    let table = std::fs::read_to_string(out.join("results.csv")).unwrap_or_default();
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (heads, cells) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
     let Some(point) = found["points"][0]["results"].as_object() else { return Outcome::Refused };
     let own = leaves(results);
     for (measure, value) in point {
+        let column = heads.iter().position(|head| head == measure);
+        let cell = column.and_then(|column| cells.get(column)?.parse::<f64>().ok());
+        if cell != value["mean"].as_f64() {
+            return Outcome::Broken(format!(
+                "{measure} is {} in JSON and {cell:?} in results.csv",
+                value["mean"]
+            ));
+        }
         let wanted = own.iter().find(|(path, _)| path.ends_with(&format!("/{measure}/mean")));
         if let Some((path, wanted)) = wanted
             && *wanted != value["mean"]

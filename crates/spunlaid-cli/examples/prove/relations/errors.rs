@@ -262,17 +262,50 @@ pub fn two_equal_layers(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
 
 /// A sheet that is twice as wide.
 pub fn twice_as_wide(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
-    let width = Lines::new(drawn.base.text).value("web", "width").expect("a width");
-    let metres: f64 = width.trim_end_matches(" m").parse().expect("metres");
-    let wide = drawn.with(&[Change::new("web.width", format!("{} m", 2.0 * metres))]);
     // Positions of rows and defects across the web would be others.
     if drawn.base.has_layers() {
         return Outcome::Refused;
     }
-    pairs("of a sheet that is twice as wide", is_of_the_sheet, |number| {
+    twice(program, drawn, "width")
+}
+
+/// A sheet that is twice as long.
+pub fn twice_as_long(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    // A defect that begins later would be on another part of it.
+    if drawn.changes.iter().any(|change| change.key.ends_with("after")) {
+        return Outcome::Refused;
+    }
+    twice(program, drawn, "length")
+}
+
+fn twice(program: &Program, drawn: &Drawn, side: &str) -> Outcome {
+    let own = Lines::new(drawn.base.text).value("web", side).expect("a side");
+    let metres: f64 = own.trim_end_matches(" m").parse().expect("metres");
+    let large = drawn.with(&[Change::new(&format!("web.{side}"), format!("{} m", 2.0 * metres))]);
+    pairs(&format!("of a sheet of twice the {side}"), is_of_the_sheet, |number| {
         let ours = program.numbers(&with_seed(drawn, 2 * number))?;
-        Some((ours, program.numbers(&with_seed(&wide, 2 * number + 1))?))
+        Some((ours, program.numbers(&with_seed(&large, 2 * number + 1))?))
     })
+}
+
+/// The CV of independent filaments at random places is that which a single one makes, in closed form.
+pub fn independent(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    if drawn.changes.iter().any(|change| ["line.depth", "web.edges"].contains(&change.key.as_str())) {
+        return Outcome::Refused;
+    }
+    const OF_WEB: &str = "web.patches.cv";
+    const OF_ONE: &str = "web.patches.cv_one_fibre";
+    pairs(
+        "from a single filament",
+        |name| name.0 == OF_WEB,
+        |number| {
+            let ours = program.numbers(&with_seed(drawn, number))?;
+            let of_one =
+                |(name, own): (&Name, &Reported)| Some(((OF_WEB.to_owned(), name.1.clone()), own.clone()));
+            let others = ours.iter().filter(|(name, _)| name.0 == OF_ONE).filter_map(of_one).collect();
+            Some((ours, others))
+        },
+    )
 }
 
 /// A sample of the filaments and all filaments in the same air.

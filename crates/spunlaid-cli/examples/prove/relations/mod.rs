@@ -1,5 +1,6 @@
 //! What holds of every input and its results.
 
+mod air;
 mod bits;
 mod budgets;
 mod errors;
@@ -41,7 +42,7 @@ const fn row(
 }
 
 /// One row for each relation.
-pub const RELATIONS: [Relation; 26] = [
+pub const RELATIONS: [Relation; 30] = [
     row("bounds", any, 1.0, budgets::bounds),
     row("mass of a web", is_known_web, 1.0, budgets::mass_of_a_web),
     row("mass of a line", is_line, 1.0, budgets::mass_of_a_line),
@@ -60,12 +61,16 @@ pub const RELATIONS: [Relation; 26] = [
     row("rounded", any, 0.3, limits::rounded),
     row("influences", is_line, 1.0, limits::influences),
     row("chain", is_fixed, 0.3, limits::chain),
+    row("field moved", is_in_field, 0.5, air::field_moved),
+    row("record in other units", is_of_record, 0.5, air::record_in_other_units),
     row("seeds", has_seed, 1.0, errors::seeds),
     row("half the step", is_checked_run, 0.5, errors::half_the_step),
     row("half the elements", is_checked_run, 1.0, errors::half_the_elements),
     row("layers turned", has_layers, 0.5, errors::layers_turned),
     row("two equal layers", is_plain_web, 1.0, errors::two_equal_layers),
     row("twice as wide", is_web, 0.5, errors::twice_as_wide),
+    row("twice as long", is_web, 0.5, errors::twice_as_long),
+    row("independent", is_plain_web, 1.0, errors::independent),
     row("few and all", flies_in_one_air, 0.5, errors::few_and_all),
     row("nothing changed", is_run, 0.3, errors::nothing_changed),
 ];
@@ -80,6 +85,14 @@ fn is_run(drawn: &Drawn) -> bool {
 
 fn is_fixed(drawn: &Drawn) -> bool {
     drawn.base.name == "fixed"
+}
+
+fn is_in_field(drawn: &Drawn) -> bool {
+    drawn.base.name == "field"
+}
+
+fn is_of_record(drawn: &Drawn) -> bool {
+    drawn.base.name == "record"
 }
 
 /// Whose step and mesh can be refined by hand.

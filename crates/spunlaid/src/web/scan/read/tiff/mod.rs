@@ -30,9 +30,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
     let is_tiled = decoder.get_chunk_type() == ChunkType::Tile;
     let image = decoder.read_image().map_err(|error| match (error, compression) {
         (TiffError::UnsupportedError(_), Some(number)) => compressed(number),
-        // The decoder fails in most tiles that reach beyond the picture (image-tiff, issue 395).
+        // The decoder fails in some tiles that reach beyond the picture (image-tiff, issue 395).
         (TiffError::IoError(_), Some(LZW)) if is_tiled => unsupported(
-            "tiles with LZW compression, which may be whole",
+            "tiles with LZW compression",
             "save it in strips, or without compression, or with Deflate",
         ),
         (error, _) => failed(error),
