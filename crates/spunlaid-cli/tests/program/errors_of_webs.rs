@@ -49,3 +49,17 @@ fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
         assert!(off.abs() < 3.0, "{name:?}: {few:?} against {:?}", all[name]);
     }
 }
+
+/// The middle of a web that is sold has another weight in each web, and so another bare area: it scattered by eight of
+/// the errors that were reported.
+#[test]
+fn stat_the_bare_area_of_what_is_sold_has_the_error_of_its_weight() {
+    let text =
+        include_str!("../../examples/prove/web.toml").to_owned() + "\n[fabric]\nsaleable_width = \"80 mm\"\n";
+    let web = read_web((&*text, "web.toml"), &[][..]).unwrap();
+    let webs: Vec<Numbers> = each(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+    let found = scatter(1, &webs);
+    let (_, bare) = found.iter().find(|(name, _)| name == "fabric.bare_area").expect("a bare area");
+    let [low, high] = bare.by_chance(3.5);
+    assert!((0.5 * low..BOUNDS[1] * high).contains(&bare.ratio), "{:.2}", bare.ratio);
+}

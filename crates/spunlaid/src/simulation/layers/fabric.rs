@@ -2,9 +2,13 @@
 
 use super::{LayerSpec, WebSpec};
 use crate::web::fabric::LaidPatch;
-use crate::web::fabric::{Filaments, tell};
+use crate::web::fabric::{Filaments, columns_told, tell};
+use crate::web::map::uniformity::variance_of_mean;
 use crate::web::map::{Evidence, Findings, PatchFindings, holes};
 use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
+
+/// Side of the patches whose waves show how the ends of a sheet cut its clouds [m].
+const OF_PART: f64 = 10e-3;
 
 impl WebSpec {
     /// What a buyer wants to know of the fabric.
@@ -31,10 +35,25 @@ impl WebSpec {
             patches: found.patches.iter().map(laid_patch).collect(),
             streaks: found.laid.evidence() != Evidence::Known
                 || self.layers.iter().any(LayerSpec::has_random_streaks),
-            error_of_weight: found.error_of_weight.unwrap_or(0.0),
+            error_of_weight: self.error_of_part(web, found).or(found.error_of_weight).unwrap_or(0.0),
             defects: self.streak_sources(web),
         };
         tell(&laid, &self.fabric, threads)
+    }
+
+    /// Standard error of the mean weight of a part that is sold, as a fraction of it; None if all of the web is.
+    fn error_of_part(&self, web: &Web, found: &Findings) -> Option<f64> {
+        let (map, cell) = (&found.laid.map, web.sheet.cell);
+        let of = |saleable| columns_told(map, found.margins, Some(found.reach), saleable);
+        let sold = of(self.fabric.saleable_width);
+        if sold.len() == of(None).len() {
+            return None;
+        }
+        let width = sold.len() as f64 * cell;
+        let side = (OF_PART / cell).round() as usize;
+        let places = web.places(width);
+        let variance = variance_of_mean(&map.between(sold), side, width / web.sheet.width, &places);
+        Some((variance + web.variance_by_defects()).sqrt())
     }
 
     /// What the defects of its layers take from the web.

@@ -46,7 +46,7 @@ pub struct Laid<'a> {
     pub patches: Vec<LaidPatch>,
     /// Whether its streaks are chance.
     pub streaks: bool,
-    /// Standard error of its mean basis weight, as a share of it.
+    /// Standard error of the mean basis weight of the part that is told of, as a share of it.
     pub error_of_weight: f64,
     /// Defects of the line.
     pub defects: Vec<StreakSource>,
@@ -147,6 +147,12 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let corner = first as f64 * map.cell;
     let chance = Chance { closed: map.closed, streaks: laid.streaks };
     let mut notes = unknown(laid);
+    // A part holds fewer clouds and streaks than the web.
+    let narrower = columns(laid.map, laid.margins).len() as f64 / map.columns as f64;
+    let deviations = |patch: f64| {
+        let of = laid.deviations(patch)?;
+        Some(Deviations { by_chance: of.by_chance * narrower.sqrt(), ..of })
+    };
     let filaments = of_this_weight(&laid.filaments, map.basis_weight());
     let (length, diameter) = lengths(&filaments);
     let whole = |patch: f64| {
@@ -162,7 +168,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let of_cv =
         of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
     let patches = each(threads, sides.len(), |i| {
-        let deviations = laid.deviations(sides[i] as f64 * map.cell);
+        let deviations = deviations(sides[i] as f64 * map.cell);
         let thin = thin_places(map, sides[i], MapUncertainty { chance, deviations })?;
         let found = told(sides[i]).filter(|_| length > 0.0);
         let formation = found.map(|found| formation_number(&found, at_random(&of_cv, thin.patch)));
@@ -172,7 +178,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         (None, Some(told)) => Some(told),
         (_, reported) => {
             let found = with_error_of(unevenness(map, side)?, reported);
-            let is_known = laid.deviations(found.patch).is_some();
+            let is_known = deviations(found.patch).is_some();
             Some(Unevenness { standard_error: found.standard_error.filter(|_| is_known), ..found })
         }
     };
@@ -189,7 +195,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     });
     let air = air.flatten();
     let bare = local.map(|(local, found)| bare_area(&local, length, laid.error_of_weight, diameter, &found));
-    let of_sections = laid.deviations((keys.strip.width * keys.strip.section).sqrt());
+    let of_sections = deviations((keys.strip.width * keys.strip.section).sqrt());
     let usable = laid.reach.and_then(|reach| usable(laid.map, reach, keys.tolerance));
     notes.extend(usable.is_some().then(unknown_neck_in));
     notes.extend(laid.orientation.map(directions_of));
@@ -256,19 +262,27 @@ fn columns(map: &Map, margins: [f64; 2]) -> Range<usize> {
 
 /// The part of the map that is told of, and its first column: what is sold, or all but the edges.
 fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
-    let map = laid.map;
+    let within = columns_told(laid.map, laid.margins, laid.reach, keys.saleable_width);
+    (within.start, laid.map.between(within))
+}
+
+/// The columns of what is sold, or of all but the edges.
+///
+/// * `reach` – where the web begins and ends across the sheet [m]
+/// * `saleable` – width that is sold [m]
+pub(crate) fn columns_told(
+    map: &Map,
+    margins: [f64; 2],
+    reach: Option<[f64; 2]>,
+    saleable: Option<f64>,
+) -> Range<usize> {
     let cells = |width: f64| (width / map.cell).round().max(0.0) as usize;
-    let all = columns(map, laid.margins);
-    let within = match keys.saleable_width {
-        None => all,
-        Some(width) => {
-            let [from, to] = laid.reach.unwrap_or([0.0, map.columns as f64 * map.cell]);
-            let middle = 0.5 * (from + to);
-            let columns = cells(middle - 0.5 * width)..cells(middle + 0.5 * width).min(map.columns);
-            if columns.is_empty() { all } else { columns }
-        }
-    };
-    (within.start, map.between(within))
+    let all = columns(map, margins);
+    let Some(width) = saleable else { return all };
+    let [from, to] = reach.unwrap_or([0.0, map.columns as f64 * map.cell]);
+    let middle = 0.5 * (from + to);
+    let sold = cells(middle - 0.5 * width)..cells(middle + 0.5 * width).min(map.columns);
+    if sold.is_empty() { all } else { sold }
 }
 
 /// The same filaments with the basis weight of a part of the sheet.
