@@ -22,7 +22,7 @@ pub type Name = (String, String);
 /// All numbers with an error of a summary.
 pub type Numbers = BTreeMap<Name, Reported>;
 
-/// By what a name says that it is the error of another, the whole one first. `error` alone is the whole error of a mean.
+/// By what a name says that it is the error of another, the whole one first. `error` alone is that of a mean.
 const ERRORS: [&str; 3] = ["whole_error", "standard_error", "_se"];
 const OF_SAMPLE: &str = "flight_error";
 /// Numbers without a name of their own.

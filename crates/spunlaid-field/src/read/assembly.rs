@@ -144,29 +144,35 @@ impl<'l> Assembly<'l> {
     }
 }
 
-/// A velocity of that size beside all others is a mark of places without a number, like -9999, if it stands there
-/// several times: no air is as fast, and no two such places would be equal.
-const MARK: f64 = 20.0;
+/// A component of the velocity beyond this [m/s], and beyond so many times all others, is a mark of places without a
+/// number, like -9999, if it stands at several of them: such air would be faster than sound.
+const BEYOND_SOUND: f64 = 300.0;
+const FAR: f64 = 20.0;
 
 /// The fault of a velocity with marks of places without a number.
 fn marked(parts: &[Part]) -> Option<Fault> {
-    let numbers = || parts.iter().flat_map(|part| &part.values.velocity).flat_map(|of| [of.x, of.y, of.z]);
-    let mark = numbers()
-        .fold(0.0, |largest: f64, number| if number.abs() > largest.abs() { number } else { largest });
-    let others =
-        numbers().filter(|number| *number != mark).fold(0.0, |largest: f64, of| largest.max(of.abs()));
-    let count = numbers().filter(|number| *number == mark).count() as u64;
-    (count > 1 && others > 0.0 && mark.abs() > MARK * others).then(|| {
-        Fault::new(
-            format!(
-                "has {} of {} m/s and no other beyond {} m/s: it looks like a mark of places without a number",
-                counted(count, "velocity"),
-                shortest(mark),
-                shortest(others)
-            ),
-            "leave these places out, or write nan there",
-        )
-    })
+    let all = || parts.iter().flat_map(|part| &part.values.velocity);
+    let fault = |component: fn(&Vec3<f64>) -> f64| {
+        let farther = |mark: f64, value: f64| if value.abs() > mark.abs() { value } else { mark };
+        let mark = all().map(component).fold(0.0, farther);
+        let count = all().filter(|velocity| component(velocity) == mark).count();
+        let others = all().flat_map(|of| [of.x, of.y, of.z]).filter(|value| *value != mark);
+        let others = others.fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let is_mark = mark.abs() > BEYOND_SOUND && mark.abs() > FAR * others && others > 0.0;
+        (is_mark && count > 1 && 2 * count < all().count()).then(|| {
+            Fault::new(
+                format!(
+                    "has a velocity of {} m/s at {} and no other beyond {} m/s: it looks like a mark of places without a \
+                     number",
+                    shortest(mark),
+                    counted(count as u64, "place"),
+                    shortest(others)
+                ),
+                "leave these places out, or write nan there",
+            )
+        })
+    };
+    [|of: &Vec3<f64>| of.x, |of: &Vec3<f64>| of.y, |of: &Vec3<f64>| of.z].into_iter().find_map(fault)
 }
 
 /// How many points and cells are hidden, if any are.

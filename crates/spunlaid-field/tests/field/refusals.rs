@@ -327,15 +327,22 @@ fn rejects_a_mean_that_is_zero_everywhere() {
 fn rejects_velocities_that_mark_places_without_a_number() {
     for (mark, shown) in [("-9999", "-9999"), ("1e30", "1e30"), ("999", "999")] {
         let marked = |[x, y, _]: [f64; 3]| {
-            let u = if y > 0.0 && x > 0.0 { mark.to_owned() } else { format!("{}", 20.0 + x) };
+            let u = if y > 0.1 && x > 0.1 { mark.to_owned() } else { format!("{}", 20.0 + x) };
             format!("{u},{y},0")
         };
         let said = refused(table("x,y,z,u,v,w", marked).as_bytes());
-        assert!(said.contains(&format!("of {shown} m/s")) && said.contains("write nan there"), "{said}");
+        assert!(said.contains(&format!("of {shown} m/s at")) && said.contains("write nan there"), "{said}");
     }
-    // A jet of one speed in still air is none.
-    let jet = |[x, y, _]: [f64; 3]| format!("{},0,0", if x + y > 0.0 { 40.0 } else { 2.5 });
-    assert!(Field::parse(table("x,y,z,u,v,w", jet).as_bytes(), "a.csv").is_ok());
+    // In a component that is zero elsewhere too.
+    let marked = |[x, y, _]: [f64; 3]| format!("20,{y},{}", if x > 0.3 { "-999" } else { "0" });
+    assert!(refused(table("x,y,z,u,v,w", marked).as_bytes()).contains("of -999 m/s at 12 places"));
+    // A jet of one speed in still air is none, nor is air that is the same everywhere.
+    for jet in [
+        |[x, y, _]: [f64; 3]| format!("{},0,0", if x + y > 0.5 { 140.0 } else { 0.1 }),
+        |_| "10,0.1,0".to_owned(),
+    ] {
+        assert!(Field::parse(table("x,y,z,u,v,w", jet).as_bytes(), "a.csv").is_ok());
+    }
 }
 
 #[test]
