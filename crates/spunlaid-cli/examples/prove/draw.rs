@@ -30,8 +30,8 @@ pub struct Base {
     pub weight: f64,
 }
 
-/// Small enough for some tenths of a second each, and some seconds where filaments fly; `CASES` stands for the folder of
-/// cases.
+/// Small enough for some tenths of a second each, and some seconds where filaments fly. `CASES` stands for the folder
+/// of the cases.
 pub const BASES: [Base; 10] = [
     Base {
         name: "fixed",
@@ -365,10 +365,8 @@ fn drawable(base: &Base) -> Vec<Drawable> {
     let of_web = drawable!(WEB_KEYS);
     // A list that a base does not have cannot be set in it.
     let is_there = |name: &str| {
-        let list = name
-            .splitn(3, '.')
-            .nth(1)
-            .filter(|_| name.starts_with("line.") && name.matches('.').count() == 2);
+        let list =
+            name.split('.').nth(1).filter(|_| name.starts_with("line.") && name.matches('.').count() == 2);
         list.is_none_or(|list| base.text.contains(&format!("{list} = [")))
     };
     let is_of_base = |name: &str| {

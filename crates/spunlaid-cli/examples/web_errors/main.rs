@@ -10,6 +10,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
 mod draw;
+#[allow(dead_code)]
 #[path = "../prove/numbers.rs"]
 mod numbers;
 mod scatter;

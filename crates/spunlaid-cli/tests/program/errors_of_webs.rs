@@ -35,8 +35,8 @@ fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
 }
 
 /// Where filaments are filled in between the simulated ones, the variance of the clouds may be off beyond what two
-/// fillings differ by: over patches of the same size the simulated ones say so without them. Against all filaments in the
-/// same air.
+/// fillings differ by: over patches of the same size the simulated ones say so without them. Against all filaments
+/// in the same air.
 #[test]
 fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
     let text = include_str!("../../examples/prove/flown.toml").replace("flown = 800\n", "");

@@ -151,7 +151,9 @@ const FAR: f64 = 20.0;
 
 /// The fault of a velocity with marks of places without a number.
 fn marked(parts: &[Part]) -> Option<Fault> {
-    let all = || parts.iter().flat_map(|part| &part.values.velocity);
+    // Hidden places, and those of other pieces, may have any number.
+    let seen = || parts.iter().filter(|part| part.blanks.is_empty());
+    let all = || seen().flat_map(|part| &part.values.velocity);
     let fault = |component: fn(&Vec3<f64>) -> f64| {
         let farther = |mark: f64, value: f64| if value.abs() > mark.abs() { value } else { mark };
         let mark = all().map(component).fold(0.0, farther);
@@ -162,8 +164,8 @@ fn marked(parts: &[Part]) -> Option<Fault> {
         (is_mark && count > 1 && 2 * count < all().count()).then(|| {
             Fault::new(
                 format!(
-                    "has a velocity of {} m/s at {} and no other beyond {} m/s: it looks like a mark of places without a \
-                     number",
+                    "has a velocity of {} m/s at {} and no other beyond {} m/s: it looks like a mark of places \
+                     without a number",
                     shortest(mark),
                     counted(count as u64, "place"),
                     shortest(others)

@@ -435,8 +435,8 @@ fn streaky_fabric_of(seed: u64, off: Option<f64>, reported: impl Fn(Unevenness) 
     tell(&laid, &FabricKeys { measured_opacity: Some(0.35), ..FabricKeys::USUAL }, 1)
 }
 
-/// A sheet that holds too few clouds or streaks for an error of its CV has none of its thin spots and weights either: on a
-/// narrow sheet of streaks the weights scattered by eight of the errors that were reported.
+/// A sheet that holds too few clouds or streaks for an error of its CV has none of its thin spots and weights either:
+/// on a narrow sheet of streaks the weights scattered by eight of the errors that were reported.
 #[test]
 fn what_follows_from_a_cv_without_an_error_has_none() {
     let fabric = streaky_fabric_of(1, Some(0.0), |found| Unevenness { standard_error: None, ..found });

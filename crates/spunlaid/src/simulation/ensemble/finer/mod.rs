@@ -65,11 +65,11 @@ const OF_THE_LAID: &[Statistic] = &[
     Statistic { name: "chord_over_arc", label: "Chord over arc", measures: &["chord_over_arc"] },
 ];
 
-/// Every measure alone: what is finer changes each of them, and so its error. Energy checks and a number of nodes are of
-/// the discretisation itself.
+/// Every measure alone: what is finer changes each of them, and so its error. Energy checks and a number of nodes are
+/// of the discretisation itself.
 static OF_MEASURES: LazyLock<Vec<Statistic>> = LazyLock::new(|| {
-    let alone = MEASURES.iter();
-    alone
+    MEASURES
+        .iter()
         .filter(|measure| measure.group != ENERGY && measure.name != "nodes_in_air")
         .map(|measure| Statistic {
             name: measure.name,

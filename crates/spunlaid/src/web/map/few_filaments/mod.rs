@@ -87,9 +87,9 @@ const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
 
-/// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half as
-/// large, because these are the smallest that such waves make uneven. The two fillings may be off alike, and over
-/// patches the few say so without them.
+/// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half
+/// as large, because these are the smallest that such waves make uneven. The two fillings may be off alike, and over
+/// patches the simulated filaments say so without them.
 fn error_of_waves([from, to]: [f64; 2], of_patches: &[(f64, f64)]) -> f64 {
     let middle = 0.5 * (from * to).sqrt();
     let distance = |patch: f64| libm::log(patch / middle).abs();
