@@ -219,3 +219,28 @@ proptest! {
         }
     }
 }
+
+/// What columns and messages are made of: the ending of a name, which texts are a unit, and what is said where one is
+/// missing.
+#[test]
+fn units_are_known_by_their_spellings_and_make_endings_of_names() {
+    for (dimension, suffix, plain) in [
+        (Dimension::Length, "_m", false),
+        (Dimension::Acceleration, "_m_s2", false),
+        (Dimension::Frequency, "_hz", false),
+        (Dimension::Ratio, "", true),
+    ] {
+        assert_eq!(dimension.suffix(), suffix);
+        assert_eq!(dimension.takes_plain_numbers(), plain, "{dimension:?}");
+    }
+    for (unit, is_one) in
+        [("mm", true), (" µm ", true), ("um", true), ("MM", true), ("m/s", false), ("", false), (" ", false)]
+    {
+        assert_eq!(Dimension::Length.has_unit(unit), is_one, "{unit:?}");
+    }
+    // A number alone is a ratio, and no unit of it.
+    assert!(!Dimension::Ratio.has_unit("") && Dimension::Ratio.has_unit("%"));
+    let said = Dimension::Length.no_unit();
+    assert_eq!(said.message, "has no unit");
+    assert!(said.remedy.contains("mm"), "{}", said.remedy);
+}
