@@ -70,9 +70,12 @@ pub fn next_to_nothing(program: &Program, drawn: &Drawn, results: &Json) -> Outc
     match program.computed(&drawn.with(std::slice::from_ref(one)), &[]) {
         Said::Results(found) => {
             let (wanted, found) = (leaves(results), leaves(&found));
-            // Charged filaments have more numbers. Errors of few cells may be known of one flight and not of another.
+            // Charged filaments have more numbers. Errors of few cells may be known of one flight and not of another, and
+            // of rare places there is a number or a bound.
             let is_number = |path: &&String| {
-                ["error", "interval", "_se", "degrees"].iter().all(|word| !path.contains(word))
+                ["error", "interval", "_se", "degrees", "at_most", "value"]
+                    .iter()
+                    .all(|word| !path.contains(word))
             };
             if let Some(path) = wanted.keys().filter(is_number).find(|path| !found.contains_key(*path)) {
                 return Outcome::Broken(format!("{words} there is no {path}"));
