@@ -70,8 +70,8 @@ pub fn next_to_nothing(program: &Program, drawn: &Drawn, results: &Json) -> Outc
     match program.computed(&drawn.with(std::slice::from_ref(one)), &[]) {
         Said::Results(found) => {
             let (wanted, found) = (leaves(results), leaves(&found));
-            // Charged filaments have more numbers. Errors of few cells may be known of one flight and not of another, and
-            // of rare places there is a number or a bound.
+            // Charged filaments have more numbers. Errors of few cells may be known of one flight and not of another,
+            // and of rare places there is a number or a bound.
             let is_number = |path: &&String| {
                 ["error", "interval", "_se", "degrees", "at_most", "value"]
                     .iter()
