@@ -33,77 +33,43 @@ pub struct Base {
 /// Small enough for some tenths of a second each, and some seconds where filaments fly. `CASES` stands for the folder
 /// of the cases.
 pub const BASES: [Base; 10] = [
-    Base {
-        name: "fixed",
-        command: "run",
-        text: include_str!("fixed.toml"),
-        tables: &["fibre", "air", "drag", "run"],
-        weight: 3.0,
-    },
-    Base {
-        name: "field",
-        command: "run",
-        text: include_str!("field.toml"),
-        tables: &["fibre", "air", "drag", "run"],
-        weight: 1.0,
-    },
-    Base {
-        name: "record",
-        command: "run",
-        text: include_str!("record.toml"),
-        tables: &["fibre", "air", "drag", "run"],
-        weight: 1.0,
-    },
-    Base {
-        name: "fed",
-        command: "run",
-        text: include_str!("fed.toml"),
-        tables: &["fibre", "air", "drag", "feed", "belt", "run"],
-        weight: 2.0,
-    },
-    Base {
-        name: "web",
-        command: "web",
-        text: include_str!("web.toml"),
-        tables: &["fibre", "laydown", "line", "web", "fabric"],
-        weight: 3.0,
-    },
-    Base {
-        name: "layers",
-        command: "web",
-        text: include_str!("layers.toml"),
-        tables: &["fibre", "laydown", "line", "web", "fabric"],
-        weight: 2.0,
-    },
-    Base {
-        name: "flown",
-        command: "web",
-        text: include_str!("flown.toml"),
-        tables: &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
-        weight: 1.0,
-    },
-    Base {
-        name: "places",
-        command: "web",
-        text: include_str!("places.toml"),
-        tables: &["fibre", "air", "drag", "belt", "web", "fabric"],
-        weight: 1.0,
-    },
-    Base {
-        name: "spinline",
-        command: "spin",
-        text: include_str!("spinline.toml"),
-        tables: &["spinline", "drag"],
-        weight: 2.0,
-    },
-    Base {
-        name: "yarn",
-        command: "spin",
-        text: include_str!("yarn.toml"),
-        tables: &["spinline", "drag"],
-        weight: 2.0,
-    },
+    base("fixed", "run", include_str!("fixed.toml"), OF_FIBRES, 3.0),
+    base("field", "run", include_str!("field.toml"), OF_FIBRES, 1.0),
+    base("record", "run", include_str!("record.toml"), OF_FIBRES, 1.0),
+    base("fed", "run", include_str!("fed.toml"), &["fibre", "air", "drag", "feed", "belt", "run"], 2.0),
+    base("web", "web", include_str!("web.toml"), OF_WEBS, 3.0),
+    base("layers", "web", include_str!("layers.toml"), OF_WEBS, 2.0),
+    base(
+        "flown",
+        "web",
+        include_str!("flown.toml"),
+        &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
+        1.0,
+    ),
+    base(
+        "places",
+        "web",
+        include_str!("places.toml"),
+        &["fibre", "air", "drag", "belt", "web", "fabric"],
+        1.0,
+    ),
+    base("spinline", "spin", include_str!("spinline.toml"), OF_LINES, 2.0),
+    base("yarn", "spin", include_str!("yarn.toml"), OF_LINES, 2.0),
 ];
+
+const OF_FIBRES: &[&str] = &["fibre", "air", "drag", "run"];
+const OF_WEBS: &[&str] = &["fibre", "laydown", "line", "web", "fabric"];
+const OF_LINES: &[&str] = &["spinline", "drag"];
+
+const fn base(
+    name: &'static str,
+    command: &'static str,
+    text: &'static str,
+    tables: &'static [&'static str],
+    weight: f64,
+) -> Base {
+    Base { name, command, text, tables, weight }
+}
 
 /// What decides how long a computation takes or how much memory it may have, and is no number of the line.
 const FIXED: [&str; 18] = [

@@ -187,7 +187,7 @@ fn by_hand(coarse: &Json, fine: &Json, check: &str) -> Option<Outcome> {
         found.iter().map(Json::as_f64).collect()
     };
     for (difference, measures) in MEASURES {
-        let Some(told) = of[difference]["mean"].as_f64() else { continue };
+        let Some(by_check) = of[difference]["mean"].as_f64() else { continue };
         let error = of[difference]["standard_error"].as_f64()?;
         let mut changes = Vec::new();
         for measure in measures {
@@ -197,9 +197,9 @@ fn by_hand(coarse: &Json, fine: &Json, check: &str) -> Option<Outcome> {
         let count = changes.len() as f64;
         let mean = changes.iter().sum::<f64>() / count;
         let variance = changes.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0) / count;
-        if (told - mean).abs() > FAR * error.hypot(variance.sqrt()) + LEFT_OUT {
+        if (by_check - mean).abs() > FAR * error.hypot(variance.sqrt()) + LEFT_OUT {
             return Some(Outcome::Broken(format!(
-                "{check}: {difference} is {told:.4} ± {error:.4}, and by hand {mean:.4} ± {:.4}",
+                "{check}: {difference} is {by_check:.4} ± {error:.4}, and by hand {mean:.4} ± {:.4}",
                 variance.sqrt()
             )));
         }

@@ -2,7 +2,7 @@
 
 use super::{LayerSpec, WebSpec};
 use crate::web::fabric::LaidPatch;
-use crate::web::fabric::{Filaments, columns_told, tell};
+use crate::web::fabric::{Filaments, columns_sold, tell};
 use crate::web::map::uniformity::variance_of_mean;
 use crate::web::map::{Evidence, Findings, PatchFindings, holes};
 use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
@@ -44,7 +44,7 @@ impl WebSpec {
     /// Standard error of the mean weight of a part that is sold, as a fraction of it; None if all of the web is.
     fn error_of_part(&self, web: &Web, found: &Findings) -> Option<f64> {
         let (map, cell) = (&found.laid.map, web.sheet.cell);
-        let of = |saleable| columns_told(map, found.margins, Some(found.reach), saleable);
+        let of = |saleable| columns_sold(map, found.margins, Some(found.reach), saleable);
         let sold = of(self.fabric.saleable_width);
         if sold.len() == of(None).len() {
             return None;

@@ -30,7 +30,7 @@ pub(crate) use patches::NONE_FOUND;
 pub use patches::{ThinPlaces, thin_places};
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, strips};
-pub(crate) use tell::{ABOUT, PATCHES, columns_told};
+pub(crate) use tell::{ABOUT, PATCHES, columns_sold};
 pub use tell::{AirThrough, Fabric, FabricPatch, Laid, LaidPatch, Opacity, of_scan, tell};
 pub use usable::{Usable, usable};
 

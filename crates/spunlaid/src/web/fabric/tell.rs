@@ -46,7 +46,7 @@ pub struct Laid<'a> {
     pub patches: Vec<LaidPatch>,
     /// Whether its streaks are chance.
     pub streaks: bool,
-    /// Standard error of the mean basis weight of the part that is told of, as a share of it.
+    /// Standard error of the mean basis weight of the part that is described, as a fraction of it.
     pub error_of_weight: f64,
     /// Defects of the line.
     pub defects: Vec<StreakSource>,
@@ -262,7 +262,7 @@ fn columns(map: &Map, margins: [f64; 2]) -> Range<usize> {
 
 /// The part of the map that is told of, and its first column: what is sold, or all but the edges.
 fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
-    let within = columns_told(laid.map, laid.margins, laid.reach, keys.saleable_width);
+    let within = columns_sold(laid.map, laid.margins, laid.reach, keys.saleable_width);
     (within.start, laid.map.between(within))
 }
 
@@ -270,7 +270,7 @@ fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
 ///
 /// * `reach` – where the web begins and ends across the sheet [m]
 /// * `saleable` – width that is sold [m]
-pub(crate) fn columns_told(
+pub(crate) fn columns_sold(
     map: &Map,
     margins: [f64; 2],
     reach: Option<[f64; 2]>,
