@@ -44,14 +44,14 @@ pub const BASES: [Base; 10] = [
         "web",
         include_str!("flown.toml"),
         &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
-        1.0,
+        0.7,
     ),
     base(
         "places",
         "web",
         include_str!("places.toml"),
         &["fibre", "air", "drag", "belt", "web", "fabric"],
-        1.0,
+        0.4,
     ),
     base("spinline", "spin", include_str!("spinline.toml"), OF_LINES, 2.0),
     base("yarn", "spin", include_str!("yarn.toml"), OF_LINES, 2.0),
@@ -254,6 +254,11 @@ impl Drawn {
 }
 
 impl Base {
+    /// This input as it is.
+    pub fn unchanged(&'static self) -> Drawn {
+        Drawn { base: self, changes: Vec::new(), number: 0 }
+    }
+
     pub fn has_layers(&self) -> bool {
         self.text.contains("[[layer]]")
     }

@@ -68,13 +68,17 @@ fn main() {
     let word_after = |name: &str| Some(&words[words.iter().position(|word| word == name)? + 1]);
     let number = |name: &str| word_after(name).map(|word| word.parse::<f64>().expect("a number"));
     let is_asked = |name: &str, of: &str| word_after(name).is_none_or(|word| word == of);
+    let relations: Vec<&Relation> =
+        RELATIONS.iter().filter(|relation| is_asked("--only", relation.name)).collect();
+    let has_relation =
+        |base: &&'static Base| relations.iter().any(|relation| relation.applies(&base.unchanged()));
     let search = Search {
         seed: number("--seed").unwrap_or(1.0) as u64,
         draw: number("--draw").map(|draw| draw as u64),
         most: Duration::from_secs_f64(60.0 * number("--minutes").unwrap_or(1.0)),
         first: words.iter().any(|word| word == "--first"),
-        relations: RELATIONS.iter().filter(|relation| is_asked("--only", relation.name)).collect(),
-        bases: BASES.iter().filter(|base| is_asked("--base", base.name)).collect(),
+        bases: BASES.iter().filter(|base| is_asked("--base", base.name) && has_relation(base)).collect(),
+        relations,
     };
     let names = || RELATIONS.iter().map(|relation| relation.name).collect::<Vec<_>>();
     assert!(!search.relations.is_empty(), "the relations are {:?}", names());

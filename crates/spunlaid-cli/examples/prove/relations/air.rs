@@ -74,6 +74,20 @@ pub fn field_moved(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     alike(program, drawn, "in a field that is moved and turned", [one, other])
 }
 
+/// A field in a mirror through which the machine direction runs.
+pub fn field_mirrored(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    let own = Table::read("CASES/fields/diffuser_core.csv");
+    let mut mirrored = Table { heads: own.heads.clone(), rows: own.rows.clone() };
+    for row in &mut mirrored.rows {
+        // The third coordinate and the third velocity.
+        row[2] = -row[2];
+        row[5] = -row[5];
+    }
+    let changes = [own.write(program, "own.csv"), mirrored.write(program, "mirrored.csv")]
+        .map(|file| vec![Change::new("air.field", file), Change::new("air.field_machine_direction", "y")]);
+    alike(program, drawn, "in a field that is mirrored", changes)
+}
+
 /// A record in other units of time and velocity.
 pub fn record_in_other_units(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     let own = Table::read("CASES/records/probe.csv");

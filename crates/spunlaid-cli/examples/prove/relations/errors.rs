@@ -92,7 +92,7 @@ pub fn seeds(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
 fn deviation(name: &Name, value: f64, other: f64, error: f64, degrees: f64, what: &str) -> Option<Deviation> {
     let by = value - other;
     // Rounding is no error of a number that is known.
-    if by.abs() <= 1e-9 * value.abs().max(other.abs()) || error.is_nan() {
+    if counts_elements(name) || by.abs() <= 1e-9 * value.abs().max(other.abs()) || error.is_nan() {
         return None;
     }
     let words =
@@ -121,6 +121,11 @@ pub(super) fn pairs(
 /// Measures of the fibre, not of its steps and nodes.
 fn is_of_the_fibre(name: &Name) -> bool {
     !name.0.starts_with("energy.") && !name.0.contains("nodes")
+}
+
+/// What is counted in whole elements says nothing beyond an element.
+fn counts_elements(name: &Name) -> bool {
+    name.0 == "laydown.laid_length_m"
 }
 
 /// The change of every measure with a finer step or mesh lies within its whole error.
@@ -237,6 +242,21 @@ pub fn layers_turned(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
         let set = other.changes.iter().map(|Change { key, value }| format!("--set={key}={value}"));
         let said = program.computed_text("web", &text, &set.collect::<Vec<_>>());
         Some((ours, numbers(&said.results()?)))
+    })
+}
+
+/// A web whose defect lies elsewhere across it. What is sold of it may have the defect or not.
+pub fn shifted_across(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    const DEFECT: &str = "layer.1.line.defects.1.from";
+    let is_in_the_way = |change: &Change| change.key == DEFECT || change.key == "web.edges";
+    if drawn.changes.iter().any(is_in_the_way) {
+        return Outcome::Refused;
+    }
+    let shifted = drawn.with(&[Change::new(DEFECT, "0.05 m")]);
+    let is_of_the_web = |name: &Name| is_of_the_sheet(name) && !name.0.starts_with("fabric");
+    pairs("with its defect elsewhere", is_of_the_web, |number| {
+        let ours = program.numbers(&with_seed(drawn, 2 * number))?;
+        Some((ours, program.numbers(&with_seed(&shifted, 2 * number + 1))?))
     })
 }
 

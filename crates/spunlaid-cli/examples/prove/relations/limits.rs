@@ -155,6 +155,51 @@ pub fn influences(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     Outcome::Holds
 }
 
+/// A thread of a very viscous melt, whose weight, inertia and friction are nothing beside its tension: the tension is
+/// `3 η Q ln(v/v₀) / z` up to where it freezes (A. Ziabicki: Fundamentals of Fibre Formation, 1976, isothermal line).
+pub fn line_in_closed_form(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    const VISCOSITY: f64 = 1e5;
+    const SPECIFIC_VOLUME: f64 = 8e-4;
+    /// The melt still becomes more viscous by some 7 % before it freezes, and it is not free of the three forces.
+    const SHARE: std::ops::RangeInclusive<f64> = 0.97..=1.1;
+    let stiff = [
+        ("law", "newtonian".to_owned()),
+        ("crystallisation", "false".to_owned()),
+        ("die_temperature", "570 K".to_owned()),
+        ("die_swell", "1".to_owned()),
+        ("temperature", "10 °C".to_owned()),
+        ("length", "4 m".to_owned()),
+        ("take_up_speed", "20 m/s".to_owned()),
+        ("material.viscosity", format!("{VISCOSITY} Pa s")),
+        ("material.viscosity_temperature", "570 K".to_owned()),
+        ("material.activation_energy", "1 kJ/mol".to_owned()),
+        ("material.freezing_temperature", "450 K".to_owned()),
+        ("material.specific_volume", format!("{SPECIFIC_VOLUME} m³/kg")),
+        ("material.specific_volume_slope", "1e-8 m³/(kg K)".to_owned()),
+    ];
+    let stiff = stiff.map(|(key, value)| Change::new(&format!("spinline.{key}"), value));
+    let is_of_friction = |change: &Change| change.key.starts_with("drag.");
+    let mut slow = drawn.with(&stiff);
+    slow.changes.retain(|change| !is_of_friction(change));
+    let Said::Results(found) = program.computed(&slow, &[]) else { return Outcome::Refused };
+    let of = |name: &str| found["spinline"][name].as_f64();
+    let frozen = &found["spinline"]["freezing"];
+    let (Some(force), Some(ratio), Some(distance)) =
+        (of("force_at_die_n"), of("draw_ratio"), frozen["distance_m"].as_f64())
+    else {
+        return Outcome::Refused;
+    };
+    let throughput = of("linear_density_kg_m").zip(of("final_speed_m_s")).map(|(titre, speed)| titre * speed);
+    let Some(throughput) = throughput else { return Outcome::Refused };
+    let wanted = 3.0 * VISCOSITY * throughput * SPECIFIC_VOLUME * ratio.ln() / distance;
+    match SHARE.contains(&(force / wanted)) {
+        true => Outcome::Holds,
+        false => {
+            Outcome::Broken(format!("the tension at the die is {force} N, and in closed form {wanted} N"))
+        }
+    }
+}
+
 /// A fibre that hangs in air at rest pulls at its root with its weight.
 pub fn chain(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     let of = |table: &str, key: &str| results["case"][table][key].as_f64();

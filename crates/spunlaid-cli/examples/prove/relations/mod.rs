@@ -42,7 +42,7 @@ const fn row(
 }
 
 /// One row for each relation.
-pub const RELATIONS: [Relation; 30] = [
+pub const RELATIONS: [Relation; 33] = [
     row("bounds", any, 1.0, budgets::bounds),
     row("mass of a web", is_known_web, 1.0, budgets::mass_of_a_web),
     row("mass of a line", is_line, 1.0, budgets::mass_of_a_line),
@@ -61,12 +61,15 @@ pub const RELATIONS: [Relation; 30] = [
     row("rounded", any, 0.3, limits::rounded),
     row("influences", is_line, 1.0, limits::influences),
     row("chain", is_fixed, 0.3, limits::chain),
+    row("line in closed form", is_drawn_line, 1.0, limits::line_in_closed_form),
     row("field moved", is_in_field, 0.5, air::field_moved),
+    row("field mirrored", is_in_field, 0.5, air::field_mirrored),
     row("record in other units", is_of_record, 0.5, air::record_in_other_units),
     row("seeds", has_seed, 1.0, errors::seeds),
     row("half the step", is_checked_run, 0.5, errors::half_the_step),
     row("half the elements", is_checked_run, 1.0, errors::half_the_elements),
     row("layers turned", has_layers, 0.5, errors::layers_turned),
+    row("shifted across", has_layers, 0.5, errors::shifted_across),
     row("two equal layers", is_plain_web, 1.0, errors::two_equal_layers),
     row("twice as wide", is_web, 0.5, errors::twice_as_wide),
     row("twice as long", is_web, 0.5, errors::twice_as_long),
@@ -102,6 +105,11 @@ fn is_checked_run(drawn: &Drawn) -> bool {
 
 fn is_line(drawn: &Drawn) -> bool {
     drawn.base.command == "spin"
+}
+
+/// Whose speed at the end is known.
+fn is_drawn_line(drawn: &Drawn) -> bool {
+    drawn.base.name == "yarn"
 }
 
 fn is_web(drawn: &Drawn) -> bool {

@@ -74,7 +74,9 @@ pub(super) const DECLARATION: Declaration = Declaration {
             .figure(&figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc")),
         RATIO_OF
             .observed("laid_length", "laid_length_m", "Length laid")
-            .meaning("length of fibre laid after the spin-up, from which the statistics are")
+            .meaning(
+                "length of fibre laid after the spin-up, from which the statistics are, in whole elements",
+            )
             .unit(METRES)
             .figure(&figure("laid_length", "Length laid", "length laid")),
         RATIO_OF
