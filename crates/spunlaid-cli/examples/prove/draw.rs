@@ -265,7 +265,7 @@ impl Base {
 
     /// Whether its filaments fly in one air.
     pub fn flies_in_one_air(&self) -> bool {
-        self.text.contains("flown")
+        self.command == "web" && self.text.contains("[air]")
     }
 
     /// The number that a key has in this file.

@@ -5,8 +5,20 @@
 //! standard normal. By Ville's inequality it exceeds 1/α once, however long one looks and whenever one stops, with a
 //! probability of at most α: Ramdas et al., Statistical Science 38 (2023) 576.
 
-/// Shifts and widths of the scores of wrong errors.
-const WRONG: [(f64, f64); 10] = [
+/// How errors can be wrong.
+pub struct Wrong {
+    /// Shifts and widths of the scores that they make.
+    alternatives: &'static [(f64, f64)],
+    /// An error counts as wrong only if it is so by more than this factor.
+    tolerance: f64,
+}
+
+/// Errors that are too small.
+pub static TOO_SMALL: Wrong = Wrong { alternatives: &SHIFTED_OR_WIDER, tolerance: 1.5 };
+/// Errors that are too large.
+pub static TOO_LARGE: Wrong = Wrong { alternatives: &[(0.0, 0.25), (0.0, 0.06)], tolerance: 0.25 };
+
+const SHIFTED_OR_WIDER: [(f64, f64); 10] = [
     (0.5, 1.0),
     (-0.5, 1.0),
     (1.0, 1.0),
@@ -18,13 +30,12 @@ const WRONG: [(f64, f64); 10] = [
     (0.0, 4.0),
     (0.0, 16.0),
 ];
-/// An error may be too small by this factor before it counts as wrong.
-const TOLERANCE: f64 = 1.5;
 
 /// The evidence against one number.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone)]
 pub struct Evidence {
-    logarithms: [f64; WRONG.len()],
+    wrong: &'static Wrong,
+    logarithms: Vec<f64>,
     pub observations: u32,
 }
 
@@ -35,10 +46,14 @@ impl Evidence {
     /// Below this nothing is suspected.
     pub const SUSPECTED: f64 = 4.0;
 
+    pub fn new(wrong: &'static Wrong) -> Self {
+        Self { wrong, logarithms: vec![0.0; wrong.alternatives.len()], observations: 0 }
+    }
+
     /// Takes a deviation, in units of its error, and the degrees of freedom of that error.
     pub fn take(&mut self, deviation: f64, degrees: f64) {
-        let score = normal_score(deviation / TOLERANCE, degrees);
-        for (logarithm, (shift, width)) in self.logarithms.iter_mut().zip(WRONG) {
+        let score = normal_score(deviation / self.wrong.tolerance, degrees);
+        for (logarithm, (shift, width)) in self.logarithms.iter_mut().zip(self.wrong.alternatives) {
             *logarithm += 0.5 * (score * score - ((score - shift) / width).powi(2)) - width.ln();
         }
         self.observations += 1;
@@ -46,7 +61,7 @@ impl Evidence {
 
     /// By how much the observations are likelier if the error is wrong.
     pub fn value(&self) -> f64 {
-        self.logarithms.iter().map(|logarithm| logarithm.exp()).sum::<f64>() / WRONG.len() as f64
+        self.logarithms.iter().map(|logarithm| logarithm.exp()).sum::<f64>() / self.logarithms.len() as f64
     }
 }
 

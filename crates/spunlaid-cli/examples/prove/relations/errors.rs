@@ -2,7 +2,7 @@
 
 use super::Outcome;
 use crate::draw::{Change, Drawn};
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, TOO_LARGE, TOO_SMALL, Wrong};
 use crate::lines::Lines;
 use crate::numbers::{Name, Numbers, Reported, numbers};
 use crate::program::{Program, Said, with_folder};
@@ -38,12 +38,13 @@ pub(super) fn with_seed(drawn: &Drawn, number: u64) -> Drawn {
 }
 
 /// Looks at one set of deviations after the other until none is suspicious, or one is surely too large.
-fn sequential(mut next: impl FnMut(u64) -> Option<Vec<Deviation>>) -> Outcome {
+fn sequential(wrong: &'static Wrong, mut next: impl FnMut(u64) -> Option<Vec<Deviation>>) -> Outcome {
     let mut all: BTreeMap<Name, (Evidence, Vec<String>)> = BTreeMap::new();
     for number in 0..MOST {
         let Some(deviations) = next(number) else { return Outcome::Refused };
         for deviation in deviations {
-            let (evidence, words) = all.entry(deviation.name).or_default();
+            let (evidence, words) =
+                all.entry(deviation.name).or_insert_with(|| (Evidence::new(wrong), Vec::new()));
             evidence.take(deviation.of, deviation.degrees);
             words.push(deviation.words);
         }
@@ -54,7 +55,7 @@ fn sequential(mut next: impl FnMut(u64) -> Option<Vec<Deviation>>) -> Outcome {
             && of_worst > Evidence::REPORTED
         {
             return Outcome::Broken(format!(
-                "{} {} is off by too many of its errors (evidence {of_worst:.0e} after {} observations):\n{}",
+                "{} {} is off by too many of its errors, or too few (evidence {of_worst:.0e} after {} observations):\n{}",
                 name.0,
                 name.1,
                 evidence.observations,
@@ -70,9 +71,19 @@ fn sequential(mut next: impl FnMut(u64) -> Option<Vec<Deviation>>) -> Outcome {
 
 /// Another seed gives the same numbers within their errors: each beside the mean of those before.
 pub fn seeds(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
+    other_seeds(&TOO_SMALL, program, drawn, results)
+}
+
+/// Numbers of other seeds are not much closer together than their errors say. That is so only where no error is one that
+/// all seeds have, like that of a mesh.
+pub fn errors_not_too_large(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
+    other_seeds(&TOO_LARGE, program, drawn, results)
+}
+
+fn other_seeds(wrong: &'static Wrong, program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     let mut before: BTreeMap<Name, Vec<Reported>> = BTreeMap::new();
     numbers(results).into_iter().for_each(|(name, own)| drop(before.insert(name, vec![own])));
-    sequential(|number| {
+    sequential(wrong, |number| {
         let found = program.numbers(&with_seed(drawn, number))?;
         let mut deviations = Vec::new();
         for (name, own) in found {
@@ -106,7 +117,7 @@ pub(super) fn pairs(
     is_compared: impl Fn(&Name) -> bool,
     mut pair: impl FnMut(u64) -> Option<(Numbers, Numbers)>,
 ) -> Outcome {
-    sequential(|number| {
+    sequential(&TOO_SMALL, |number| {
         let (ours, others) = pair(number)?;
         let mut deviations = Vec::new();
         for (name, own) in ours.iter().filter(|(name, _)| is_compared(name)) {

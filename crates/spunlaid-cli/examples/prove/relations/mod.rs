@@ -42,7 +42,7 @@ const fn row(
 }
 
 /// One row for each relation.
-pub const RELATIONS: [Relation; 33] = [
+pub const RELATIONS: [Relation; 34] = [
     row("bounds", any, 1.0, budgets::bounds),
     row("mass of a web", is_known_web, 1.0, budgets::mass_of_a_web),
     row("mass of a line", is_line, 1.0, budgets::mass_of_a_line),
@@ -66,6 +66,7 @@ pub const RELATIONS: [Relation; 33] = [
     row("field mirrored", is_in_field, 0.5, air::field_mirrored),
     row("record in other units", is_of_record, 0.5, air::record_in_other_units),
     row("seeds", has_seed, 1.0, errors::seeds),
+    row("errors not too large", is_known_web, 0.5, errors::errors_not_too_large),
     row("half the step", is_checked_run, 0.5, errors::half_the_step),
     row("half the elements", is_checked_run, 1.0, errors::half_the_elements),
     row("layers turned", has_layers, 0.5, errors::layers_turned),
