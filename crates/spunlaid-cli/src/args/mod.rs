@@ -212,8 +212,8 @@ pub(crate) struct Web {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Set a key of the web, as line.belt_speed="6 m/s", or of the case that it flies, as belt.distance="0.4
-    /// m"; can be repeated
+    /// Set a key of the web, as line.belt_speed="6 m/s", or change it, as line.throughput="+20 %"; or one of the
+    /// case that it flies, as belt.distance="0.4 m"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]

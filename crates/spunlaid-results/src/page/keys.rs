@@ -237,7 +237,9 @@ This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys W
 their name or meaning, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as
-`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run. A study can vary all keys but those marked *fixed*;
+`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run, and `--set air.velocity=\"+20 %\"` or `\"-2 m/s\"` changes
+the value that it has; so do the values of a study, of a fit and of Python. (Of a key that takes negative values,
+`\"-2 mm\"` is a value.) A study can vary all keys but those marked *fixed*;
 those marked *flight* can change during a flight. A range is the usual one: the program warns of a value outside of
 it, most likely in a wrong unit, and uses it. Quantities are above zero unless their row says otherwise.
 ";
@@ -245,7 +247,8 @@ const WEB_HEAD: &str = "# The keys of a web
 
 This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, marked and searched as
 those of a case ([keys.md](keys.md)): `spunlaid keys --web gsm`. `--set layer.2.line.filaments_per_metre=4000` sets
-one of a layer, by its number or name; `line.rows.1.pitch` is that of a row of nozzles.
+one of a layer, by its number or name; without `layer` and a number it is set in all layers that have it.
+`line.rows.1.pitch` is that of a row of nozzles.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study

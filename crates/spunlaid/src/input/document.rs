@@ -6,6 +6,7 @@
 
 use super::Overrides;
 use super::entry::{Entry, VERSION, check_version, in_order, kind, read as read_value, root};
+use super::relative::Relative;
 use super::text_with_lines::TextWithLines;
 use super::written_values::{WrittenValue, WrittenValues};
 use crate::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
@@ -292,6 +293,15 @@ impl<'a, T> Document<'a, T> {
         }
     }
 
+    /// The number that a key has so far, written or by default.
+    fn number_before(&self, full: &str, key: &Key<T>) -> Option<f64> {
+        match (self.key_values.get(full), key.omission) {
+            (Some(written_value), _) => written_value.value.as_ref()?.number(),
+            (None, Omission::Value(text)) => key.kind.accept(text.into()).ok()?.number(),
+            (None, _) => None,
+        }
+    }
+
     /// Reads the value of a key in place of the one there was.
     fn read_entry(&mut self, full: &str, key: &'static Key<T>, entry: Entry<'_>) {
         let Entry { place, shown, value, .. } = entry;
@@ -301,9 +311,15 @@ impl<'a, T> Document<'a, T> {
             }
             value => value,
         };
-        let read = match value.as_str() {
-            Some(word) if key.words.contains(&word) => Ok(word.into()),
-            _ => read_value(&key.kind, &value, |named| self.beside(&place, named)),
+        let change = match (&place, value.as_str()) {
+            (Place::Override(_), Some(text)) => Relative::read(&key.kind, text),
+            _ => Ok(None),
+        };
+        let read = match (value.as_str(), change) {
+            (Some(word), _) if key.words.contains(&word) => Ok(word.into()),
+            (_, Ok(Some(change))) => change.of(self.number_before(full, key), &key.kind, &key.example()),
+            (_, Ok(None)) => read_value(&key.kind, &value, |named| self.beside(&place, named)),
+            (_, Err(fault)) => Err(fault),
         };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),

@@ -12,6 +12,7 @@ mod influence;
 mod open;
 mod overrides;
 pub mod paper;
+mod relative;
 mod settle;
 mod slip;
 mod source;

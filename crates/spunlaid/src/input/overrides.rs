@@ -3,15 +3,20 @@
 use super::Overrides;
 use super::document::Document;
 use super::entry::Entry;
-use super::text_with_lines::fit;
 use crate::fibre::case::keys::TableList;
 use crate::ground::Fault;
 
 /// The value of an override that removes a key, so that its default applies.
 pub(super) const AUTO: &str = "auto";
 
-/// Where the key of an override stands: what comes before it in its full name, its table, and its name there.
-type Target<'k> = (String, &'static str, &'k str);
+/// Where the key of an override stands.
+struct Target {
+    /// What comes before it in its full name.
+    before: String,
+    table: &'static str,
+    /// Its name there.
+    name: String,
+}
 
 impl<'a, T> Document<'a, T> {
     /// Takes what is set from one place. It replaces what stands in the file or was set before, also in other
@@ -19,30 +24,51 @@ impl<'a, T> Document<'a, T> {
     pub(super) fn take_overrides(&mut self, Overrides { values, word, .. }: &Overrides<'a>) {
         let mut set = Vec::new();
         for (key, text) in *values {
-            let (key, entry) = (key.trim(), Entry::from_override(word, text));
-            match self.target(key) {
-                Ok((before, table, name)) => {
-                    let (full, path) = (format!("{before}{name}"), format!("{table}.{name}"));
-                    let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
-                    if is_known && text.trim().trim_matches('"') == AUTO {
-                        self.key_values.remove(&full);
-                        self.key_values.taken_out.push(full);
-                    } else {
-                        self.take(&before, table, name, entry);
-                        set.extend(is_known.then_some(full));
-                    }
+            let (key, entry) = (key.trim(), || Entry::from_override(word, text));
+            let targets = self.targets(key).map_err(|what| entry().problem(key, what));
+            let targets = targets.unwrap_or_else(|problem| {
+                self.key_values.problems.push(problem);
+                Vec::new()
+            });
+            for Target { before, table, name } in targets {
+                let (full, path) = (format!("{before}{name}"), format!("{table}.{name}"));
+                let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
+                if is_known && text.trim().trim_matches('"') == AUTO {
+                    self.key_values.remove(&full);
+                    self.key_values.taken_out.push(full);
+                } else {
+                    self.take(&before, table, &name, entry());
+                    set.extend(is_known.then_some(full));
                 }
-                Err(what) => self.key_values.problems.push(entry.problem(key, what)),
             }
         }
         self.key_values.give_way(&set.iter().map(String::as_str).collect::<Vec<_>>());
     }
 
+    /// Where a key stands: one of a layer, without its number, in all layers that have it, or else in all layers.
+    ///
+    /// # Errors
+    /// As [`Self::target`].
+    fn targets(&self, key: &str) -> Result<Vec<Target>, Fault> {
+        let table = key.split('.').next().unwrap_or(key);
+        let has_table = |list: &&TableList| list.tables.contains(&table) && !list.common.contains(&table);
+        let Some(list) = self.keys.lists.iter().find(has_table).filter(|_| self.layered) else {
+            return Ok(vec![self.target(key)?]);
+        };
+        let count = self.key_values.number(list.name).map_or(0, |count| count as u64);
+        let all = (1..=count).map(|number| self.target(&format!("{}.{number}.{key}", list.name)));
+        let all: Vec<Target> = all.collect::<Result<_, _>>()?;
+        let has_it =
+            |target: &Target| self.key_values.get(&format!("{}{}", target.before, target.name)).is_some();
+        let is_there = all.iter().any(has_it);
+        Ok(all.into_iter().filter(|target| !is_there || has_it(target)).collect())
+    }
+
     /// Where a key stands.
     ///
     /// # Errors
-    /// If it is of an entry of a list that is not there, or does not say of which.
-    fn target<'k>(&self, key: &'k str) -> Result<Target<'k>, Fault> {
+    /// If it is of an entry of a list that is not there.
+    fn target(&self, key: &str) -> Result<Target, Fault> {
         let (mut before, mut table, mut rest) = (String::new(), "", key);
         while let Some((name, after)) = rest.split_once('.') {
             let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
@@ -55,18 +81,13 @@ impl<'a, T> Document<'a, T> {
                 }
                 rest = after;
             } else if let Some(inner) = self.keys.table_in(table, name) {
-                let is_common = self.keys.is_common(inner);
-                if self.layered && table.is_empty() && self.list_of(inner).is_some() && !is_common {
-                    let remedy = format!("write layer.1.{}, or the layer's name in place of 1", fit(key));
-                    return Err(Fault::new("does not say of which layer", remedy));
-                }
                 before += &format!("{name}.");
                 (table, rest) = (inner, after);
             } else {
                 break;
             }
         }
-        Ok((before, table, rest))
+        Ok(Target { before, table, name: rest.to_owned() })
     }
 
     /// The number of an entry of a list, which an override gives by its number or its name, and the rest of its key.

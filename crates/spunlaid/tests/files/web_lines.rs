@@ -2,7 +2,8 @@
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
 use spunlaid::air::Lateral;
-use spunlaid::input::{LaydownSource, WebFile, read_case, read_web};
+use spunlaid::ground::Dimension;
+use spunlaid::input::{LaydownSource, WebFile, WebSpec, read_case, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
 use std::path::Path;
@@ -215,6 +216,66 @@ fn doubted(file: &WebFile) -> Vec<&'static str> {
     let word =
         |text: String| words.into_iter().find(|word| text.starts_with(&format!("is doubtful: a {word} of ")));
     all.map(|text| word(text).unwrap()).collect()
+}
+
+#[test]
+fn a_value_may_be_a_change_of_the_one_before() {
+    let value = |file: &WebFile, key: &str| {
+        let line = file.text.lines().find_map(|line| line.trim().strip_prefix(&format!("{key} = ")));
+        line.map(|value| value.trim_matches('"').to_owned()).unwrap()
+    };
+    for (key, change, written) in [
+        ("line.throughput", "+20 %", "1e-5 kg/s"),
+        ("line.throughput", "-0.1 g/min", "0.4 g/min"),
+        ("line.throughput", "−40%", "0.3 g/min"),
+        ("fibre.linear_density", "-0.2 dtex", "1.8e-7 kg/m"),
+        ("line.basis_weight", "+2 g/m²", "22 g/m²"),
+    ] {
+        let found = value(&read_line(&[(key, change)]), key.split_once('.').unwrap().1);
+        let kind = [Dimension::MassFlow, Dimension::LinearDensity, Dimension::BasisWeight];
+        let si = |text: &str| kind.iter().find_map(|dimension| dimension.parse(text).ok()).unwrap();
+        assert!((si(&found) / si(written) - 1.0).abs() < 1e-12, "{key} {change}: {found}");
+    }
+    // One change after the other.
+    let twice = read_line(&[("line.throughput", "+20 %"), ("line.throughput", "+50 %")]);
+    assert_eq!(value(&twice, "throughput"), "1.5e-5 kg/s");
+    for (key, change, message) in [
+        ("line.feed_speed", "+20 %", "is a change of a value that is not given; write the value itself"),
+        ("line.throughput", "-100 %", "is not positive"),
+        ("line.throughput", "+x %", "is no share; write one like \"+20 %\" or \"-5 %\""),
+        ("line.throughput", "+1 m/s", "is a velocity"),
+    ] {
+        let values = set(key, change);
+        let said = read_web((LINE, "../../cases/line.toml"), &values).unwrap_err().to_string();
+        assert!(said.contains(message), "{key} {change}: {said}");
+    }
+}
+
+#[test]
+fn a_key_without_the_number_of_a_layer_is_set_in_all_that_have_it() {
+    let layer = |throughput: f64, belt: &str| {
+        format!(
+            "[[layer]]\nlaydown = {{sigma_md = \"18 mm\", sigma_cd = \"18 mm\", noise = \"12 m^-0.5\"}}\n\
+             fibre = {{linear_density = \"2 dtex\", density = \"900 kg/m³\"}}\n\
+             line = {{throughput = \"{throughput} g/min\", filaments_per_metre = 3000{belt}}}\n"
+        )
+    };
+    let text = [
+        &layer(0.6, ", belt_speed = \"4 m/s\""),
+        &layer(0.5, ""),
+        "[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n",
+    ];
+    let read =
+        |key: &str, change: &str| read_web((&text.concat(), "two.toml"), &set(key, change)).unwrap().spec;
+    let speeds = |spec: &WebSpec| {
+        let g_min = 1e-3 / 60.0;
+        [0, 1].map(|layer| (spec.layers[layer].feed_speed * 2e-7 / g_min * 1e6).round() / 1e6)
+    };
+    assert_eq!(speeds(&read("line.throughput", "+20 %")), [0.72, 0.6]);
+    assert_eq!(speeds(&read("line.throughput", "0.4 g/min")), [0.4, 0.4]);
+    assert_eq!(speeds(&read("layer.2.line.throughput", "-0.1 g/min")), [0.6, 0.4]);
+    // Only one of them has the speed of the belt.
+    assert_eq!(read("line.belt_speed", "+1 m/s").layers[0].belt_speed, 5.0);
 }
 
 #[test]

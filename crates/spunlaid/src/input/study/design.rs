@@ -2,6 +2,7 @@
 
 use super::super::document::Named;
 use super::super::entry::{Entry, kind};
+use super::super::relative::Relative;
 use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, not_varied, not_written};
 use crate::experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
@@ -57,7 +58,8 @@ impl<'a> Reader<'a> {
         for named in self.named("vary") {
             let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key.name).collect();
             let Some(varied) = self.varied(base, &named, &keys) else { continue };
-            if let Some(levels) = self.levels(&varied, named, design) {
+            let before = base.value(&varied);
+            if let Some(levels) = self.levels((&varied, before), named, design) {
                 factors.push(Factor { key: varied, levels });
             }
         }
@@ -131,9 +133,11 @@ const LARGEST_WHOLE: u64 = 1 << 50;
 
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
+    ///
+    /// * `before` – the value before it varies; NaN for none
     pub(super) fn levels(
         &mut self,
-        varied: &VariedKey,
+        (varied, before): (&VariedKey, f64),
         named: Named<'a, Study>,
         design: Design,
     ) -> Option<Levels> {
@@ -147,7 +151,7 @@ impl<'a> Reader<'a> {
             DeValue::Array(list) => {
                 let level = |value: toml::Spanned<DeValue<'a>>| {
                     let entry = self.entry(value.span().start, value, None);
-                    self.level(varied, &varied.name, &entry)
+                    self.level((varied, before), &varied.name, &entry)
                 };
                 // All of them are looked at.
                 let levels: Vec<Option<f64>> = list.into_iter().map(level).collect();
@@ -158,15 +162,15 @@ impl<'a> Reader<'a> {
                 let remedy = format!("list them, as in [{}]", words.join(", "));
                 Fault::new("takes words, which have no range", remedy)
             }
-            DeValue::Table(table) => return self.range(varied, &entry, table, design),
+            DeValue::Table(table) => return self.range((varied, before), &entry, table, design),
             other => Fault::wrong_type(kind(&other), row.kind.wanted()),
         };
         self.reject(&varied.name, &entry, fault);
         None
     }
 
-    /// A value of a key that varies as a number.
-    fn level(&mut self, varied: &VariedKey, name: &str, entry: &Entry<'_>) -> Option<f64> {
+    /// A value of a key that varies as a number, which may be given by its change.
+    fn level(&mut self, (varied, before): (&VariedKey, f64), name: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
         let word = entry.value.as_str().and_then(|word| words.iter().position(|one| *one == word));
         let read = match (word, entry.value.as_str()) {
@@ -174,7 +178,7 @@ impl<'a> Reader<'a> {
             (None, Some(other)) if !words.is_empty() => {
                 Err(Fault::not_one_of(nearest_word(other, words.iter().copied()), &words))
             }
-            _ => self.as_kind(&varied.kind, entry).and_then(|value| match value {
+            (_, text) => self.value_or_change(varied, before, entry, text).and_then(|value| match value {
                 Value::Whole(number) if number > LARGEST_WHOLE => Err(Fault::out_of_range(1, LARGEST_WHOLE)),
                 value => varied.number(&value).ok_or_else(|| Fault::not_one_of(None, &words)),
             }),
@@ -182,9 +186,22 @@ impl<'a> Reader<'a> {
         read.map_err(|fault| self.reject(name, entry, fault)).ok()
     }
 
+    fn value_or_change(
+        &self,
+        varied: &VariedKey,
+        before: f64,
+        entry: &Entry<'_>,
+        text: Option<&str>,
+    ) -> Result<Value, Fault> {
+        match Relative::read(&varied.kind, text.unwrap_or_default())? {
+            Some(change) => change.of(Some(before), &varied.kind, &format!("\"{}\"", varied.name)),
+            None => self.as_kind(&varied.kind, entry),
+        }
+    }
+
     fn range(
         &mut self,
-        varied: &VariedKey,
+        (varied, before): (&VariedKey, f64),
         whole: &Entry<'a>,
         table: DeTable<'a>,
         design: Design,
@@ -194,7 +211,7 @@ impl<'a> Reader<'a> {
         self.reject_unreadable();
         let mut ends = [None; 2];
         for Named { row, name, entry } in self.named(RANGE) {
-            ends[usize::from(row.short() == "to")] = self.level(varied, &name, &entry);
+            ends[usize::from(row.short() == "to")] = self.level((varied, before), &name, &entry);
         }
         if self.problems() > problems {
             return None;
