@@ -63,9 +63,20 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &Unevenness) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
-    // The clouds add ½ (τd)² CV² of it, whose chance is that of the CV, and all of it falls with τd.   theory.md (113)
-    let by_clouds = |error: f64| libm::exp(-covered) * covered * covered * found.cv * error;
+    // It grows with the clouds, whose chance is that of the CV, and all of it falls with τd.           theory.md (113)
+    let of_clouds = found.cv * found.cv - straight_fibres(length, found.patch).powi(2);
+    let by_clouds = |error: f64| share * growth_with_clouds(covered, of_clouds.max(0.0)) * found.cv * error;
     Known::Value(share, found.standard_error.map(|chance| by_clouds(chance).hypot(share * covered * error)))
+}
+
+/// By which share the bare area grows with c²/2, the half of the squared variation of the clouds.  theory.md (112), (113)
+fn growth_with_clouds(covered: f64, square: f64) -> f64 {
+    let x = covered * square;
+    // Close to an even web the difference of two large numbers is that of its series.
+    if x < 1e-3 {
+        return covered * covered * (1.0 - 4.0 / 3.0 * x);
+    }
+    2.0 * libm::log1p(x) / (square * square) - 2.0 * covered / (square * (1.0 + x))
 }
 
 /// The formation number: CV² over that of straight fibres at random of the same mass, which have 1.   theory.md (102)
@@ -80,6 +91,18 @@ pub fn formation(found: &Unevenness, straight_fibres: f64) -> Known {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By differences of (112), from an even web to one of which the thin places are all that is bare.
+    #[test]
+    fn analytic_the_bare_area_grows_with_the_clouds() {
+        let logarithm = |covered: f64, square: f64| -libm::log1p(covered * square) / square;
+        for (covered, square) in [(0.5, 1e-4), (2.0, 0.01), (8.3, 0.1), (8.3, 0.3)] {
+            let step = 1e-4 * square;
+            let by_hand = (logarithm(covered, square + step) - logarithm(covered, square - step)) / step;
+            let found = growth_with_clouds(covered, square);
+            assert!((found / by_hand - 1.0).abs() < 1e-3, "{covered} {square}: {found} {by_hand}");
+        }
+    }
 
     #[test]
     fn analytic_opacity_and_scattering_are_inverses() {
