@@ -191,7 +191,7 @@ A throughput and a basis weight may stand in [line] in place of the speeds. Seve
 Examples:
   spunlaid web cases/web.toml
   spunlaid web cases/web_known.toml --set line.belt_speed=\"6 m/s\" --out results/faster
-  spunlaid web cases/line.toml --set line.throughput=\"+20 %\" --out results/more
+  spunlaid web line.toml --set line.throughput=\"+20 %\" --out results/more
   spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
 
 pub(super) const FIT_HELP: &str = "\

@@ -64,6 +64,10 @@ pub(crate) struct LineNumbers {
     /// Speed of the air at the end of the slot in m/s, or with its unit, as "3600 m/min"
     #[arg(long, value_name = "SPEED", requires = "web", value_parser = in_unit(Dimension::Velocity, "m/s"))]
     pub(crate) air_speed: Option<Given<f64>>,
+    /// Pressure of the cabin above that under the belt in Pa in place of that speed, or with its unit, as
+    /// "14 inH2O"; beside it, the two give the coefficient of speed of the slot
+    #[arg(long, value_name = "PRESSURE", requires = "web", value_parser = in_unit(Dimension::Pressure, "Pa"))]
+    pub(crate) cabin_pressure: Option<Given<f64>>,
     /// Width of the web in m, or with its unit, as "3200 mm" [default: "1 m"]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "m"))]
     #[arg(default_value = "1 m", hide_default_value = true)]
@@ -107,7 +111,12 @@ pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
     (&["width"], Usual, "Width of the web", "1 m"),
     (&["holes-per-metre", "holes"], Needed, "Holes of a beam per metre of width", "5000"),
     (&["beams"], Usual, "Number of equal beams", "1"),
-    (&["air-speed"], Needed, "Speed of the air at the end of the slot", "60 m/s"),
+    (
+        &["air-speed", "cabin-pressure"],
+        Needed,
+        "Speed of the air at the end of the slot, or pressure of the cabin",
+        "60 m/s",
+    ),
     (&["distance"], Usual, "Distance from the slot to the belt", "0.5 m"),
     (&["slot-depth"], IfKnown, "Depth of the slot", "20 mm, a guess"),
     (&["turbulence"], IfKnown, "Turbulence of the air at its end", "10 %, a guess"),
@@ -136,9 +145,9 @@ impl LineNumbers {
     /// What there is to say about the numbers, each once.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &str> {
         let Self { polymer, throughput, dtex, diameter, basis_weight, belt_speed, air_speed, .. } = self;
-        let Self { width, distance, slot_depth, turbulence, thickness, .. } = self;
+        let Self { cabin_pressure, width, distance, slot_depth, turbulence, thickness, .. } = self;
         let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed].into_iter().flatten();
-        let of_air = [slot_depth, turbulence, thickness].into_iter().flatten();
+        let of_air = [cabin_pressure, slot_depth, turbulence, thickness].into_iter().flatten();
         let numbers = of_line.chain([width, distance]).chain(of_air).map(|given| &given.remark);
         polymer.iter().map(|given| &given.remark).chain(numbers).flatten().map(String::as_str)
     }

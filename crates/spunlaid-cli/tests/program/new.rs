@@ -201,6 +201,33 @@ fn new_writes_beams_from_a_diameter_and_all_holes() {
     }
 }
 
+/// A pressure is written as it was given, with what it makes; beside a measured speed it gives the coefficient.
+#[test]
+fn new_writes_the_pressure_of_a_cabin() {
+    let desk = Desk::new();
+    let pressure = |name: &str, more: &[&str]| {
+        let mut command = desk.spunlaid(&format!("new --web {name}.toml"));
+        success(command.args(&LINE[..LINE.len() - 2]).args(["--cabin-pressure", "35 mbar"]).args(more));
+        String::from_utf8(desk.read(&format!("{name}.toml"))).unwrap()
+    };
+    let guess = pressure("guess", &[]);
+    let line =
+        "cabin_pressure = \"3.5 kPa\"   # above that under the belt: 68.21 m/s at the slot, Mach 0.2\n";
+    assert!(guess.contains(line), "{guess}");
+    assert!(guess.contains("speed_coefficient = 0.9   # a guess"), "{guess}");
+    let measured = pressure("measured", &["--air-speed", "70 m/s"]);
+    // 70 m/s over the 75.787 m/s of air without friction.
+    assert!(
+        measured.contains("speed_coefficient = 0.9236   # of this pressure and the measured speed"),
+        "{measured}"
+    );
+    let said = success(&mut desk.spunlaid("check measured.toml"));
+    assert!(said.contains("3.5 kPa in the cabin above that under the belt: 70 m/s at the slot"), "{said}");
+    let mut command = desk.spunlaid("new --web fast.toml --cabin-pressure 3500");
+    let said = refusal(command.args(&LINE[..LINE.len() - 2]).args(["--air-speed", "90 m/s"]), 1);
+    assert!(said.contains("3.5 kPa blow air of 75.79 m/s at most, and not of 90 m/s"), "{said}");
+}
+
 /// Mass flows are of the beam, of its width, and of all beams.
 #[test]
 fn analytic_each_of_two_beams_says_what_it_gives_and_what_all_give() {

@@ -103,7 +103,9 @@ dimensions! {
     /// [Pa]
     Pressure "a pressure" [-1.0, 1.0, -2.0, 0.0, 0.0] [
         unit("Pa", "Pa", Ten(0)), unit("kPa", "kPa", Ten(3)), unit("MPa", "MPa", Ten(6)),
-        unit("GPa", "GPa", Ten(9)), also("N/mm²", "N/mm2", Ten(6))];
+        unit("GPa", "GPa", Ten(9)), also("N/mm²", "N/mm2", Ten(6)), also("mbar", "mbar", Ten(2)),
+        also("inH₂O", "inH2O", Times(249.088_908_333)),
+        also("mmH₂O", "mmH2O", Times(9.806_65))];
     /// [m²/s]
     KinematicViscosity "a kinematic viscosity" [2.0, 0.0, -1.0, 0.0, 0.0] [
         unit("m²/s", "m2/s", Ten(0)), also("mm²/s", "mm2/s", Ten(-6)), also("cSt", "cSt", Ten(-6))];

@@ -295,7 +295,12 @@ impl<'a, T> Document<'a, T> {
 
     /// The number that a key has so far, written or by default.
     fn number_before(&self, full: &str, key: &Key<T>) -> Option<f64> {
-        match (self.key_values.get(full), key.omission) {
+        // A web may say it in its own words, and in those of a case.
+        let of_case = key.relations.same_in_case.and_then(|name| {
+            let layer = full.strip_suffix(key.name).unwrap_or_default();
+            self.key_values.get(&format!("{layer}{name}")).or_else(|| self.key_values.get(name))
+        });
+        match (self.key_values.get(full).or(of_case), key.omission) {
             (Some(written_value), _) => written_value.value.as_ref()?.number(),
             (None, Omission::Value(text)) => key.kind.accept(text.into()).ok()?.number(),
             (None, _) => None,

@@ -83,6 +83,10 @@ fn identical_after_getting_and_setting() {
     };
     cases.push(("../../cases/point_table.toml".into(), arrays("air.field_epsilon")));
     cases.push(("../../cases/point_table.toml".into(), arrays("air.field_omega")));
+    cases.push((
+        "../../cases/table1.toml".into(),
+        vec![("air.cabin_pressure".to_owned(), "300 Pa".to_owned())],
+    ));
     let slides = ("belt.contact".to_owned(), "friction".to_owned());
     let shared = ("air.lateral".to_owned(), "von-karman".to_owned());
     let shapes = ("run.shapes".to_owned(), "20".to_owned());

@@ -6,6 +6,7 @@ use spunlaid::ground::Dimension;
 use spunlaid::input::{LaydownSource, WebFile, WebSpec, read_case, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
+use std::fs;
 use std::path::Path;
 
 /// A line in its own words: 2 dtex, half a gram per minute and hole, 20 g/m².
@@ -276,6 +277,54 @@ fn a_key_without_the_number_of_a_layer_is_set_in_all_that_have_it() {
     assert_eq!(speeds(&read("layer.2.line.throughput", "-0.1 g/min")), [0.6, 0.4]);
     // Only one of them has the speed of the belt.
     assert_eq!(read("line.belt_speed", "+1 m/s").layers[0].belt_speed, 5.0);
+}
+
+/// By hand, with γ = 1.4, 101,325 Pa and 1.204 kg/m³: 0.9 × 343.25 m/s × √(5 (1.034542^0.285714 − 1)) = 68.21 m/s.
+#[test]
+fn analytic_the_pressure_of_the_cabin_is_a_velocity_of_the_air() {
+    let air = |set: &[(&str, &str)]| {
+        let set: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
+        let file = read_web(Path::new("../../cases/web_shared.toml"), &set).unwrap();
+        assert_reads_back_beside_cases(&file);
+        file.spec.layers[0].source.case().unwrap().air.clone()
+    };
+    let near = |found: Option<f64>, wanted: f64| (found.unwrap() / wanted - 1.0).abs() < 1e-4;
+    for (key, value) in [
+        ("air.cabin_pressure", "3500 Pa"),
+        ("line.cabin_pressure", "35 mbar"),
+        ("air.cabin_pressure", "14.0512 inH2O"),
+    ] {
+        let found = air(&[(key, value)]);
+        assert!(near(found.velocity_at_slot(), 68.208), "{key} = {value}: {:?}", found.velocity_at_slot());
+    }
+    let pressure = ("air.cabin_pressure", "3500 Pa");
+    let measured = air(&[pressure, ("air.speed_coefficient", "0.8"), ("air.cabin_pressure", "+0 %")]);
+    assert!(near(measured.velocity_at_slot(), 68.208 / 9.0 * 8.0));
+    let more = air(&[("line.cabin_pressure", "3500 Pa"), ("line.cabin_pressure", "+20 %")]).cabin_pressure;
+    assert!(near(more, 4200.0), "{more:?}");
+    for (set, message) in [
+        ("100 kPa", "makes air of Mach 0.94, and the flow is known up to 0.9"),
+        ("3500 m/s", "is a velocity; write a pressure"),
+        ("-1 Pa", "is a change of a value that is not given"),
+    ] {
+        let set = [("air.cabin_pressure".to_owned(), set.to_owned())];
+        let said = read_web(Path::new("../../cases/web_shared.toml"), &set).unwrap_err().to_string();
+        assert!(said.contains(message), "{said}");
+    }
+    // What is set takes the place of what is written in other words.
+    let written =
+        fs::read_to_string("../../cases/web_shared.toml").unwrap() + "[air]\ncabin_pressure = \"3500 Pa\"\n";
+    let faster = read_web((&written, "../../cases/faster.toml"), &set("air.speed_factor", "1.5")).unwrap();
+    assert_eq!(faster.spec.layers[0].source.case().unwrap().air.speed_factor, 1.5);
+    let more = read_web((&written, "../../cases/more.toml"), &set("line.cabin_pressure", "+20 %")).unwrap();
+    assert!(near(more.spec.layers[0].source.case().unwrap().air.cabin_pressure, 4200.0));
+    let of_line = written.replace("[line]\n", "[line]\ncabin_pressure = \"3500 Pa\"\n");
+    let of_line = of_line.replace("[air]\ncabin_pressure = \"3500 Pa\"\n", "");
+    let faster = read_web((&of_line, "../../cases/faster.toml"), &set("air.speed_factor", "1.5")).unwrap();
+    assert_eq!(faster.spec.layers[0].source.case().unwrap().air.speed_factor, 1.5);
+    let set = set("line.cabin_pressure", "3500 Pa");
+    let said = read_web((LINE, "../../cases/line.toml"), &set).unwrap_err().to_string();
+    assert!(said.contains("has no effect without a filament that flies; leave it out"), "{said}");
 }
 
 #[test]

@@ -134,14 +134,14 @@ fn a_stop_ends_the_flights() {
 fn rejects_at_once_what_no_flight_mends() {
     for (set, said) in [
         (("run.duration", "20 hours"), "run.duration"),
-        (("fibre.element_length", "-2 mm"), "fibre.element_length"),
+        (("fibre.element_length", "0 mm"), "fibre.element_length"),
         (("spinline.die_temperature", "100 °C"), "spinline.die_temperature"),
     ] {
         let refused = read(&[set]).unwrap_err().to_string();
         assert!(refused.contains(said), "{refused}");
     }
     let none = Overrides::from(&[][..]);
-    let refused = study("'fibre.element_length' = ['25 mm', '-2 mm']", none).unwrap_err().to_string();
+    let refused = study("'fibre.element_length' = ['25 mm', '0 mm']", none).unwrap_err().to_string();
     assert!(refused.contains("fibre.element_length"), "{refused}");
 }
 

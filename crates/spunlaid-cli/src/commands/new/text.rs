@@ -1,8 +1,9 @@
 //! The files of a line: one of its web and its filament, `line.toml`, and the air between slot and belt.
 
 use super::beam::beam;
-use super::line::{GIVEN, NewLine, length};
+use super::line::{GIVEN, NewLine, length, speed};
 use crate::args::value;
+use spunlaid::air::Cabin;
 use spunlaid::ground::Dimension;
 use spunlaid_results::numbers::significant;
 use std::f64::consts::PI;
@@ -54,6 +55,23 @@ pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str) -> String {
         modulus = Dimension::Pressure.pretty_to(1.5 * material.unoriented_modulus, 2),
         distance = length(given.distance.value),
         air = air,
+        blown = line.cabin.map_or_else(String::new, |cabin| blown(line, cabin)),
+    )
+}
+
+/// The pressure of the cabin, and what it makes.
+fn blown(line: &NewLine<'_>, cabin: Cabin) -> String {
+    let coefficient = match line.given.air_speed {
+        Some(_) => "of this pressure and the measured speed",
+        None => "a guess: replace it by that of a measured speed (docs/line.md)",
+    };
+    format!(
+        "cabin_pressure = \"{}\"   # above that under the belt: {} at the slot, Mach {}\n\
+         speed_coefficient = {}   # {coefficient}\n",
+        Dimension::Pressure.pretty_to(cabin.pressure, GIVEN as usize),
+        speed(line.air_speed),
+        significant(cabin.mach(), 2),
+        significant(cabin.coefficient, 4),
     )
 }
 

@@ -2,7 +2,7 @@
 
 use crate::numbers::{THIN, significant};
 use crate::products::load::{load_of, load_words};
-use spunlaid::air::{Axis, PlacedField};
+use spunlaid::air::{Air, Axis, Cabin, PlacedField};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::ground::error::counted;
@@ -99,7 +99,7 @@ fn air(spec: &WebSpec) -> Vec<String> {
             LaydownSource::Case { case, .. } => {
                 let eddies = format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")");
                 let field = case.air.flow.field().map(|placed| place_in_field(placed, &layer.filaments));
-                [Some(eddies), field].into_iter().flatten().collect()
+                [Some(eddies), field, cabin(&case.air)].into_iter().flatten().collect()
             }
         }
     };
@@ -111,6 +111,19 @@ fn air(spec: &WebSpec) -> Vec<String> {
     }
     lines.extend(if spec.flies() { in_one_air(spec) } else { independent() });
     lines
+}
+
+/// The pressure of the cabin and the velocity at the slot, whichever is given; None where it may lie outside of a field.
+fn cabin(air: &Air) -> Option<String> {
+    let velocity = air.velocity_at_slot()?;
+    let cabin = air.cabin().unwrap_or_else(|| Cabin::of_speed(velocity, air.speed_coefficient, air.density));
+    let (pressure, velocity) =
+        (Dimension::Pressure.pretty_to(cabin.pressure, 3), Dimension::Velocity.pretty_to(velocity, 3));
+    let pair = match air.cabin_pressure {
+        Some(_) => format!("{pressure} in the cabin above that under the belt: {velocity} at the slot"),
+        None => format!("{velocity} at the slot: about {pressure} in the cabin above that under the belt"),
+    };
+    Some(format!("  {pair}, with a coefficient of speed of {}", significant(cabin.coefficient, 4)))
 }
 
 /// Where the filaments are fed in a field.

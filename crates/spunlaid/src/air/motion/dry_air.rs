@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 /// Pressure of one atmosphere [Pa].
-const PRESSURE: f64 = 101_325.0;
+pub(super) const PRESSURE: f64 = 101_325.0;
 /// Gas constant of dry air [J/(kg K)].
 const GAS_CONSTANT: f64 = 287.05;
 /// Temperature at which the viscosity is known [K].

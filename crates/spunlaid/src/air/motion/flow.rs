@@ -92,6 +92,16 @@ impl Air {
         self.flow == Flow::Uniform
     }
 
+    /// The velocity at the root, which is that at the slot of a line [m/s]; None of a field, and in a vacuum.
+    pub fn velocity_at_slot(&self) -> Option<f64> {
+        let velocity = match &self.flow {
+            Flow::Uniform => self.velocity,
+            Flow::Profile(profile) => self.speed_factor * profile.velocity_at_root(),
+            Flow::Field(_) => return None,
+        };
+        Some(velocity).filter(|velocity| *velocity > 0.0 && self.density > 0.0)
+    }
+
     /// The air at a place [m]. The origin is the root, and x points along gravity.
     ///
     /// * `hint` – remembers the last place near by; it saves time and does not change the result

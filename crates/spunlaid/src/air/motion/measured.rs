@@ -146,6 +146,11 @@ impl Profile {
         self.x.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
     }
 
+    /// The velocity at the root [m/s].
+    pub(crate) fn velocity_at_root(&self) -> f64 {
+        self.at(&self.velocity, 0.0).unwrap_or(f64::NAN)
+    }
+
     /// The value of a column at `x` [m].
     pub(super) fn at(&self, column: &[f64], x: f64) -> Option<f64> {
         let (first, last) = self.range();

@@ -9,6 +9,7 @@
 
 mod at_places;
 mod atmosphere;
+mod cabin;
 mod dry_air;
 mod eddies;
 mod eddy_field;
@@ -27,6 +28,7 @@ mod wind;
 pub use at_places::{AirAtPlaces, PlaceAxes};
 pub use atmosphere::{Atmosphere, EddyWind};
 pub(crate) use atmosphere::{Instant, LastEddy, Velocities, VelocityAt, VelocityTask};
+pub use cabin::Cabin;
 pub(crate) use dry_air::{
     HEAT_CAPACITY_OF_AIR, SUTHERLAND_RANGE, density_at, kinematic_viscosity_at, temperature_of,
 };
@@ -71,6 +73,10 @@ pub struct Air {
     pub from_flow: FlowNumbers,
     /// Factor on all velocities of a flow that is not uniform [-].
     pub speed_factor: f64,
+    /// Pressure of the cabin above that under the belt, if it gives the velocity [Pa].
+    pub cabin_pressure: Option<f64>,
+    /// See [`Cabin::coefficient`].
+    pub speed_coefficient: f64,
     /// Factor on the turbulence intensity that a flow gives [-].
     pub intensity_factor: f64,
     /// Factor on the length of the eddies that a flow gives [-].
@@ -114,6 +120,8 @@ impl Air {
             flow: Flow::Uniform,
             from_flow: FlowNumbers::default(),
             speed_factor: 1.0,
+            cabin_pressure: None,
+            speed_coefficient: Cabin::COEFFICIENT,
             intensity_factor: 1.0,
             length_factor: 1.0,
             spectrum: SpectrumShape::Flat,
@@ -124,6 +132,11 @@ impl Air {
         };
         air.harmonics = air.default_harmonics(1.0);
         air
+    }
+
+    /// The cabin that blows the air through the slot, if the case says it so.
+    pub fn cabin(&self) -> Option<Cabin> {
+        self.cabin_pressure.map(|pressure| Cabin { pressure, coefficient: self.speed_coefficient })
     }
 
     /// The files that the air was read from, each with the parts that it names, relative to its folder.

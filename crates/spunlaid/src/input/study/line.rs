@@ -105,7 +105,7 @@ impl WebToChange<'_> {
             (setting::DRAWING_AIR, &["spinline.velocity_factor", "spinline.velocity"]),
             (setting::DIE_TEMPERATURE, &["spinline.die_temperature"]),
             (setting::DISTANCE, &["belt.distance"]),
-            (setting::AIR_SPEED, &["air.speed_factor", "air.velocity"]),
+            (setting::AIR_SPEED, &["air.cabin_pressure", "air.speed_factor", "air.velocity"]),
             (setting::TURBULENCE, turbulence),
         ];
         let alone = |key: &&str| vec![((*key).to_owned(), 1.0)];

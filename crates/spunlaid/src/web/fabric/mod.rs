@@ -103,11 +103,6 @@ const WORDS: &[(&[&str], &str)] = &[
         and holes, is not known here.",
     ),
     (
-        &["cabin", "cabin pressure", "blower", "fan"],
-        "Pressures of cabin and blower are not read: write the speed of the air that they make, which the line \
-        shows or a probe measures (air.velocity; `spunlaid new --web` asks for it as --air-speed).",
-    ),
-    (
         &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
         "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
         program knows nothing.",

@@ -52,11 +52,15 @@ impl<T> KeyTable<T> {
             let Some(next) = others.into_iter().find(|other| !gives(other)) else { break };
             replaced.push(next);
         }
+        let is_one_named = |key: &&Key<T>| {
+            key.relations.gives_one && key.relations.alternative_to.iter().any(|other| names.contains(other))
+        };
+        replaced.extend(self.rows.iter().filter(is_one_named).map(|key| key.name));
         for key in self.rows {
             let of_case = key.relations.gives_case;
             if names.contains(&key.name) {
                 replaced.extend(of_case);
-            } else if of_case.iter().any(|name| names.contains(name)) {
+            } else if of_case.iter().any(|name| names.contains(name) || replaced.contains(name)) {
                 replaced.push(key.name);
             }
         }
@@ -279,6 +283,7 @@ pub(crate) fn described<T>(key: &Key<T>) -> Key<()> {
     let of = &key.relations;
     let relations = Relations {
         alternative_to: of.alternative_to,
+        gives_one: of.gives_one,
         remedy: of.remedy,
         read_after: of.read_after,
         gives: of.gives,

@@ -18,6 +18,8 @@ pub struct Relations<T: 'static = Case> {
     /// Keys whose values it gives in other words, all of them at once. What is set from outside, or varies,
     /// replaces what stands in the file in other words.
     pub alternative_to: &'static [&'static str],
+    /// Whether it gives one of these values, whichever the input has, and not all of them.
+    pub(crate) gives_one: bool,
     /// Why it cannot stand beside them, and the way out.
     pub(crate) remedy: &'static str,
     /// When it is needed, with an example value.
@@ -59,6 +61,7 @@ impl<T> Relations<T> {
     /// Those of a key that has nothing to do with others.
     pub(super) const NONE: Self = Self {
         alternative_to: &[],
+        gives_one: false,
         remedy: "",
         needed_if: None,
         default_if: None,
@@ -81,6 +84,16 @@ impl<T> Key<T> {
     /// * `remedy` – why both cannot be written, and the way out
     pub(crate) const fn alternative_to(self, keys: &'static [&'static str], remedy: &'static str) -> Self {
         Self { relations: Relations { alternative_to: keys, remedy, ..self.relations }, ..self }
+    }
+
+    /// The same of keys of which an input has one at most, which it gives.
+    pub(crate) const fn alternative_to_one_of(
+        self,
+        keys: &'static [&'static str],
+        remedy: &'static str,
+    ) -> Self {
+        let other = self.alternative_to(keys, remedy);
+        Self { relations: Relations { gives_one: true, ..other.relations }, ..other }
     }
 
     pub(crate) const fn needed_if(self, when: &'static Condition<T>, example: &'static str) -> Self {
@@ -225,6 +238,9 @@ mod tests {
         // The density alone says nothing of the viscosity, which the temperature gives too.
         assert_eq!(of_case(&["air.density"]), [""; 0]);
         assert_eq!(of_case(&["air.kinematic_viscosity", "air.density"]), ["air.temperature"]);
-        assert_eq!(of_case(&["air.velocity"]), [""; 0]);
+        // A pressure gives the one or the other, whichever the case has.
+        assert_eq!(of_case(&["air.velocity"]), ["air.cabin_pressure"]);
+        assert_eq!(of_case(&["air.speed_factor"]), ["air.cabin_pressure"]);
+        assert_eq!(of_case(&["air.cabin_pressure"]), ["air.velocity", "air.speed_factor"]);
     }
 }

@@ -6,7 +6,7 @@ use super::super::access::{
 use super::{EITHER, MOST_FILAMENTS, positive};
 use crate::fibre::case::keys::row::{at, key, number, of_any_size, quantity, whole};
 use crate::fibre::case::keys::{EVEN, Kind, Sign, Value};
-use crate::ground::Dimension;
+use crate::ground::{Dimension, Fault};
 use crate::web::map::Filaments;
 
 /// In the order of the file.
@@ -95,6 +95,17 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),
+    positive("line.cabin_pressure", Dimension::Pressure, (100.0, 3e4))
+        .access(Access {
+            get: |web| layer(web)?.source.case()?.air.cabin_pressure.map(Value::Number),
+            set: |_, _| Err(Fault::needs("a filament that flies", "leave it out")),
+        })
+        .derived(is_flown)
+        .same_in_case("air.cabin_pressure")
+        .gives_case(&["air.cabin_pressure"])
+        .follows("the air says how fast it is")
+        .meaning("The same as `air.cabin_pressure` of a filament that flies, in whose place it may stand.")
+        .label("Cabin pressure"),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| match layer(web)?.filaments {

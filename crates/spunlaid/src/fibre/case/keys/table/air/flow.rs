@@ -1,6 +1,7 @@
 //! The mean flow of the air: a number, a profile or a CFD field.
 
-use crate::air::{Axis, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
+use crate::air::{Air, Axis, Cabin, Flow, LENGTH_CONSTANT, PlacedField, TIME_CONSTANT, Widening};
+use crate::fibre::Case;
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{
     Access, choose, file, key, named, number, placed, placed_mut, quantity, read_with_case, take, text,
@@ -11,15 +12,18 @@ use crate::ground::{Dimension, Fault};
 
 named_fields!(Axis);
 
+/// Largest Mach number of the air at the slot.
+const FASTEST: f64 = 0.9;
+
 pub(in super::super) const KEYS: &[Key] = &[
     // Up to the speed of sound.
     quantity("air.velocity", Dimension::Velocity, Any, (1e-3, 340.0))
         .access(Access {
-            get: |case| Some(Value::Number(case.air.velocity)),
+            get: |case| case.air.cabin_pressure.is_none().then_some(Value::Number(case.air.velocity)),
             set: |case, value| {
                 let flow = match case.air.flow {
                     Flow::Uniform => {
-                        case.air.velocity = number(value)?;
+                        (case.air.velocity, case.air.cabin_pressure) = (number(value)?, None);
                         return Ok(());
                     }
                     Flow::Profile(_) => "air.profile",
@@ -31,6 +35,7 @@ pub(in super::super) const KEYS: &[Key] = &[
                 ))
             },
         })
+        .in_other_words(|case| Some(Value::Number(case.air.velocity)))
         .derived(|case| !case.air.is_uniform())
         .inferred(|case| {
             let of_record = case.air.records.first().and_then(|record| record.says.velocity);
@@ -176,21 +181,63 @@ pub(in super::super) const KEYS: &[Key] = &[
         .slider(0.1, 1.0),
     quantity("air.speed_factor", Dimension::Ratio, Positive, (0.01, 100.0))
         .access(Access {
-            get: |case| (!case.air.is_uniform()).then_some(Value::Number(case.air.speed_factor)),
+            get: |case| speed_factor(case).filter(|_| case.air.cabin_pressure.is_none()),
             set: |case, value| {
                 if case.air.is_uniform() {
                     let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
                     return Err(Fault::needs(needed, remedy));
                 }
-                case.air.speed_factor = number(value)?;
+                (case.air.speed_factor, case.air.cabin_pressure) = (number(value)?, None);
                 Ok(())
             },
         })
+        .in_other_words(speed_factor)
         .value("1")
         .meaning("Factor on all velocities of a profile or a field.")
         .label("Factor on the velocity of the air")
         .slider(0.2, 3.0)
         .in_flight(),
+    quantity("air.cabin_pressure", Dimension::Pressure, Positive, (100.0, 3e4))
+        .access(Access {
+            get: |case| case.air.cabin_pressure.map(Value::Number),
+            set: |case, value| {
+                case.air.cabin_pressure = Some(number(value)?);
+                blow(case)
+            },
+        })
+        .alternative_to_one_of(
+            &["air.velocity", "air.speed_factor"],
+            "the pressure of the cabin gives the velocity at the slot; keep one of them",
+        )
+        .read_after(&["air.density", "air.temperature", "air.profile", "air.speed_factor"])
+        .follows("`velocity` says how fast the air is")
+        .meaning(
+            "Pressure of the cabin above that under the belt, which blows the air through the slot. It gives \
+             `velocity`, or the factor on a profile, whose velocity at the root is that at the slot: \
+             isentropic flow, times `speed_coefficient`.",
+        )
+        .synonyms(&["cabin", "blower", "fan", "plenum", "chamber", "process air"])
+        .label("Cabin pressure"),
+    quantity("air.speed_coefficient", Dimension::Ratio, Positive, (0.5, 1.0))
+        .access(Access {
+            get: |case| {
+                let Air { cabin_pressure, speed_coefficient, .. } = case.air;
+                let is_told = cabin_pressure.is_some() || speed_coefficient != Cabin::COEFFICIENT;
+                is_told.then_some(Value::Number(speed_coefficient))
+            },
+            set: |case, value| {
+                case.air.speed_coefficient = number(value)?;
+                blow(case)
+            },
+        })
+        .value("0.9")
+        .read_after(&["air.cabin_pressure"])
+        .meaning(
+            "Speed of the air at the slot over that of air without friction: between `cabin_pressure` and the \
+             velocity. It is an assumption; one measured pair gives it: `spunlaid new --web --cabin-pressure … \
+             --air-speed …`.",
+        )
+        .label("Coefficient of speed of the slot"),
     choose("air.widening", || Widening::ALL.map(Widening::name).to_vec())
         .access(Access {
             get: |case| {
@@ -220,3 +267,30 @@ pub(in super::super) const KEYS: &[Key] = &[
         )
         .label("Widening of the mean flow"),
 ];
+
+fn speed_factor(case: &Case) -> Option<Value> {
+    (!case.air.is_uniform()).then_some(Value::Number(case.air.speed_factor))
+}
+
+/// Sets the velocity of the air that a cabin blows through the slot, if one does.
+fn blow(case: &mut Case) -> Result<(), Fault> {
+    let Some(cabin) = case.air.cabin() else { return Ok(()) };
+    if cabin.mach() > FASTEST {
+        let what = format!("makes air of Mach {:.2}, and the flow is known up to {FASTEST}", cabin.mach());
+        let remedy = "write a lower pressure, above that under the belt, or the velocity itself";
+        return Err(Fault::new(what, remedy));
+    }
+    let speed = cabin.speed(case.air.density);
+    if !speed.is_finite() {
+        return Err(Fault::new("has no effect in a vacuum", "give the air its density"));
+    }
+    match &case.air.flow {
+        Flow::Uniform => case.air.velocity = speed,
+        Flow::Profile(profile) => case.air.speed_factor = speed / profile.velocity_at_root(),
+        Flow::Field(_) => {
+            let remedy = "scale the field with air.speed_factor: the slot may be outside of it";
+            return Err(Fault::new("has no effect because air.field gives the velocity", remedy));
+        }
+    }
+    Ok(())
+}
