@@ -6,6 +6,7 @@ use super::waves::{Parts, Places, Powers};
 use crate::ground::Estimate;
 use crate::ground::fft::lagged_products;
 use crate::ground::threads::each;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -22,8 +23,9 @@ pub struct Clouds {
     cell: f64,
     /// Variance of each tile by wave number, any direction; entry r holds waves from `side/(r + 1)` to `side/r` cells.
     tiles: Vec<Vec<f64>>,
-    /// Of each tile that has any, the part of the variance of short waves whose crests lie along the machine direction.
-    along: Vec<f64>,
+    /// Of each tile that has any, its row and column among the tiles, and the part of the variance of short waves whose
+    /// crests lie along the machine direction.
+    along: Vec<([usize; 2], f64)>,
     /// Mean variance by wave number in cross and in machine direction, one-sided.
     directions: [Vec<f64>; 2],
     /// The waves of the whole sheet, and the shortest of them that counts [m].
@@ -155,21 +157,23 @@ impl Clouds {
         };
         // As many at a time as there are threads, because a tile takes megabytes.
         for some in tiles.chunks(threads.max(1)) {
-            each(threads, some.len(), |i| tile(some[i])).into_iter().for_each(|tile| clouds.add(tile));
+            for (number, tile) in some.iter().zip(each(threads, some.len(), |i| tile(some[i]))) {
+                clouds.add([number / across, number % across], tile);
+            }
         }
         let count = clouds.tiles.len() as f64;
         clouds.directions.iter_mut().flatten().for_each(|part| *part /= count);
         Some(clouds)
     }
 
-    fn add(&mut self, tile: Tile) {
+    fn add(&mut self, place: [usize; 2], tile: Tile) {
         for (j, i) in tile.powers.numbers().chain([(0, 0)]) {
             let variance = tile.powers.at(j, i);
             self.directions[0][j.unsigned_abs() as usize] += variance;
             self.directions[1][i.unsigned_abs() as usize] += variance;
         }
         self.tiles.push(tile.radial);
-        self.along.extend(tile.along);
+        self.along.extend(tile.along.map(|along| (place, along)));
     }
 
     /// Longest wave that is told of: a quarter of the sheet's shorter side [m].
@@ -265,8 +269,22 @@ impl Clouds {
 
     /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to
     /// sixteen cells, ½ without orientation. It is NaN where no part of the sheet has such waves.
+    ///
+    /// Streaks are longer than a tile, so that the tiles of a column, or of a row, may be alike: the error is the largest
+    /// of those that tiles, columns and rows of tiles have among themselves.
     pub fn texture_md(&self) -> Estimate {
-        Estimate::new(self.along.clone())
+        let tiles = Estimate::new(self.along.iter().map(|(_, along)| *along).collect());
+        let error_of_lines = |direction: usize| {
+            let mut lines: BTreeMap<usize, (f64, f64)> = BTreeMap::new();
+            for (place, along) in &self.along {
+                let (sum, count) = lines.entry(place[direction]).or_default();
+                (*sum, *count) = (*sum + along, *count + 1.0);
+            }
+            Estimate::new(lines.into_values().map(|(sum, count)| sum / count).collect()).standard_error
+        };
+        let errors = [tiles.standard_error, error_of_lines(0), error_of_lines(1)];
+        let standard_error = errors.into_iter().flatten().reduce(f64::max);
+        Estimate { standard_error, ..tiles }
     }
 }
 
@@ -392,6 +410,7 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::random::{stream, uniform};
 
     /// Another map whose deviations are two tenths larger has 44 % more variance in each octave, which is in the
     /// error of every band.
@@ -413,5 +432,31 @@ mod tests {
         let expected = before.standard_error.unwrap().hypot(0.44 * before.mean);
         // Masses are whole quanta.
         assert!((after.standard_error.unwrap() / expected - 1.0).abs() < 1e-5, "{before:?} {after:?}");
+    }
+
+    /// Streaks run through all tiles of a column, some with more of them than others: the error is that of four columns,
+    /// and not that of forty tiles.
+    #[test]
+    fn stat_the_error_of_the_texture_holds_with_streaks() {
+        const COLUMNS: usize = 64;
+        const ROWS: usize = 640;
+        let texture = |seed: u64| {
+            let mut random = stream([seed, 0, 0, 0]);
+            let streaks: Vec<f64> = (0..COLUMNS).map(|_| uniform(&mut random)).collect();
+            let strength: Vec<f64> = (0..4).map(|_| 3.0 * uniform(&mut random)).collect();
+            let mut cell = |i: usize| {
+                let column = i % COLUMNS;
+                (1e6 * (10.0 + strength[column / 16] * streaks[column] + uniform(&mut random))) as u32
+            };
+            let cells = (0..COLUMNS * ROWS).map(&mut cell).collect();
+            let map =
+                Map { columns: COLUMNS, rows: ROWS, cell: 1e-3, quantum: 1e-12, closed: [true; 2], cells };
+            Clouds::measure(&map).unwrap().texture_md()
+        };
+        let all: Vec<Estimate> = (0..60).map(texture).collect();
+        let reported = all.iter().map(|one| one.standard_error.unwrap().powi(2)).sum::<f64>() / 60.0;
+        let scatter = Estimate::new(all.iter().map(|one| one.mean).collect()).standard_error.unwrap();
+        let ratio = scatter * 60_f64.sqrt() / reported.sqrt();
+        assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
 }
