@@ -35,6 +35,8 @@ pub struct SingleFibres {
     /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
     /// column `trace`.
     pub profile: Vec<f64>,
+    /// What each fibre says of this mean.
+    profiles: Vec<Vec<f64>>,
     /// Column of the trace.
     pub trace: usize,
 }
@@ -143,24 +145,57 @@ impl SingleFibres {
     /// * `side` – of a patch [columns]
     pub(super) fn across(&self, places: &[f64], (columns, closed): (usize, bool), side: usize) -> Vec<f64> {
         let mut sums = vec![0.0; columns];
+        self.for_each_share(places, (columns, closed), |i, column, share| {
+            sums[column] += share * self.profile[i];
+        });
+        if !closed {
+            sums.truncate(columns + 1 - side.min(columns));
+        }
+        let even = self.even(places, columns);
+        sums.iter().map(|sum| sum / even).collect()
+    }
+
+    /// By how much each fibre moves a sum over the places of a patch of what `across` gives.
+    ///
+    /// * `by` – what each column counts for
+    pub(super) fn moves(&self, places: &[f64], (columns, closed): (usize, bool), by: &[f64]) -> Vec<f64> {
+        let mut counts = vec![0.0; self.profile.len()];
+        self.for_each_share(places, (columns, closed), |i, column, share| {
+            counts[i] += share * by.get(column).copied().unwrap_or(0.0);
+        });
+        let even = self.even(places, columns);
+        let of_fibre = |own: &Vec<f64>| {
+            let off = own.iter().zip(&self.profile).map(|(own, mean)| own - mean);
+            off.zip(&counts).map(|(off, count)| off * count).sum::<f64>() / even
+        };
+        self.profiles.iter().map(of_fibre).collect()
+    }
+
+    /// The mean length in a patch if the filaments were spread evenly [m].
+    fn even(&self, places: &[f64], columns: usize) -> f64 {
+        places.len() as f64 * self.profile.iter().sum::<f64>() / columns as f64
+    }
+
+    /// Which column of the profile of each filament gives which share of itself to which column of the sheet.
+    fn for_each_share(
+        &self,
+        places: &[f64],
+        (columns, closed): (usize, bool),
+        mut act: impl FnMut(usize, usize, f64),
+    ) {
         for place in places {
             // The first patch that the profile knows, and the part of a column that it is further on.
             let first = place - 0.5 - self.trace as f64;
             let (start, further) = (first.floor() as i64, first - first.floor());
-            for (i, length) in self.profile.iter().enumerate() {
+            for i in 0..self.profile.len() {
                 for (column, share) in [(start + i as i64, 1.0 - further), (start + i as i64 + 1, further)] {
                     let column = if closed { column.rem_euclid(columns as i64) } else { column };
-                    if let Some(sum) = usize::try_from(column).ok().and_then(|column| sums.get_mut(column)) {
-                        *sum += share * length;
+                    if let Some(column) = usize::try_from(column).ok().filter(|column| *column < columns) {
+                        act(i, column, share);
                     }
                 }
             }
         }
-        if !closed {
-            sums.truncate(columns + 1 - side.min(columns));
-        }
-        let even = places.len() as f64 * self.profile.iter().sum::<f64>() / columns as f64;
-        sums.iter().map(|sum| sum / even).collect()
     }
 }
 
@@ -200,6 +235,7 @@ impl FibreSums {
             at_places,
             at_random: Estimate::new(self.fibres.iter().map(|fibre| fibre.squares / area).collect()),
             profile,
+            profiles: self.fibres.into_iter().map(|fibre| fibre.profile).collect(),
             trace,
         }
     }
