@@ -14,7 +14,7 @@ use super::waves::Places;
 use super::{Layer, Web};
 use crate::fibre::STRONG;
 use crate::ground::threads::try_each;
-use crate::ground::{Control, Dimension, Error, Fault};
+use crate::ground::{Control, Dimension, Error, Estimate, Fault};
 use crate::web::surrogate::Surrogate;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
@@ -59,6 +59,15 @@ impl Findings {
     /// How uneven it is over patches of the size that the eye judges first.
     pub fn seen(&self) -> Option<&PatchFindings> {
         nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch)).map(|i| &self.patches[i])
+    }
+
+    /// See [`Clouds::texture_md`]. It has no error where that of no CV is known: the sheet then has too few clouds, or too
+    /// few filaments were flown.
+    pub fn texture_md(&self) -> Option<Estimate> {
+        let texture = self.clouds.as_ref()?.texture_md();
+        let is_known = |patch: &PatchFindings| patch.told().is_some_and(|told| told.standard_error.is_some());
+        let is_known = self.patches.iter().any(is_known);
+        Some(Estimate { standard_error: texture.standard_error.filter(|_| is_known), ..texture })
     }
 
     /// The basis weight of this piece of web without its edges, and how far that of other pieces of the same web

@@ -108,7 +108,8 @@ pub fn summary_of_web(
     // The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer.
     let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
     let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
-    let map = of_map(&findings.laid.map, weight, findings.clouds.as_ref(), patches.collect());
+    let clouds = (findings.clouds.as_ref(), findings.texture_md());
+    let map = of_map(&findings.laid.map, weight, clouds, patches.collect());
     let charged = charged(findings, name);
     let parts = json!({
         "layers": (!layers.is_empty()).then_some(layers),
@@ -135,8 +136,8 @@ pub fn summary_of_scan(
         let interval = patch.interval.map_err(|doubt| doubt.to_string());
         numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
     });
-    let mut web =
-        of_map(&findings.map, findings.map.basis_weight(), findings.clouds.as_ref(), patches.collect());
+    let clouds = (findings.clouds.as_ref(), findings.clouds.as_ref().map(Clouds::texture_md));
+    let mut web = of_map(&findings.map, findings.map.basis_weight(), clouds, patches.collect());
     if let Some(guess) = findings.guess {
         // Chance is not all that the error of a variance is made of.
         let octaves = web["clouds"].as_array_mut().into_iter().flatten();
@@ -164,7 +165,12 @@ pub fn summary_of_scan(
 /// What any map says.
 ///
 /// * `weight` – basis weight, which is that between the edges where a web has some [kg/m²]
-fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, patches: Json) -> Json {
+fn of_map(
+    map: &Map,
+    weight: f64,
+    (clouds, texture): (Option<&Clouds>, Option<Estimate>),
+    patches: Json,
+) -> Json {
     let cloudiness = clouds.map(|clouds| {
         let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
         // For all such webs; null if the map is too small to say, or if too few filaments were flown.
@@ -185,7 +191,7 @@ fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, patches: Json) -> Jso
         "cell_m": map.cell,
         "patches": patches,
         // Share of the texture along the machine direction, ½ without orientation.
-        "texture_md": clouds.map(|clouds| mean(&clouds.texture_md())),
+        "texture_md": texture.as_ref().map(mean),
         "cloudiness": cloudiness,
         "clouds": clouds.into_iter().flat_map(Clouds::octaves).map(octave).collect::<Json>(),
     })
