@@ -344,8 +344,8 @@ fn rejects_a_line_that_is_not_whole_or_cannot_run() {
     assert_eq!(
         refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
         "error: the numbers of the line are incomplete: --throughput, --basis-weight (or --belt-speed) and \
-        --air-speed are missing; give them, or call the command in a terminal, where it asks; `spunlaid new --help` \
-        has examples\n"
+        --air-speed (or --cabin-pressure) are missing; give them, or call the command in a terminal, where it \
+        asks; `spunlaid new --help` has examples\n"
     );
     let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
     let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);

@@ -55,7 +55,7 @@ fn sequential(wrong: &'static Wrong, mut next: impl FnMut(u64) -> Option<Vec<Dev
             && of_worst > Evidence::REPORTED
         {
             return Outcome::Broken(format!(
-                "{} {} is off by too many of its errors, or too few (evidence {of_worst:.0e} after {} observations):\n{}",
+                "{} {} is off by too many or too few of its errors (evidence {of_worst:.0e}, {} observations):\n{}",
                 name.0,
                 name.1,
                 evidence.observations,
@@ -74,8 +74,8 @@ pub fn seeds(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     other_seeds(&TOO_SMALL, program, drawn, results)
 }
 
-/// Numbers of other seeds are not much closer together than their errors say. That is so only where no error is one that
-/// all seeds have, like that of a mesh.
+/// Numbers of other seeds are not much closer together than their errors say. That is so only where no error is one
+/// that all seeds have, like that of a mesh.
 pub fn errors_not_too_large(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     other_seeds(&TOO_LARGE, program, drawn, results)
 }

@@ -113,7 +113,8 @@ fn air(spec: &WebSpec) -> Vec<String> {
     lines
 }
 
-/// The pressure of the cabin and the velocity at the slot, whichever is given; None where it may lie outside of a field.
+/// The pressure of the cabin and the velocity at the slot, whichever is given; None where the slot may lie outside of a
+/// field.
 fn cabin(air: &Air) -> Option<String> {
     let velocity = air.velocity_at_slot()?;
     let cabin = air.cabin().unwrap_or_else(|| Cabin::of_speed(velocity, air.speed_coefficient, air.density));

@@ -69,7 +69,7 @@ pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &
     Known::Value(share, found.standard_error.map(|chance| by_clouds(chance).hypot(share * covered * error)))
 }
 
-/// By which share the bare area grows with c²/2, the half of the squared variation of the clouds.  theory.md (112), (113)
+/// By which share the bare area grows with half of the squared variation c² of the clouds.   theory.md (112), (113)
 fn growth_with_clouds(covered: f64, square: f64) -> f64 {
     let x = covered * square;
     // Close to an even web the difference of two large numbers is that of its series.

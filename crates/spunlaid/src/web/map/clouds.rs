@@ -270,8 +270,8 @@ impl Clouds {
     /// Share of the texture that lies along the machine direction: `⟨cos²⟩` of the crests of waves of four to
     /// sixteen cells, ½ without orientation. It is NaN where no part of the sheet has such waves.
     ///
-    /// Streaks are longer than a tile, so that the tiles of a column, or of a row, may be alike: the error is the largest
-    /// of those that tiles, columns and rows of tiles have among themselves.
+    /// Streaks are longer than a tile, so that the tiles of a column, or of a row, may be alike: the error is the
+    /// largest of those that tiles, columns and rows of tiles have among themselves.
     pub fn texture_md(&self) -> Estimate {
         let tiles = Estimate::new(self.along.iter().map(|(_, along)| *along).collect());
         let error_of_lines = |direction: usize| {
@@ -434,8 +434,8 @@ mod tests {
         assert!((after.standard_error.unwrap() / expected - 1.0).abs() < 1e-5, "{before:?} {after:?}");
     }
 
-    /// Streaks run through all tiles of a column, some with more of them than others: the error is that of four columns,
-    /// and not that of forty tiles.
+    /// Streaks run through all tiles of a column, some with more of them than others: the error is that of four
+    /// columns, and not that of all tiles.
     #[test]
     fn stat_the_error_of_the_texture_holds_with_streaks() {
         const COLUMNS: usize = 64;

@@ -61,8 +61,8 @@ impl Findings {
         nearest_to_seen(self.patches.iter().map(|patch| patch.map.patch)).map(|i| &self.patches[i])
     }
 
-    /// See [`Clouds::texture_md`]. It has no error where that of no CV is known: the sheet then has too few clouds, or too
-    /// few filaments were flown.
+    /// See [`Clouds::texture_md`]. It has no error where that of no CV is known: the sheet then has too few clouds, or
+    /// too few filaments were flown.
     pub fn texture_md(&self) -> Option<Estimate> {
         let texture = self.clouds.as_ref()?.texture_md();
         let is_known = |patch: &PatchFindings| patch.told().is_some_and(|told| told.standard_error.is_some());
