@@ -58,7 +58,7 @@ fn another(py: Python<'_>, what: &str) -> PyErr {
 /// The same on any machine that has the files, which have full paths.
 fn make_portable(experiment: &Experiment) -> Experiment {
     match experiment {
-        Experiment::Case(case) => Experiment::Case(case.with_files_at(full_path)),
+        Experiment::Case(case) => case.with_files_at(full_path).into(),
         Experiment::Spinline(spec) => Experiment::Spinline(Box::new(spec.with_files_at(full_path))),
         Experiment::Web(web) => {
             let mut web = web.with_files_at(full_path);
@@ -68,7 +68,7 @@ fn make_portable(experiment: &Experiment) -> Experiment {
                     *path = PathBuf::from(WEB);
                 }
             }
-            Experiment::Web(web)
+            web.into()
         }
     }
 }
@@ -79,12 +79,12 @@ const WEB: &str = "web.toml";
 /// What was sent, read again. Tensions of flights were found before it was sent, and are numbers.
 fn read(noun: &str, text: &str) -> Result<Experiment, Error> {
     Ok(match noun {
-        "web" => Experiment::Web(read_web((text, WEB), &[])?.spec),
+        "web" => read_web((text, WEB), &[])?.spec.into(),
         "spinline" => {
             let read = read_spinline((text, "spinline.toml"), &[])?;
             Experiment::Spinline(Box::new(read.spec))
         }
-        _ => Experiment::Case(read_case((text, "case.toml"), &[])?.0),
+        _ => read_case((text, "case.toml"), &[])?.0.into(),
     })
 }
 

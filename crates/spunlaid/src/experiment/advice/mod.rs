@@ -205,7 +205,7 @@ fn checksum(spec: &WebSpec, webs: &[&WebSpec], of_each: Compared) -> u32 {
     numbers.iter().for_each(|number| sum.update(&number.to_bits().to_le_bytes()));
     for web in std::iter::once(&spec).chain(webs) {
         sum.update(&web.seed.to_le_bytes());
-        sum.update(&Experiment::Web((*web).clone()).checksum().to_le_bytes());
+        sum.update(&Experiment::from((*web).clone()).checksum().to_le_bytes());
     }
     sum.finalize()
 }

@@ -93,7 +93,7 @@ impl std::fmt::Debug for Question<'_> {
 /// * `start` – the web before anything is sought
 pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs: u64) -> u32 {
     let mut sum = crc32fast::Hasher::new();
-    sum.update(&Experiment::Web(start.clone()).checksum().to_le_bytes());
+    sum.update(&Experiment::from(start.clone()).checksum().to_le_bytes());
     sum.update(&target.checksum().to_le_bytes());
     sum.update(&webs.to_le_bytes());
     for Parameter { key, start, range, .. } in parameters {

@@ -273,7 +273,7 @@ mod tests {
         let of_source = |flies| {
             let case = LaydownSource::Case { path: "a.toml".into(), case: Arc::new(table1()) };
             let layer = LayerSpec::unknown(if flies { case } else { LaydownSource::UNKNOWN });
-            let experiment = Experiment::Web(WebSpec { layers: vec![layer], ..WebSpec::unknown() });
+            let experiment = Experiment::from(WebSpec { layers: vec![layer], ..WebSpec::unknown() });
             Point { values: Vec::new(), experiment }
         };
         let points = [false, true, true].map(of_source);

@@ -9,16 +9,22 @@ use crate::simulation::{WEB_KEYS, WebSpec};
 pub enum Experiment {
     /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
     /// that may be flown.
-    Case(Case),
+    Case(Box<Case>),
     /// Each replicate is such a web, with a seed of its own.
-    Web(WebSpec),
+    Web(Box<WebSpec>),
     /// A spinline. Nothing of it is by chance, so one replicate is enough.
     Spinline(Box<SpinSpec>),
 }
 
 impl From<Case> for Experiment {
     fn from(case: Case) -> Self {
-        Self::Case(case)
+        Self::Case(Box::new(case))
+    }
+}
+
+impl From<WebSpec> for Experiment {
+    fn from(web: WebSpec) -> Self {
+        Self::Web(Box::new(web))
     }
 }
 

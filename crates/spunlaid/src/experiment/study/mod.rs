@@ -111,7 +111,7 @@ impl Study {
         cases.iter_mut().for_each(|case| case.run.replicates = replicates.at_most);
         let seed = cases.first().map_or(0, |case| case.run.seed);
         let common_phases = cases.iter().all(|case| case.run.seed == seed);
-        let point = |case| Point { values: Vec::new(), experiment: Experiment::Case(case) };
+        let point = |case| Point { values: Vec::new(), experiment: Experiment::from(case) };
         Self {
             factors: Vec::new(),
             links: Vec::new(),

@@ -112,7 +112,7 @@ impl Base for CaseBase {
         let (opened, unneeded) = self.open(key_values, values, resources);
         let (case, mut notes) = resources.resolve(opened?)?;
         notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
-        Ok((Experiment::Case(case), notes))
+        Ok((case.into(), notes))
     }
 
     fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>) {

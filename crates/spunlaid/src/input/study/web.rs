@@ -141,7 +141,7 @@ impl Base for WebBase {
     }
 
     fn quantities(&self) -> Vec<Quantity> {
-        let experiment = Experiment::Web(self.spec().clone());
+        let experiment = Experiment::from(self.spec().clone());
         Study::quantities_of(&[Point { values: Vec::new(), experiment }])
     }
 
@@ -154,7 +154,7 @@ impl Base for WebBase {
         resources: &Resources,
     ) -> ExperimentWithNotes {
         let WebFile { spec, notes, .. } = self.with(values, seed, resources)?;
-        Ok((Experiment::Web(spec), notes))
+        Ok((spec.into(), notes))
     }
 
     fn written(&self, _: Vec<(String, String)>) -> (String, Vec<(String, String)>) {
