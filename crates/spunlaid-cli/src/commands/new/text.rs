@@ -63,7 +63,7 @@ pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str) -> String {
 fn blown(line: &NewLine<'_>, cabin: Cabin) -> String {
     let coefficient = match line.given.air_speed {
         Some(_) => "of this pressure and the measured speed",
-        None => "a guess: replace it by that of a measured speed (docs/line.md)",
+        None => "assumed: a measured speed gives it (--air-speed beside --cabin-pressure)",
     };
     format!(
         "cabin_pressure = \"{}\"   # above that under the belt: {} at the slot, Mach {}\n\

@@ -72,7 +72,7 @@ pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &
 /// By which share the bare area grows with half of the squared variation c² of the clouds.   theory.md (112), (113)
 fn growth_with_clouds(covered: f64, square: f64) -> f64 {
     let x = covered * square;
-    // Close to an even web the difference of two large numbers is that of its series.
+    // Close to a uniform web the difference of two large numbers is that of its series.
     if x < 1e-3 {
         return covered * covered * (1.0 - 4.0 / 3.0 * x);
     }
@@ -92,7 +92,7 @@ pub fn formation(found: &Unevenness, straight_fibres: f64) -> Known {
 mod tests {
     use super::*;
 
-    /// By differences of (112), from an even web to one of which the thin places are all that is bare.
+    /// By differences of (112), from a uniform web to one in which only thin spots are bare.
     #[test]
     fn analytic_the_bare_area_grows_with_the_clouds() {
         let logarithm = |covered: f64, square: f64| -libm::log1p(covered * square) / square;

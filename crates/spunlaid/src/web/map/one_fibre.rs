@@ -151,8 +151,8 @@ impl SingleFibres {
         if !closed {
             sums.truncate(columns + 1 - side.min(columns));
         }
-        let even = self.even(places, columns);
-        sums.iter().map(|sum| sum / even).collect()
+        let uniform = self.uniform_length(places, columns);
+        sums.iter().map(|sum| sum / uniform).collect()
     }
 
     /// By how much each fibre moves a sum over the places of a patch of what `across` gives.
@@ -163,16 +163,16 @@ impl SingleFibres {
         self.for_each_share(places, (columns, closed), |i, column, share| {
             counts[i] += share * by.get(column).copied().unwrap_or(0.0);
         });
-        let even = self.even(places, columns);
+        let uniform = self.uniform_length(places, columns);
         let of_fibre = |own: &Vec<f64>| {
             let off = own.iter().zip(&self.profile).map(|(own, mean)| own - mean);
-            off.zip(&counts).map(|(off, count)| off * count).sum::<f64>() / even
+            off.zip(&counts).map(|(off, count)| off * count).sum::<f64>() / uniform
         };
         self.profiles.iter().map(of_fibre).collect()
     }
 
-    /// The mean length in a patch if the filaments were spread evenly [m].
-    fn even(&self, places: &[f64], columns: usize) -> f64 {
+    /// The mean length in a patch if the filaments were spread uniformly [m].
+    fn uniform_length(&self, places: &[f64], columns: usize) -> f64 {
         places.len() as f64 * self.profile.iter().sum::<f64>() / columns as f64
     }
 
