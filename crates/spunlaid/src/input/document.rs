@@ -302,9 +302,20 @@ impl<'a, T> Document<'a, T> {
         });
         match (self.key_values.get(full).or(of_case), key.omission) {
             (Some(written_value), _) => written_value.value.as_ref()?.number(),
+            // Its default does not count where another key gives the value.
+            (None, Omission::Value(_)) if self.is_said_in_other_words(key) => None,
             (None, Omission::Value(text)) => key.kind.accept(text.into()).ok()?.number(),
             (None, _) => None,
         }
+    }
+
+    /// Whether a key is written, in any layer, in whose place this one would stand.
+    fn is_said_in_other_words(&self, key: &Key<T>) -> bool {
+        let others = self.keys.replaced_by(&[key.name]);
+        self.key_values.all().any(|(full, _)| {
+            let name = without_numbers(full);
+            others.contains(&name.strip_prefix("layer.").unwrap_or(&name))
+        })
     }
 
     /// Reads the value of a key in place of the one there was.

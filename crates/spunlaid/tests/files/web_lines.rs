@@ -322,6 +322,12 @@ fn analytic_the_pressure_of_the_cabin_is_a_velocity_of_the_air() {
     let of_line = of_line.replace("[air]\ncabin_pressure = \"3500 Pa\"\n", "");
     let faster = read_web((&of_line, "../../cases/faster.toml"), &set("air.speed_factor", "1.5")).unwrap();
     assert_eq!(faster.spec.layers[0].source.case().unwrap().air.speed_factor, 1.5);
+    // A share of a factor that is not written would be one of the table, not of the air that the pressure makes.
+    for text in [&written, &of_line] {
+        let set = set("air.speed_factor", "+20 %");
+        let said = read_web((text, "../../cases/faster.toml"), &set).unwrap_err().to_string();
+        assert!(said.contains("is a change of a value that is not given"), "{said}");
+    }
     let set = set("line.cabin_pressure", "3500 Pa");
     let said = read_web((LINE, "../../cases/line.toml"), &set).unwrap_err().to_string();
     assert!(said.contains("has no effect without a filament that flies; leave it out"), "{said}");
