@@ -222,8 +222,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .access(Access {
             get: |case| {
                 let Air { cabin_pressure, speed_coefficient, .. } = case.air;
-                let is_told = cabin_pressure.is_some() || speed_coefficient != Cabin::COEFFICIENT;
-                is_told.then_some(Value::Number(speed_coefficient))
+                let is_written = cabin_pressure.is_some() || speed_coefficient != Cabin::COEFFICIENT;
+                is_written.then_some(Value::Number(speed_coefficient))
             },
             set: |case, value| {
                 case.air.speed_coefficient = number(value)?;
@@ -286,7 +286,13 @@ fn blow(case: &mut Case) -> Result<(), Fault> {
     }
     match &case.air.flow {
         Flow::Uniform => case.air.velocity = speed,
-        Flow::Profile(profile) => case.air.speed_factor = speed / profile.velocity_at_root(),
+        Flow::Profile(profile) if profile.velocity_at_root() > 0.0 => {
+            case.air.speed_factor = speed / profile.velocity_at_root();
+        }
+        Flow::Profile(_) => {
+            let remedy = "begin the table at the slot, with the velocity there";
+            return Err(Fault::new("has no velocity of air.profile at the root to scale", remedy));
+        }
         Flow::Field(_) => {
             let remedy = "scale the field with air.speed_factor: the slot may be outside of it";
             return Err(Fault::new("has no effect because air.field gives the velocity", remedy));
