@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
             let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key.name).collect();
             let Some(varied) = self.varied(base, &named, &keys) else { continue };
             let before = base.value(&varied);
-            if let Some(levels) = self.levels((&varied, before), named, design) {
+            if let Some(levels) = self.levels(&varied, before, named, design) {
                 factors.push(Factor { key: varied, levels });
             }
         }
@@ -137,7 +137,8 @@ impl<'a> Reader<'a> {
     /// * `before` – the value before it varies; NaN for none
     pub(super) fn levels(
         &mut self,
-        (varied, before): (&VariedKey, f64),
+        varied: &VariedKey,
+        before: f64,
         named: Named<'a, Study>,
         design: Design,
     ) -> Option<Levels> {
@@ -151,7 +152,7 @@ impl<'a> Reader<'a> {
             DeValue::Array(list) => {
                 let level = |value: toml::Spanned<DeValue<'a>>| {
                     let entry = self.entry(value.span().start, value, None);
-                    self.level((varied, before), &varied.name, &entry)
+                    self.level(varied, before, &varied.name, &entry)
                 };
                 // All of them are looked at.
                 let levels: Vec<Option<f64>> = list.into_iter().map(level).collect();
@@ -162,7 +163,7 @@ impl<'a> Reader<'a> {
                 let remedy = format!("list them, as in [{}]", words.join(", "));
                 Fault::new("takes words, which have no range", remedy)
             }
-            DeValue::Table(table) => return self.range((varied, before), &entry, table, design),
+            DeValue::Table(table) => return self.range(varied, before, &entry, table, design),
             other => Fault::wrong_type(kind(&other), row.kind.wanted()),
         };
         self.reject(&varied.name, &entry, fault);
@@ -170,7 +171,7 @@ impl<'a> Reader<'a> {
     }
 
     /// A value of a key that varies as a number, which may be given by its change.
-    fn level(&mut self, (varied, before): (&VariedKey, f64), name: &str, entry: &Entry<'_>) -> Option<f64> {
+    fn level(&mut self, varied: &VariedKey, before: f64, name: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
         let word = entry.value.as_str().and_then(|word| words.iter().position(|one| *one == word));
         let read = match (word, entry.value.as_str()) {
@@ -201,7 +202,8 @@ impl<'a> Reader<'a> {
 
     fn range(
         &mut self,
-        (varied, before): (&VariedKey, f64),
+        varied: &VariedKey,
+        before: f64,
         whole: &Entry<'a>,
         table: DeTable<'a>,
         design: Design,
@@ -211,7 +213,7 @@ impl<'a> Reader<'a> {
         self.reject_unreadable();
         let mut ends = [None; 2];
         for Named { row, name, entry } in self.named(RANGE) {
-            ends[usize::from(row.short() == "to")] = self.level((varied, before), &name, &entry);
+            ends[usize::from(row.short() == "to")] = self.level(varied, before, &name, &entry);
         }
         if self.problems() > problems {
             return None;

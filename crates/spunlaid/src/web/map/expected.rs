@@ -174,13 +174,13 @@ pub(super) fn expected(
                 Some(places.iter().map(|place| place / sheet.cell).collect::<Vec<f64>>())
             }
         };
-        let wide = (sheet.cells()[0], closed);
+        let wide = sheet.cells()[0];
         let across_layer = |(number, (layer, found)): (usize, (&Layer, &Vec<SingleFibres>))| {
             let weight = layer.basis_weight(sheet);
             let across = match places_of(number) {
                 None => vec![weight; count],
                 Some(places) => {
-                    let across = found[i].across(&places, wide, sides[i]);
+                    let across = found[i].across(&places, wide, closed, sides[i]);
                     across[columns.start..][..count].iter().map(|place| weight * place).collect()
                 }
             };
@@ -204,7 +204,7 @@ pub(super) fn expected(
             let by_chance = found[i].estimate(&layer.filaments);
             square += scale * by_chance.mean;
             // How wide a fibre lies is not known for sure either: it decides what places and edges do.
-            let moves = places_of(number).map(|places| found[i].moves(&places, wide, &by));
+            let moves = places_of(number).map(|places| found[i].moves(&places, wide, closed, &by));
             let moves = moves.unwrap_or_else(|| vec![0.0; by_chance.values.len()]);
             let weight_of_all = layer.basis_weight(sheet) / whole;
             let of_fibre = |(value, move_): (&f64, f64)| scale * value + weight_of_all * move_;

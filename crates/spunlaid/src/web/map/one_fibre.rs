@@ -143,9 +143,9 @@ impl SingleFibres {
     /// * `places` – of the filaments [columns]
     /// * `columns` – of the sheet, and whether it is closed
     /// * `side` – of a patch [columns]
-    pub(super) fn across(&self, places: &[f64], (columns, closed): (usize, bool), side: usize) -> Vec<f64> {
+    pub(super) fn across(&self, places: &[f64], columns: usize, closed: bool, side: usize) -> Vec<f64> {
         let mut sums = vec![0.0; columns];
-        self.for_each_share(places, (columns, closed), |i, column, share| {
+        self.for_each_share(places, columns, closed, |i, column, share| {
             sums[column] += share * self.profile[i];
         });
         if !closed {
@@ -158,9 +158,9 @@ impl SingleFibres {
     /// By how much each fibre moves a sum over the places of a patch of what `across` gives.
     ///
     /// * `by` – what each column counts for
-    pub(super) fn moves(&self, places: &[f64], (columns, closed): (usize, bool), by: &[f64]) -> Vec<f64> {
+    pub(super) fn moves(&self, places: &[f64], columns: usize, closed: bool, by: &[f64]) -> Vec<f64> {
         let mut counts = vec![0.0; self.profile.len()];
-        self.for_each_share(places, (columns, closed), |i, column, share| {
+        self.for_each_share(places, columns, closed, |i, column, share| {
             counts[i] += share * by.get(column).copied().unwrap_or(0.0);
         });
         let uniform = self.uniform_length(places, columns);
@@ -180,7 +180,8 @@ impl SingleFibres {
     fn for_each_share(
         &self,
         places: &[f64],
-        (columns, closed): (usize, bool),
+        columns: usize,
+        closed: bool,
         mut act: impl FnMut(usize, usize, f64),
     ) {
         for place in places {

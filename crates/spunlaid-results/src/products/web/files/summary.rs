@@ -108,8 +108,8 @@ pub fn summary_of_web(
     // The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer.
     let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
     let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
-    let clouds = (findings.clouds.as_ref(), findings.texture_md());
-    let map = of_map(&findings.laid.map, weight, clouds, patches.collect());
+    let clouds = findings.clouds.as_ref();
+    let map = of_map(&findings.laid.map, weight, clouds, findings.texture_md(), patches.collect());
     let charged = charged(findings, name);
     let parts = json!({
         "layers": (!layers.is_empty()).then_some(layers),
@@ -136,8 +136,9 @@ pub fn summary_of_scan(
         let interval = patch.interval.map_err(|doubt| doubt.to_string());
         numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
     });
-    let clouds = (findings.clouds.as_ref(), findings.clouds.as_ref().map(Clouds::texture_md));
-    let mut web = of_map(&findings.map, findings.map.basis_weight(), clouds, patches.collect());
+    let (weight, clouds) = (findings.map.basis_weight(), findings.clouds.as_ref());
+    let texture = clouds.map(Clouds::texture_md);
+    let mut web = of_map(&findings.map, weight, clouds, texture, patches.collect());
     if let Some(guess) = findings.guess {
         // Chance is not all that the error of a variance is made of.
         let octaves = web["clouds"].as_array_mut().into_iter().flatten();
@@ -165,12 +166,8 @@ pub fn summary_of_scan(
 /// What any map says.
 ///
 /// * `weight` – basis weight, which is that between the edges where a web has some [kg/m²]
-fn of_map(
-    map: &Map,
-    weight: f64,
-    (clouds, texture): (Option<&Clouds>, Option<Estimate>),
-    patches: Json,
-) -> Json {
+/// * `texture` – share of it along the machine direction
+fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, texture: Option<Estimate>, patches: Json) -> Json {
     let cloudiness = clouds.map(|clouds| {
         let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
         // For all such webs; null if the map is too small to say, or if too few filaments were flown.
