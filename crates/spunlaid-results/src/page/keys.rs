@@ -248,7 +248,7 @@ const WEB_HEAD: &str = "# The keys of a web
 This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, marked and searched as
 those of a case ([keys.md](keys.md)): `spunlaid keys --web gsm`. `--set layer.2.line.filaments_per_metre=4000` sets
 one of a layer, by its number or name; without `layer` and a number it is set in all layers that have it.
-`line.rows.1.pitch` is that of a row of nozzles.
+`line.rows.1.pitch` is that of a row of holes.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study
