@@ -240,8 +240,7 @@ fn invariant_headline_table_notes_and_json_have_one_error() {
     // Largest values too: of a peak tension, waves along the fibre decide, which follow step and elements.
     let peak = &summary["fibre"]["peak_root_tension_n"];
     let of_peak = |name: &str| peak[name].as_f64();
-    assert!(of_peak("error").is_none_or(|error| error > 1.5 * of_peak("standard_error").unwrap()), "{peak}");
-    assert_eq!(of_peak("error").is_none(), peak.get("not_converged").is_some(), "{peak}");
+    assert!(of_peak("error").is_none() && peak["not_converged"].is_object(), "{peak}");
     // The count of crossings is far from that of finer elements, by an unknown order: it has no error.
     let frequency = &summary["end_node"]["frequency_y_hz"];
     let off = &summary["mesh_check"]["frequency_difference"]["mean"];

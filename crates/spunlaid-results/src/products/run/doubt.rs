@@ -35,6 +35,19 @@ pub(super) fn not_converged(measure: &str, checks: &FinerChecks) -> Option<(f64,
     (!has_converged(check, change)).then(|| finest(check, change))
 }
 
+/// Why a measure has no error though its run was checked; none if it has one.
+pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String> {
+    let silent = checks.all().find(|check| check.is_silent_about(measure));
+    let silent = silent.map(|check| {
+        format!(
+            "error not known: waves along the fibre decide this number, and the check of the {} does not follow them",
+            check.refined.name()
+        )
+    });
+    let open = not_converged(measure, checks);
+    open.map(|off| format!("not converged: {}", compared_with_finest(&off))).or(silent)
+}
+
 /// Length of the finest elements [m], and what they change.
 fn finest(check: &FinerCheck, change: &Change) -> (f64, Estimate) {
     change.from_quarter.clone().unwrap_or((check.element_length, change.estimate.clone()))
@@ -209,7 +222,7 @@ pub fn with_error_of_checks(estimate: Estimate, measure: &str, checks: &FinerChe
         errors.iter().flatten().map(off).fold(0.0, f64::max)
     };
     let of_checks: f64 = checks.all().map(square).sum();
-    let is_known = not_converged(measure, checks).is_none();
+    let is_known = why_unknown(measure, checks).is_none();
     let chance = estimate.standard_error.filter(|_| is_known);
     Estimate { standard_error: chance.map(|chance| chance.hypot(of_checks.sqrt())), ..estimate }
 }
@@ -249,6 +262,7 @@ mod tests {
             element_length: 2e-3,
             is_fed: true,
             is_resolved: true,
+            has_scheme_of_run: true,
             duration,
             replicates: 8,
             share_of_run: 0.1,
@@ -283,6 +297,28 @@ mod tests {
         assert!((error(&within) - off.hypot(0.026)).abs() < 1e-9);
         assert_eq!((error(&checks(-0.02, 0.03, run)), notes(&within, &case).len()), (0.026, 1));
         assert_eq!(sentences(&within, &case), " The mesh is not checked.");
+    }
+
+    /// Waves along a fibre are others in another scheme: a check that flies with one says nothing of what they decide.
+    #[test]
+    fn what_waves_decide_has_no_error_from_a_check_with_another_scheme() {
+        let strain = || Estimate { mean: 8e-4, standard_error: Some(1e-5), values: Vec::new() };
+        let is_known = |has_scheme_of_run: bool, measure: &str| {
+            let mut checks = checks(0.02, 0.01, 1.0);
+            checks.step = checks.step.map(|check| FinerCheck {
+                has_scheme_of_run,
+                of_measures: vec![Change {
+                    statistic: Box::leak(Box::new(Statistic { name: "strain_99", label: "", measures: &[] })),
+                    ..check.changes[0].clone()
+                }],
+                ..check
+            });
+            let error = with_error_of_checks(strain(), measure, &checks).standard_error;
+            assert_eq!(error.is_none(), why_unknown(measure, &checks).is_some());
+            error.is_some()
+        };
+        assert!(is_known(true, "strain_99") && !is_known(false, "strain_99"));
+        assert!(!is_known(true, "peak_root_tension") && is_known(false, "sigma_md"));
     }
 
     /// A change of unknown order that is surely beyond a tenth is no error, but a number that has not converged.

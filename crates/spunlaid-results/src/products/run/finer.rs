@@ -168,6 +168,7 @@ mod tests {
             element_length: 12.5e-3,
             is_fed,
             is_resolved: false,
+            has_scheme_of_run: true,
             duration: 1.0,
             replicates: 8,
             share_of_run: 0.1,

@@ -100,7 +100,10 @@ fn summary_of(number: &Number, checks: &FinerChecks) -> Json {
         Some((length, change)) => {
             json!({"not_converged": {"element_length_m": length, "difference": change.mean}})
         }
-        None => json!({}),
+        None => match doubt::why_unknown(name, checks) {
+            Some(why) => json!({"why_no_error": why}),
+            None => json!({}),
+        },
     };
     match number.measure.aggregate {
         Aggregate::Median => joined([json!({"median": number.value()}), estimate]),

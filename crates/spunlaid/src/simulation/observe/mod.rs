@@ -20,7 +20,7 @@ mod sample;
 mod strain;
 
 use crate::fibre::{Case, Flight, LaidPoint, Snapshot};
-use crate::ground::{Group, Measure, MeasureKind, Value, WIDTH};
+use crate::ground::{Aggregate, Group, Measure, MeasureKind, Value, WIDTH};
 pub(crate) use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use laydown::{LAYDOWN, SURROGATE};
 pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
@@ -131,6 +131,14 @@ pub static MEASURES: LazyLock<Vec<&FibreMeasure>> = LazyLock::new(|| {
     let all = DECLARED.iter().flat_map(|declared| declared.measures);
     all.filter(|measure| measure.kind == MeasureKind::Number).collect()
 });
+
+/// The measure of this name, if the axial waves of a fibre decide it. A time mean of a fibre of fixed length is taken
+/// over whole waves, and they hardly change it.
+pub(crate) fn follows_axial_waves(measure: &str, is_fed: bool) -> bool {
+    let declared = [&strain::ROOT_TENSION, &strain::USUAL, &strain::LARGEST];
+    let mut measures = declared.into_iter().flat_map(|declared| declared.measures);
+    measures.any(|of| of.name == measure && (is_fed || of.aggregate == Aggregate::Largest))
+}
 
 /// Whether measures have a meaning for the fibre in a lane.
 fn applies(declared: &Declaration, flight: &Flight, lane: usize) -> bool {

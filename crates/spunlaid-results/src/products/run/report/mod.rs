@@ -44,9 +44,8 @@ pub fn run_report<'a>(
     let finer = finer::words(checks, case, results);
     let whole = |one: &Number| {
         let name = one.measure.name;
-        let open = doubt::not_converged(name, checks);
-        let open = open.map(|off| format!("not converged: {}", doubt::compared_with_finest(&off)));
-        (doubt::with_error_of_checks(one.estimate.clone(), name, checks), open)
+        let why_unknown = doubt::why_unknown(name, checks);
+        (doubt::with_error_of_checks(one.estimate.clone(), name, checks), why_unknown)
     };
     let methods = methods("run", of_case(case), "case.toml of the results");
     let load = load_of_spinline(case, &results.way());

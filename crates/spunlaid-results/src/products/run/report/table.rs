@@ -9,7 +9,7 @@ use spunlaid::simulation::{Number, Results};
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;
 
-/// The mean of a result with its whole error, and that it has not converged, if so.
+/// The mean of a result with its whole error, and why it has none.
 pub(super) type Whole<'a> = dyn Fn(&Number) -> (Estimate, Option<String>) + 'a;
 
 /// The results that stand under one heading.
@@ -41,7 +41,7 @@ pub(super) fn result_table(results: &Results, whole: &Whole<'_>) -> Table {
 
 fn row(one: &Number, whole: &Whole<'_>) -> Row {
     let measure = one.measure;
-    let (estimate, not_converged) = whole(one);
+    let (estimate, why_unknown) = whole(one);
     let factor = measure.unit.per_si;
     // A median or a largest value has no error.
     let (value, note) = match measure.aggregate {
@@ -53,7 +53,7 @@ fn row(one: &Number, whole: &Whole<'_>) -> Row {
     let cells = [value, measure.unit.shown.to_owned(), n.to_string(), unbroken(measure.meaning)];
     let note = if n > 1 { note } else { String::new() };
     let notes: Vec<String> =
-        [Some(note), not_converged].into_iter().flatten().filter(|note| !note.is_empty()).collect();
+        [Some(note), why_unknown].into_iter().flatten().filter(|note| !note.is_empty()).collect();
     Row::new(unbroken(measure.label), cells).detail(notes.join("; "))
 }
 

@@ -24,6 +24,7 @@ impl FinerPlan {
             duration: self.fine.run.duration(),
             is_fed: self.fine.line.is_some(),
             is_resolved: self.is_resolved(),
+            has_scheme_of_run: self.has_scheme_of_run,
             replicates: flights.first().map_or(0, |flight| flight.trajectories.len()),
             share_of_run: self.share_of_run,
             path: None,

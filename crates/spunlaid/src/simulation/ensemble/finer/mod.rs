@@ -18,7 +18,7 @@ use super::Trajectory;
 use crate::fibre::Run;
 use crate::fibre::chain::Scheme;
 use crate::ground::Estimate;
-use crate::simulation::observe::{ENERGY, MEASURES};
+use crate::simulation::observe::{ENERGY, MEASURES, follows_axial_waves};
 pub(super) use flights::Paths;
 pub use flights::RunPaths;
 pub use plan::{FinerPlan, FinerPlans};
@@ -134,6 +134,8 @@ pub struct FinerCheck {
     pub is_fed: bool,
     /// Whether the finer flights resolve axial waves that the run does not.
     pub is_resolved: bool,
+    /// Whether the flights that are compared with the finer ones have the scheme of the run.
+    pub has_scheme_of_run: bool,
     /// Number of replicates that are compared.
     pub replicates: usize,
     /// Computing time of the check as a share of that of the run, counted in steps of elements of the same cost [-].
@@ -194,6 +196,13 @@ impl FinerCheck {
     pub fn change_of(&self, measure: &str) -> Option<&Change> {
         let own = self.of_measures.iter().find(|change| change.statistic.name == measure);
         own.or_else(|| self.change_of_statistic(measure))
+    }
+
+    /// Whether it cannot say what step or mesh do to a measure: the axial waves of the fibre decide the measure, and they
+    /// are others in another scheme.
+    pub fn is_silent_about(&self, measure: &str) -> bool {
+        let compares = self.has_scheme_of_run && self.change_of(measure).is_some();
+        !compares && follows_axial_waves(measure, self.is_fed)
     }
 
     /// What differs, by its name, `path_difference` or `amplitude_difference`, and the factor from it to the error, as

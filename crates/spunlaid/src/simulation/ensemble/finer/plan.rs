@@ -41,6 +41,8 @@ pub struct FinerPlan {
     pub(super) fine: Case,
     /// The case with elements of a quarter of the length, if it is flown too.
     pub(super) finest: Option<Case>,
+    /// Whether what is compared with the finer flights has the scheme of the run.
+    pub(super) has_scheme_of_run: bool,
     /// Whether the elements of the run are short enough beside an eddy for their error to have an order.
     pub(super) resolves_eddies: bool,
     /// One recorded instant of the run in this many is compared.
@@ -171,6 +173,7 @@ fn step_of_a_path(case: &Case, budget: Budget) -> Result<FinerPlan, Unchecked> {
         coarse: None,
         fine,
         finest: None,
+        has_scheme_of_run: true,
         resolves_eddies: false,
         stride,
         horizon,
@@ -295,11 +298,13 @@ fn statistics(
         if case.air.records.is_empty() { WIDTH as u64 } else { case.run.replicates.min(WIDTH as u64) };
     let resolves_eddies = case.fibre.rest_length() <= OF_AN_EDDY * case.air.length_scale * (1.0 + 1e-9);
     let horizon = case.air_horizon();
+    let has_scheme_of_run = coarse.as_ref().is_some_and(|coarse| coarse.run.scheme == case.run.scheme);
     Ok(FinerPlan {
         refined,
         coarse,
         fine,
         finest,
+        has_scheme_of_run,
         resolves_eddies,
         stride: 1,
         horizon,
