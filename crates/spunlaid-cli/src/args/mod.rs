@@ -11,7 +11,7 @@ mod source;
 pub(crate) use analyse::{Analyse, RecordOptions, Scan};
 pub(crate) use fit::Fit;
 pub(crate) use invocation::Invocation;
-pub(crate) use new::{LineNumbers, Need, New, QUESTIONS, value};
+pub(crate) use new::{LineNumbers, MeltNumbers, Need, New, QUESTIONS, value};
 pub(crate) use output::{Figures, Output, Threads};
 pub(crate) use source::{CaseSource, is_standard, overrides};
 

@@ -89,6 +89,45 @@ pub(crate) struct LineNumbers {
     #[arg(long, value_name = "N", requires = "web", value_parser = count(MOST_BEAMS))]
     #[arg(default_value_t = 1, hide_default_value = true)]
     pub(crate) beams: u64,
+    #[command(flatten)]
+    pub(crate) melt: MeltNumbers,
+}
+
+/// The numbers of a line above the slot. With one of them, the line begins at the die.
+#[derive(Clone, Debug, Args)]
+#[command(
+    next_help_heading = "Numbers from the die to the slot: with one of them, titre and speed follow from the melt"
+)]
+pub(crate) struct MeltNumbers {
+    /// Temperature of the melt in the hole in °C [default: the usual one of the polymer]
+    #[arg(long, value_name = "TEMPERATURE", requires = "web", value_parser = in_unit(Dimension::Temperature, "°C"))]
+    pub(crate) die_temperature: Option<Given<f64>>,
+    /// Melt flow rate of the polymer in g/10 min with 2.16 kg [default: 35 for pp]
+    #[arg(long, value_name = "RATE", requires = "web", conflicts_with = "viscosity")]
+    #[arg(value_parser = in_unit(Dimension::MeltFlowRate, "g/10 min"))]
+    pub(crate) melt_flow_rate: Option<Given<f64>>,
+    /// Viscosity of the melt in Pa s at the usual temperature of the polymer, in place of the melt flow rate
+    #[arg(long, value_name = "VISCOSITY", requires = "web", value_parser = in_unit(Dimension::DynamicViscosity, "Pa s"))]
+    pub(crate) viscosity: Option<Given<f64>>,
+    /// Diameter of a hole of the spinneret in mm [default: "0.6 mm"]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]
+    pub(crate) hole_diameter: Option<Given<f64>>,
+    /// Velocity of the quench air across the filaments in m/s [default: "1 m/s"]
+    #[arg(long, value_name = "SPEED", requires = "web", value_parser = in_unit(Dimension::Velocity, "m/s"))]
+    pub(crate) quench: Option<Given<f64>>,
+    /// Distance from the die to the end of the slot in m [default: "2.2 m"]
+    #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "m"))]
+    pub(crate) spinline_length: Option<Given<f64>>,
+}
+
+impl MeltNumbers {
+    /// The numbers that were given.
+    pub(crate) fn given(&self) -> impl Iterator<Item = &Given<f64>> {
+        let Self { die_temperature, melt_flow_rate, viscosity, hole_diameter, quench, spinline_length } =
+            self;
+        let all = [die_temperature, melt_flow_rate, viscosity, hole_diameter, quench, spinline_length];
+        all.into_iter().flatten()
+    }
 }
 
 /// Whether a line can be written without a number.
@@ -148,7 +187,8 @@ impl LineNumbers {
         let Self { cabin_pressure, width, distance, slot_depth, turbulence, thickness, .. } = self;
         let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed].into_iter().flatten();
         let of_air = [cabin_pressure, slot_depth, turbulence, thickness].into_iter().flatten();
-        let numbers = of_line.chain([width, distance]).chain(of_air).map(|given| &given.remark);
+        let numbers = of_line.chain([width, distance]).chain(of_air).chain(self.melt.given());
+        let numbers = numbers.map(|given| &given.remark);
         polymer.iter().map(|given| &given.remark).chain(numbers).flatten().map(String::as_str)
     }
 }
@@ -181,9 +221,8 @@ fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     // `PA 6` is two words.
     let among = || (1..=2).rev().flat_map(|count| words.windows(count)).find_map(named);
     let value = among().ok_or_else(|| format!("write one of {all} before the melt flow rate"))?;
-    let remark = "the melt flow rate is not used, because these filaments begin at the slot with their \
-        titre; it is spinline.melt_flow_rate of a line that begins at the die: a table [spinline] in the \
-        file of the filament";
+    let remark = "the melt flow rate beside the polymer is not used: write it as --melt-flow-rate, and the line \
+        begins at the die";
     Ok(Given { value, remark: Some(remark.to_owned()) })
 }
 

@@ -55,8 +55,12 @@ pub(super) fn open_spinline(mut key_values: WrittenValues, files: &DataFiles) ->
         let remedy = "describe the line in a table [spinline]; `cases/spinline.toml` is an example";
         key_values.reject("[spinline]", Fault::new("is missing", remedy));
     }
-    let has_field = takes_field(&key_values);
-    let wanted = |key: &Key| TABLES.contains(&key.table()) || has_field && is_of_field(key.name);
+    let (has_field, has_air) = (takes_field(&key_values), follows_air(&key_values));
+    let wanted = |key: &Key| {
+        TABLES.contains(&key.table())
+            || has_field && is_of_field(key.name)
+            || has_air && OF_AIR_AT_SLOT.contains(&key.name)
+    };
     let mut open = open_part(key_values, files, wanted)?;
     open.complete_spinline()?;
     Ok(open)
@@ -66,6 +70,22 @@ pub(super) fn open_spinline(mut key_values: WrittenValues, files: &DataFiles) ->
 fn takes_field(key_values: &WrittenValues) -> bool {
     key_values.text("spinline.field").is_some_and(|word| word == "true")
 }
+
+/// Whether the velocity of the air along the line ends with that at the slot.
+fn follows_air(key_values: &WrittenValues) -> bool {
+    key_values.text("spinline.follows_air").is_some_and(|word| word == "true")
+}
+
+/// What gives the velocity of the air at the slot.
+const OF_AIR_AT_SLOT: [&str; 7] = [
+    "air.velocity",
+    "air.profile",
+    "air.speed_factor",
+    "air.cabin_pressure",
+    "air.speed_coefficient",
+    "air.density",
+    "air.temperature",
+];
 
 /// Whether a key says where a CFD field is, or how fast it flows.
 fn is_of_field(key: &str) -> bool {
@@ -108,6 +128,15 @@ impl SpinFile {
         case.spinline.is_some().then(|| Self { spec: spec_of(case), notes, key_values })
     }
 
+    /// The factor on the drag with which the filament has a titre [kg/m].
+    ///
+    /// # Errors
+    /// As [`SpinSpec::drag_factor_of_titre`], at the key to blame.
+    pub fn drag_factor_of_titre(&self, titre: f64) -> Result<f64, Error> {
+        let found = self.spec.drag_factor_of_titre(titre);
+        found.map_err(|failure| rejected(&self.key_values, &Case::from(&self.spec), failure))
+    }
+
     /// The steady state of each row of the curtain, the quenched side first; one if there is no curtain.
     ///
     /// # Errors
@@ -122,7 +151,9 @@ impl SpinFile {
 
 /// The spinline of a case, with the air of a CFD field if it takes that.
 fn spec_of(case: &Case) -> SpinSpec {
-    let spinline = case.spinline.as_deref().cloned().unwrap_or(Spinline::UNKNOWN);
+    let mut spinline = case.spinline.as_deref().cloned().unwrap_or(Spinline::UNKNOWN);
+    // Without the air of the case, the factor stands alone.
+    spinline.air_change.follows_air = false;
     let takes_field = matches!(spinline.air, Surroundings::Field { .. });
     SpinSpec { spinline, drag: case.drag, air: takes_field.then(|| Box::new(case.air.clone())) }
 }
@@ -188,6 +219,17 @@ impl OpenCase {
             let line = "filaments_per_metre_and_row = 250";
             key_values.reject("spinline.filaments_per_metre_and_row", Fault::missing("spinline", line));
         }
+        if spinline.air_change.follows_air {
+            match factor_of_air_at_slot(case, spinline) {
+                Ok(factor) => {
+                    if let Some(line) = &mut case.spinline {
+                        line.air_change.velocity_factor = factor;
+                    }
+                }
+                Err(fault) => key_values.reject("spinline.follows_air", fault),
+            }
+        }
+        let Some(spinline) = &case.spinline else { return Ok(()) };
         if let Surroundings::Field { temperature, .. } = spinline.air {
             match field_along(case, spinline.length, temperature) {
                 Ok(table) => {
@@ -211,6 +253,26 @@ impl OpenCase {
             Err(sorted(std::mem::take(&mut key_values.problems)).into())
         }
     }
+}
+
+/// The factor on the velocity of a profile with which it ends with that of the air at the slot.
+fn factor_of_air_at_slot(case: &Case, spinline: &Spinline) -> Result<f64, Fault> {
+    let at_slot = case.air.velocity_at_slot().filter(|_| !matches!(case.air.flow, Flow::Field(_)));
+    let velocity = at_slot.ok_or_else(|| {
+        Fault::needs(
+            "the velocity of the air at the slot",
+            "leave it out, or write air.profile or air.velocity",
+        )
+    })?;
+    let Surroundings::Table(table) = &spinline.air else {
+        return Err(Fault::needs("spinline.profile", "leave it out, or write a table of the air"));
+    };
+    let at_end = table.velocity_at(spinline.length);
+    if at_end > 0.0 {
+        return Ok(velocity / at_end);
+    }
+    let remedy = "write the velocity of the slot in its last rows";
+    Err(Fault::new("has no velocity of spinline.profile at the end of the spinline to scale", remedy))
 }
 
 /// The air of the case's CFD field along the line, which ends at the root of the fibre.

@@ -3,6 +3,7 @@
 mod ask;
 mod beam;
 mod line;
+mod melt;
 mod text;
 
 use crate::args::{Invocation, LineNumbers, New, is_standard};
@@ -11,11 +12,12 @@ use crate::file::write_new;
 use crate::{perform_words, say};
 use ask::ask;
 use line::NewLine;
+use melt::NewMelt;
 use spunlaid::ground::{Error, Fault};
 use spunlaid::input::{WebFile, read_web, starter_case, starter_case_of_fed, starter_study};
 use std::fs::remove_file;
 use std::io::stdin;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub(crate) fn new(new: &New, invocation: &Invocation) -> Result<(), Failure> {
     let (path, shown) = (&new.file, new.file.display());
@@ -48,15 +50,35 @@ pub(crate) fn new(new: &New, invocation: &Invocation) -> Result<(), Failure> {
 fn web(path: &Path, numbers: &LineNumbers) -> Result<String, Failure> {
     numbers.remarks().for_each(|remark| say::remark(false, &remark));
     let (line, name) = (NewLine::new(numbers)?, super::stem(path, "line"));
+    let mut tables: Vec<(PathBuf, String)> = Vec::new();
     let air = format!("{name}_air.csv");
-    let (table, text, shown) = (path.with_file_name(&air), text::file(&line, &name, &air), path.display());
-    write_new(&table, &text::air(&line))?;
+    tables.push((path.with_file_name(&air), text::air(&line)));
+    let melt = NewMelt::of(&line);
+    let quench = format!("{name}_spinline.csv");
+    tables.extend(melt.as_ref().map(|melt| (path.with_file_name(&quench), melt.air(&line))));
+    let names = if melt.is_some() { format!("{air}, {quench}") } else { air.clone() };
+    let mut written = Vec::new();
     // What is written can be laid and is a line as there may be, or nothing is written.
-    let read = read_web((&text, &shown.to_string()), &[]).and_then(WebFile::within_reason);
-    read.and_then(|_| write_new(path, &text)).inspect_err(|_| drop(remove_file(&table)))?;
+    let mut write = || -> Result<(), Failure> {
+        for (table, content) in &tables {
+            write_new(table, content)?;
+            written.push(table);
+        }
+        let text = match &melt {
+            Some(melt) => {
+                melt.calibrated(&line, path, |spinline| text::file(&line, &name, &air, Some(spinline)))?
+            }
+            None => text::file(&line, &name, &air, None),
+        };
+        let source = (text.as_str(), &*path.display().to_string());
+        read_web(source, &[]).and_then(WebFile::within_reason)?;
+        Ok(write_new(path, &text)?)
+    };
+    write().inspect_err(|_| written.iter().for_each(|table| drop(remove_file(table))))?;
     line.warning().iter().for_each(|warning| say::warning(warning));
+    let shown = path.display();
     let then = format!("spunlaid check {shown}, spunlaid web {shown}");
-    Ok(format!("wrote {shown} and {air}; change them, then: {then}"))
+    Ok(format!("wrote {shown} and {names}; change them, then: {then}"))
 }
 
 /// Writes a study beside the file that it varies.

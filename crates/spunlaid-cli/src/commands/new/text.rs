@@ -18,26 +18,15 @@ const SLOWED: f64 = 1.0 / 6.0;
 ///
 /// * `name` – what the line is called
 /// * `air` – the file of its air
-pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str) -> String {
-    let NewLine { given, polymer, titre, .. } = line;
+/// * `spinline` – the tables of a line that begins at the die
+pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str, spinline: Option<&str>) -> String {
+    let given = line.given;
     // What is made up and counts for much. The numbers of the air are factors on what its table has.
     let guesses = [
         (given.slot_depth.is_none(), "line.depth, "),
         (given.turbulence.is_none(), "air.intensity_factor, "),
         (true, "air.length_factor"),
     ];
-    let material = polymer.material(false);
-    let diameter = Dimension::Length.pretty((4.0 * titre / (PI * material.solid_density)).sqrt());
-    let dtex = |digits| significant(titre * 1e7, digits);
-    let size = match value(&given.diameter) {
-        Some(diameter) => {
-            format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
-        }
-        None => format!(
-            "linear_density = \"{} dtex\"   # of {diameter}: √(4 × titre / (π × density))",
-            dtex(GIVEN)
-        ),
-    };
     let fabric = value(&given.thickness).map(|thickness| {
         format!("\n[fabric]\nthickness = \"{}\"   # between its bonds\n", length(thickness))
     });
@@ -48,14 +37,38 @@ pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str) -> String {
         width = length(given.width.value),
         guessed = guesses.map(|(is_guess, key)| if is_guess { key } else { "" }).concat(),
         fabric = fabric.unwrap_or_default(),
-        size = size,
-        density = Dimension::Density.pretty(material.solid_density),
-        polymer = polymer.name(),
-        // A filament as spun is oriented somewhat.
-        modulus = Dimension::Pressure.pretty_to(1.5 * material.unoriented_modulus, 2),
+        spinline = spinline.unwrap_or_default(),
+        filament = if spinline.is_some() { String::new() } else { filament(line) },
         distance = length(given.distance.value),
         air = air,
         blown = line.cabin.map_or_else(String::new, |cabin| blown(line, cabin)),
+    )
+}
+
+/// Titre, density and modulus of a filament that begins at the slot.
+fn filament(line: &NewLine<'_>) -> String {
+    let material = line.polymer.material(false);
+    let dtex = |digits| significant(line.titre * 1e7, digits);
+    let size = match value(&line.given.diameter) {
+        Some(diameter) => {
+            format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
+        }
+        None => {
+            let diameter =
+                Dimension::Length.pretty((4.0 * line.titre / (PI * material.solid_density)).sqrt());
+            let titre = dtex(GIVEN);
+            format!("linear_density = \"{titre} dtex\"   # of {diameter}: √(4 × titre / (π × density))")
+        }
+    };
+    // A filament as spun is oriented somewhat.
+    let modulus = Dimension::Pressure.pretty_to(1.5 * material.unoriented_modulus, 2);
+    format!(
+        "{size}\n\
+         density = \"{}\"   # of solid {}\n\
+         youngs_modulus = \"{modulus}\"   # half as much again as without orientation, a guess: the lay-down hardly \
+         depends on it\n",
+        Dimension::Density.pretty(material.solid_density),
+        line.polymer.name(),
     )
 }
 

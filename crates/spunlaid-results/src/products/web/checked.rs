@@ -1,18 +1,20 @@
 //! What a web means: the numbers of its line, its air, and its load on it.
 
-use crate::numbers::{THIN, significant};
+use crate::numbers::{THIN, signed, significant};
 use crate::products::load::{load_of, load_words};
+use crate::products::spinline::files::SpinResults;
 use spunlaid::air::{Air, Axis, Cabin, PlacedField};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::ground::error::counted;
-use spunlaid::input::{LaydownSource, LayerSpec, WebSpec};
+use spunlaid::input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
 use spunlaid::simulation::PlannedFlight;
 use spunlaid::web::map::Filaments;
+use spunlaid_charts::label::plain;
 
 /// What a web means, in lines.
 pub fn about_web(spec: &WebSpec) -> Vec<String> {
-    [line(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat()
+    [line(spec), spinlines(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat()
 }
 
 /// The speed of the belt, on which all layers lie [m/s].
@@ -59,6 +61,50 @@ fn line(spec: &WebSpec) -> Vec<String> {
     let layers = spec.layers.iter().enumerate();
     let layers = layers.flat_map(|(number, of)| [layer((number, of))].into_iter().chain(charge(spec, of)));
     ["line".to_owned(), whole].into_iter().chain(layers).collect()
+}
+
+/// Most numbers of a spinline whose influence on the titre is shown.
+const INFLUENCES: usize = 6;
+
+/// What 1 % or 10 K more of a number does to the titre [%], and in words.
+fn on_titre(influence: &Influence) -> Option<(f64, String)> {
+    // The titre is throughput over speed.
+    let of_throughput = if influence.change.setting.name == "spinline.throughput" { 1.0 } else { 0.0 };
+    let change = of_throughput - influence.on(OfFilament::Speed)?.difference.value;
+    let (more, percent) = match influence.change.keys[0].by_kelvin {
+        true => ("10 K", 100.0 * change),
+        false => ("1 %", change),
+    };
+    let label = plain(influence.change.setting.words).to_lowercase();
+    (percent.abs() > 0.005).then(|| (percent, format!("{label}, {more} more: {} %", signed(percent, 2))))
+}
+
+/// What decides titre and speed of the filaments that come from a die.
+fn spinlines(spec: &WebSpec) -> Vec<String> {
+    let of_layer = |layer: &LayerSpec| {
+        let case = layer.source.case()?;
+        let line = case.spinline.as_deref()?;
+        let results = SpinResults::from_case(case)?;
+        let filament = results.rows.first()?;
+        let mut influences: Vec<(f64, String)> = results.influences.iter().filter_map(on_titre).collect();
+        influences.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+        let shown: Vec<String> = influences.into_iter().take(INFLUENCES).map(|(_, words)| words).collect();
+        let follows = format!(
+            "  {} dtex at {} follow from throughput, melt and air, with {} times the drag of its law \
+            (spinline.drag_factor)",
+            significant(filament.linear_density * 1e7, 4),
+            Dimension::Velocity.pretty(filament.final_speed),
+            significant(line.drag_factor, 4),
+        );
+        Some([follows, format!("  what moves the titre: {}", shown.join("; "))])
+    };
+    let mut lines = vec!["from the die".to_owned()];
+    for line in spec.layers.iter().filter_map(of_layer).flatten() {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    if lines.len() > 1 { lines } else { Vec::new() }
 }
 
 /// What the charge of a layer does; None of filaments without charge.

@@ -11,6 +11,7 @@
 //! ```
 
 mod boundary;
+mod calibration;
 mod cooling;
 mod elimination;
 mod integration;
@@ -72,6 +73,8 @@ pub struct Spinline {
     pub dissipation: bool,
     /// Factor on the Nusselt number [-].
     pub nusselt_factor: f64,
+    /// Factor on the friction between thread and air [-].
+    pub drag_factor: f64,
     /// Stress at which the thread breaks [Pa]; infinite if it is not known.
     pub break_stress: f64,
     /// The rows of holes, if they share the air that crosses them.
@@ -178,6 +181,7 @@ impl Spinline {
         emissivity: 0.0,
         dissipation: false,
         nusselt_factor: 1.0,
+        drag_factor: 1.0,
         break_stress: f64::INFINITY,
         curtain: None,
         gives_modulus: true,

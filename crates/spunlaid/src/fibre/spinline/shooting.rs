@@ -283,7 +283,7 @@ pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) ->
 
 /// The root between two places with misses of different signs. R. P. Brent: Algorithms for Minimization
 /// without Derivatives, 1973.
-fn brent(
+pub(super) fn brent(
     mut miss: impl FnMut(f64) -> f64,
     [(mut a, mut at_a), (mut b, mut at_b)]: [(f64, f64); 2],
     close: f64,

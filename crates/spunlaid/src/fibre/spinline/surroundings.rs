@@ -40,12 +40,18 @@ pub struct AirChange {
     pub cross_velocity_factor: f64,
     /// Added to the temperature [K].
     pub temperature_offset: f64,
+    /// Whether `velocity_factor` follows from the air at the slot, with which the air along the line ends.
+    pub follows_air: bool,
 }
 
 impl AirChange {
     /// The air stays as it is.
-    pub(crate) const NONE: Self =
-        Self { velocity_factor: 1.0, cross_velocity_factor: 1.0, temperature_offset: 0.0 };
+    pub(crate) const NONE: Self = Self {
+        velocity_factor: 1.0,
+        cross_velocity_factor: 1.0,
+        temperature_offset: 0.0,
+        follows_air: false,
+    };
 
     /// The changed air.
     pub(super) fn apply(self, air: AirState) -> AirState {
@@ -72,6 +78,11 @@ pub struct AirTable {
 }
 
 impl AirTable {
+    /// The velocity along the thread at a distance from the die [m/s].
+    pub(crate) fn velocity_at(&self, distance: f64) -> f64 {
+        self.at(distance, &mut 0).velocity
+    }
+
     /// The air at a distance from the die [m].
     ///
     /// * `hint` – the row above which the last look was; a look nearby is quicker with it

@@ -258,7 +258,7 @@ impl<'a> Thread<'a> {
         let density = density_at(air_temperature);
         let re = faster.abs() * diameter / kinematic_viscosity_at(air_temperature);
         let coefficient = self.friction.coefficient(re, distance / diameter);
-        0.5 * PI * diameter * density * coefficient * faster.abs() * faster
+        self.line.drag_factor * 0.5 * PI * diameter * density * coefficient * faster.abs() * faster
     }
 
     /// Heat that the air takes from the thread, by convection and by radiation [W/m].    theory.md (88), (89)

@@ -126,13 +126,43 @@ pub(super) const KEYS: &[Key] = &[
         .meaning("Temperature of the air, if it is the same everywhere.")
         .label("Air temperature *T*_{a}")
         .slider(273.15, 373.15),
+    key("spinline.follows_air", Kind::Switch)
+        .access(Access {
+            get: |case| Some(Value::from_switch(case.spinline.as_ref()?.air_change.follows_air)),
+            set: |case, value| {
+                spinline(case)?.air_change.follows_air = switch(value)?;
+                Ok(())
+            },
+        })
+        .value("false")
+        .meaning(
+            "Whether the velocity along the thread ends with that of `air` where the flown fibre begins: cabin \
+             pressure and air speed then change the whole spinline. A factor on the profile follows from it, in \
+             place of `velocity_factor`.",
+        ),
     quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
-        .access(of_air_change!(
-            velocity_factor,
-            Surroundings::Table(_) | Surroundings::Field { .. },
-            "spinline.profile or spinline.field",
-            "spinline.velocity"
-        ))
+        .access(Access {
+            get: |case| {
+                let line = case.spinline.as_ref()?;
+                let has_one = matches!(line.air, Surroundings::Table(_) | Surroundings::Field { .. });
+                let is_own = has_one && !line.air_change.follows_air;
+                is_own.then_some(Value::Number(line.air_change.velocity_factor))
+            },
+            set: |case, value| {
+                let line = spinline(case)?;
+                if line.air_change.follows_air {
+                    let remedy = "the air at the slot gives it; change air.cabin_pressure or air.speed_factor";
+                    return Err(Fault::excludes("spinline.follows_air = true", remedy));
+                }
+                if !matches!(line.air, Surroundings::Table(_) | Surroundings::Field { .. }) {
+                    let needed = "spinline.profile or spinline.field";
+                    return Err(Fault::needs(needed, "change spinline.velocity"));
+                }
+                line.air_change.velocity_factor = number(value)?;
+                Ok(())
+            },
+        })
+        .read_after(&["spinline.follows_air"])
         .value("1.0")
         .meaning("Factor on the velocity along the thread of a profile or a field: more or less drawing air.")
         .label("Air velocity along the thread *u*, factor")

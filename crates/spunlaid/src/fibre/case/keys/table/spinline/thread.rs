@@ -62,6 +62,17 @@ pub(super) const KEYS: &[Key] = &[
         .meaning("Factor on the Nusselt number of Kase and Matsuo. Measurements leave a doubt of some 20 %.")
         .label("Factor on the Nusselt number")
         .slider(0.5, 1.5),
+    quantity("spinline.drag_factor", Dimension::Ratio, Positive, (0.3, 3.0))
+        .access(of_spinline!(drag_factor))
+        .value("1.0")
+        .meaning(
+            "Factor on the drag of the air along the thread. Nobody knows it for a line: the laws of `drag.along` \
+             alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` finds the one with which \
+             the filament has the measured titre.",
+        )
+        .synonyms(&["calibration", "titre"])
+        .label("Factor on the drag of the spinline")
+        .slider(0.3, 3.0),
     quantity("spinline.break_stress", Dimension::Pressure, Positive, (1e5, 1e9))
         .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
