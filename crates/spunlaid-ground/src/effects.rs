@@ -22,6 +22,21 @@ pub struct Setting {
     pub name: &'static str,
     /// In words that stand behind “less” or “more”: `throughput of a hole`.
     pub words: &'static str,
+    /// When it can be turned.
+    pub turned: Turned,
+}
+
+named! {
+    /// When a setting of a machine can be turned.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Turned {
+        /// While the machine runs.
+        Running = "running",
+        /// When the machine stands still.
+        Stopped = "stopped",
+        /// Only by building another machine.
+        Rebuilt = "rebuilt",
+    }
 }
 
 /// A key with its value before and after a change [SI].
@@ -187,19 +202,22 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         Ok(())
     }
 
-    /// The changes that may be among those that lower a measure most, as far as is known of them.
+    /// The changes that may be among those that lower a measure most, as far as is known of them: first those of the
+    /// running machine.
     fn racing(&self, measure: M) -> Vec<&Tried<E, M>> {
-        let best = self.best(measure, |difference| difference.value < 0.0);
-        let Some((_, last)) = best.get(NAMED - 1).or(best.last()) else { return Vec::new() };
-        let may_be_better = |(_, effect): &&(&Tried<E, M>, &Effect<M>)| {
-            let [own, other] = [effect.difference, last.difference];
-            own.value - other.value <= BEHIND * own.standard_error.hypot(other.standard_error)
-        };
-        best.iter().filter(may_be_better).take(RACING).map(|(tried, _)| *tried).collect()
+        let (running, others): (Vec<_>, Vec<_>) = self
+            .best(measure, |difference| difference.value < 0.0)
+            .into_iter()
+            .partition(|(tried, _)| tried.change.setting.turned == Turned::Running);
+        let most = if others.is_empty() { RACING } else { NAMED };
+        let mut racing = may_be_best(&running, most);
+        let rest = RACING - racing.len();
+        racing.extend(may_be_best(&others, rest));
+        racing
     }
 
     /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each
-    /// setting, and of these the best first.
+    /// setting. Those of the running machine come first, and of these the best.
     pub fn improvements(&self, measure: M) -> Vec<(&Tried<E, M>, &Effect<M>)> {
         self.best(measure, |difference| difference.value <= -LEAST && difference.is_beyond_chance())
     }
@@ -210,6 +228,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
         let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
         sort_by_key(&mut improvements, |(_, effect): &(&Tried<E, M>, &Effect<M>)| effect.difference.value);
+        improvements.sort_by_key(|(tried, _)| tried.change.setting.turned);
         let mut settings = Vec::new();
         improvements.retain(|(tried, _)| {
             let setting = (tried.change.setting, tried.change.layers.clone());
@@ -228,5 +247,56 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
             let ratio = 1.0 + difference.value;
             [least.min(ratio), most.max(ratio)]
         })
+    }
+}
+
+/// Of changes of which the best comes first, some that may be the best ones.
+fn may_be_best<'a, E, M>(best: &[(&'a Tried<E, M>, &Effect<M>)], most: usize) -> Vec<&'a Tried<E, M>> {
+    let Some((_, last)) = best.get(NAMED - 1).or(best.last()) else { return Vec::new() };
+    let may_be_better = |(_, effect): &&(&Tried<E, M>, &Effect<M>)| {
+        let [own, other] = [effect.difference, last.difference];
+        own.value - other.value <= BEHIND * own.standard_error.hypot(other.standard_error)
+    };
+    best.iter().filter(may_be_better).take(most).map(|(tried, _)| *tried).collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const NAMES: [&str; 5] = ["depth", "holes", "air", "melt", "quench"];
+
+    fn effect(value: f64) -> Effect<u8> {
+        Effect::new(0, Difference { standard_error: 0.001, ..Difference::exact(value) })
+    }
+
+    fn change((number, turned): (usize, Turned)) -> Change<()> {
+        let setting = Setting { name: NAMES[number], words: "", turned };
+        Change { setting, layers: Vec::new(), keys: Vec::new(), experiment: (), refusal: None }
+    }
+
+    /// What is turned on the running line comes first and is tried once more, however much more another line would do.
+    #[test]
+    fn what_is_turned_while_the_line_runs_comes_first() {
+        let turned = [Turned::Stopped, Turned::Rebuilt, Turned::Running, Turned::Running, Turned::Running];
+        let effects = [-0.3, -0.4, -0.02, -0.05, 0.1];
+        let changes = turned.into_iter().enumerate().map(change).collect();
+        let mut trials =
+            Trials::new(changes, |_| Ok(effects.map(|value| Ok(vec![effect(value)])).to_vec())).unwrap();
+        trials.judged_by = Some(0);
+        let names = |trials: &Trials<(), u8>| -> Vec<&str> {
+            trials.improvements(0).iter().map(|(tried, _)| tried.change.setting.name).collect()
+        };
+        assert_eq!(names(&trials), ["melt", "air", "depth", "holes"]);
+        let again = |changes: &[Change<()>]| {
+            let again = changes.iter().map(|change| {
+                let number = NAMES.iter().position(|name| *name == change.setting.name).unwrap();
+                Ok(vec![effect(effects[number])])
+            });
+            Ok(again.collect())
+        };
+        trials.confirm(again).unwrap();
+        assert_eq!(names(&trials), ["melt", "air", "holes"]);
     }
 }

@@ -46,7 +46,7 @@ pub mod effects;
 
 // The face: the types that others know by it. Functions are called by their room.
 pub use company::{Bits, PerLane};
-pub use effects::{Change, ChangedKey, Effect, NAMED, Outcome, RACING, Setting, Trials, Tried};
+pub use effects::{Change, ChangedKey, Effect, NAMED, Outcome, RACING, Setting, Trials, Tried, Turned};
 pub use error::{Error, Fault, FileError, FileKind, Finding, IS, Position, Problem, WAS};
 pub use fft::{Complex, InverseTransform, WideComplex};
 pub use lanes::{Isa, Lanes, Plain, Register, Simd, Singles, Sixteen, Task, WIDTH, Wide};

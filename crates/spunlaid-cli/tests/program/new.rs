@@ -228,6 +228,40 @@ fn new_writes_the_pressure_of_a_cabin() {
     assert!(said.contains("3.5 kPa blow air of 75.79 m/s at most, and not of 90 m/s"), "{said}");
 }
 
+/// A line that begins at the die has the titre that was measured, and with more throughput that of its spinline alone.
+#[test]
+fn new_writes_a_line_whose_titre_follows_from_the_melt() {
+    let desk = Desk::new();
+    let melt =
+        ["--die-temperature", "235", "--melt-flow-rate", "35", "--hole-diameter", "0.6", "--quench", "0.8"];
+    let written = success(desk.spunlaid("new --web whole.toml --beams 2").args(LINE).args(melt));
+    assert!(written.contains("wrote whole.toml and whole_air.csv, whole_spinline.csv"), "{written}");
+    // `filaments of 2 dtex`
+    let titre = |more: &[&str]| {
+        let said = success(desk.spunlaid("check whole.toml").args(more));
+        let (_, after) = said.split_once("filaments of ").unwrap();
+        after.split(' ').next().unwrap().parse::<f64>().unwrap()
+    };
+    let measured = 2.0;
+    assert!((titre(&[]) / measured - 1.0).abs() < 5e-3, "{}", titre(&[]));
+    let more = ["--set", "line.throughput=+20 %"];
+    success(desk.spunlaid("spin whole.toml --out s --quiet").args(more));
+    let alone = 1e7 * desk.summary("s")["spinline"]["linear_density_kg_m"].as_f64().unwrap();
+    let coarser = titre(&more);
+    assert!((coarser / alone - 1.0).abs() < 1e-3 && coarser > 1.1 * measured, "{coarser} {alone}");
+    assert!(titre(&["--set", "air.cabin_pressure=5 kPa", "--set", "air.speed_factor=auto"]) < 0.9 * measured);
+    let said = success(&mut desk.spunlaid("check whole.toml"));
+    assert!(said.contains("what moves the titre: die temperature, 10 K more: −"), "{said}");
+    // Nothing is left of a line whose filament would be faster than its air.
+    let fine = LINE.map(|word| if word == "2" { "1 dtex" } else { word });
+    let said = refusal(desk.spunlaid("new --web fine.toml").args(fine).args(melt), 1);
+    assert!(
+        said.contains("spinline.drag_factor") && said.contains("1 dtex is a speed of 83.3 m/s"),
+        "{said}"
+    );
+    assert!(!desk.path("fine_air.csv").exists() && !desk.path("fine_spinline.csv").exists());
+}
+
 /// Mass flows are of the beam, of its width, and of all beams.
 #[test]
 fn analytic_each_of_two_beams_says_what_it_gives_and_what_all_give() {
@@ -286,14 +320,14 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     let (same, said) = written("PP, MFR 35 g/10min", "0.55 g/(min hole)", "2", "20", "60");
     assert!(same == files);
     for note in [
-        "note: the melt flow rate is not used, because these filaments begin at the slot with their titre",
+        "note: the melt flow rate beside the polymer is not used: write it as --melt-flow-rate",
         "note: 2 has no unit and is taken as 2 dtex",
         "note: 20 has no unit and is taken as 20 g/m²",
         "note: 60 has no unit and is taken as 60 m/s",
     ] {
         assert_eq!(said.matches(note).count(), 1, "{note}\n{said}");
     }
-    assert!(said.contains("spinline.melt_flow_rate") && said.matches("note:").count() == 4, "{said}");
+    assert!(said.matches("note:").count() == 4, "{said}");
     let desk = Desk::new();
     let said = refusal(desk.spunlaid("new --web line.toml --polymer").args(["MFR 35"]), 1);
     assert!(said.contains("write one of pp, pet, pa6, pla before the melt flow rate"), "{said}");

@@ -58,9 +58,10 @@ pub(crate) const LIMITS: &[Limit] = &[
         key: "line.feed_speed",
         words: "filament",
         unit: ("times the speed of its fastest air", 1.0),
-        range: [0.0, 1.0],
+        range: [0.0, 0.9],
         is_law: true,
-        advice: "air draws no filament faster than it blows: check the speed of the air, throughput and titre",
+        advice: "air draws no filament as fast as it blows: check the speed of the air, throughput and titre; of a \
+            filament that begins at the die ([spinline]) the titre follows",
         of: |_, layer| {
             let case = layer.source.case().filter(|case| case.spinline.is_none())?;
             Some(layer.feed_speed / case.fastest_air()?)
@@ -104,20 +105,26 @@ impl Implausible {
         (least / value).max(value / greatest)
     }
 
-    /// What is told of it.
-    ///
-    /// * `is_written` – whether its key is, so that another unit may have been meant
-    pub(crate) fn note(&self, is_written: bool) -> Note {
-        let Limit { key, words, unit: (unit, size), range, advice, .. } = self.limit;
-        let dimension = web_key(key).and_then(|key| key.kind.dimension()).filter(|_| is_written);
-        let meant = dimension.and_then(|dimension| dimension.meant_in(unit, self.value, *range));
-        let advice =
-            meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
-        let told = format!("{} {unit}", shown(self.value / size));
+    /// The number and the range, with the unit of a plant.
+    fn words(&self) -> (String, String) {
+        let Limit { unit: (unit, size), range, .. } = self.limit;
         let range = match range {
             [0.0, most] => format!("{} at most", shown(*most)),
             ends => format!("{} {unit}", ends.map(shown).join(" to ")),
         };
+        (format!("{} {unit}", shown(self.value / size)), range)
+    }
+
+    /// What is told of it.
+    ///
+    /// * `is_written` – whether its key is, so that another unit may have been meant
+    pub(crate) fn note(&self, is_written: bool) -> Note {
+        let Limit { key, words, unit: (unit, _), range: ends, advice, .. } = self.limit;
+        let dimension = web_key(key).and_then(|key| key.kind.dimension()).filter(|_| is_written);
+        let meant = dimension.and_then(|dimension| dimension.meant_in(unit, self.value, *ends));
+        let advice =
+            meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
+        let (told, range) = self.words();
         let what = Remark::doubt(format!(
             "is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}"
         ))
@@ -162,9 +169,9 @@ fn of_layers(web: &WebSpec) -> Vec<Implausible> {
 /// Share by which a number may be outside.
 const ROUNDING: f64 = 1e-6;
 
-/// Whether a changed web has a number outside the ranges of spunbond lines that the web itself has not, or a filament
-/// that is even faster than its air.
-pub(crate) fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
+/// Why no spunbond line is a changed web: a number outside the ranges that the web itself has not, or a filament that is
+/// even faster than its air; none if there is no such number.
+pub(crate) fn outside(before: &WebSpec, after: &WebSpec) -> Option<String> {
     let before = of_layers(before);
     let most = |found: &Implausible| {
         let same = |old: &&Implausible| old.layer == found.layer && std::ptr::eq(old.limit, found.limit);
@@ -174,5 +181,7 @@ pub(crate) fn leads_outside(before: &WebSpec, after: &WebSpec) -> bool {
             None => 1.0,
         }
     };
-    of_layers(after).iter().any(|found| found.excess() > most(found) * (1.0 + ROUNDING))
+    let found = of_layers(after).into_iter().find(|found| found.excess() > most(found) * (1.0 + ROUNDING))?;
+    let (measured, range) = found.words();
+    Some(format!("it makes a {} of {measured}, where spunbond lines have {range}", found.limit.words))
 }

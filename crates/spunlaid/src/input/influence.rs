@@ -4,7 +4,7 @@ use super::spinline::SpinFile;
 use crate::fibre::case::keys::{self, Key, Kind, Sign, Value};
 use crate::fibre::{Case, Solution};
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried};
+use crate::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried, Turned};
 use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].
@@ -78,7 +78,7 @@ fn influence(key: &'static Key, carrier: &Case, near: &Solution) -> Option<Influ
     // A factor on the air stands for the air.
     let words = key.label.trim_end_matches(", factor").trim_end_matches(", change");
     let change = Change {
-        setting: Setting { name: key.name, words },
+        setting: Setting { name: key.name, words, turned: Turned::Running },
         layers: Vec::new(),
         keys: vec![changed_key(key.name.to_owned(), &key.kind, ends)],
         experiment: (),

@@ -165,7 +165,12 @@ fn identical_after_writing_and_reading() {
 #[test]
 fn consistent_factors_of_the_air() {
     let [mut factors, mut numbers] = ["pp_slot", "pp_slot"].map(read);
-    let change = AirChange { velocity_factor: 1.25, cross_velocity_factor: 0.7, temperature_offset: 15.0 };
+    let change = AirChange {
+        velocity_factor: 1.25,
+        cross_velocity_factor: 0.7,
+        temperature_offset: 15.0,
+        follows_air: false,
+    };
     factors.spec.spinline.air_change = change;
     let mut air = numbers.spec.spinline.air.table().unwrap().clone();
     air.velocity.iter_mut().for_each(|u| *u *= change.velocity_factor);
@@ -180,6 +185,55 @@ fn consistent_factors_of_the_air() {
         close(&format!("row {row}"), a.final_diameter, b.final_diameter, 1e-9);
         assert!((a.final_diameter / unchanged - 1.0).abs() > 0.01, "row {row}");
     }
+}
+
+/// The factor on the drag is one on Matsui's law, and it is found again from the titre that it makes.
+#[test]
+fn analytic_drag_factor_of_a_titre() {
+    let with = |key: &str, value: &str| {
+        let file = folder().join("pp_slot.toml");
+        read_spinline(&file, &[(key.to_owned(), value.to_owned())]).unwrap()
+    };
+    let unchanged = with("drag.friction_coefficient", "0.5");
+    let (of_law, factor) = (with("drag.friction_coefficient", "0.4"), with("spinline.drag_factor", "0.8"));
+    let mut factor = factor;
+    factor.spec.drag = unchanged.spec.drag;
+    let [expected, found] = [&of_law, &factor].map(|file| file.solve().unwrap().remove(0));
+    close("diameter", found.final_diameter, expected.final_diameter, 1e-9);
+    let again = unchanged.drag_factor_of_titre(found.linear_density).unwrap();
+    close("factor", again, 0.8, 1e-5);
+    // A filament of this titre would be as fast as sound.
+    let fine = 1e-3 / 60.0 * 0.5 / 340.0;
+    let error = unchanged.drag_factor_of_titre(fine).unwrap_err().to_string();
+    assert!(error.contains("spinline.drag_factor") && error.contains("cannot be found"), "{error}");
+}
+
+/// Air along the line that ends as that at the slot is a factor on its profile, which a cabin pressure changes.
+#[test]
+fn consistent_air_along_the_line_that_ends_as_that_at_the_slot() {
+    let cases = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let titre = |set: &[(&str, &str)]| {
+        let set: Vec<(String, String)> =
+            set.iter().map(|(key, value)| ((*key).into(), (*value).into())).collect();
+        let read = read_spinline(&cases.join("whole_line_fibre.toml"), &set);
+        read.and_then(|file| Ok(file.solve()?.remove(0).linear_density)).map_err(|error| error.to_string())
+    };
+    // The profile of the spinline ends with 100 m/s, and that below the slot begins with 60 m/s.
+    let expected = titre(&[("spinline.velocity_factor", "0.6")]).unwrap();
+    close("titre", titre(&[("spinline.follows_air", "true")]).unwrap(), expected, 1e-12);
+    let expected = titre(&[("spinline.velocity_factor", "0.72")]).unwrap();
+    close(
+        "titre",
+        titre(&[("spinline.follows_air", "true"), ("air.speed_factor", "1.2")]).unwrap(),
+        expected,
+        1e-12,
+    );
+    let pressed = titre(&[("spinline.follows_air", "true"), ("air.cabin_pressure", "4 kPa")]).unwrap();
+    // 72.87 m/s of 4 kPa: the pressure's own test has numbers from outside.
+    let expected = titre(&[("spinline.velocity_factor", "0.7287")]).unwrap();
+    close("titre", pressed, expected, 1e-3);
+    let both = titre(&[("spinline.follows_air", "true"), ("spinline.velocity_factor", "1.1")]).unwrap_err();
+    assert!(both.contains("spinline.follows_air = true") && both.contains("air.cabin_pressure"), "{both}");
 }
 
 /// A spinline in a field of air, which ends 0.3 m below the top of the field.

@@ -2,7 +2,7 @@
 
 use spunlaid::fibre::spinline::HoleRows;
 use spunlaid::fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
-use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried};
+use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried, Turned};
 use spunlaid::input::{Influence, OfFilament};
 
 /// Friction between thread and air.
@@ -48,7 +48,7 @@ pub fn influences() -> Vec<Influence> {
     let one = |name: &'static str, words, by_kelvin, diameter: f64| {
         let (dimension, key) = (Dimension::Ratio, name.to_owned());
         let keys = vec![ChangedKey { key, dimension, whole: false, by_kelvin, from: 1.0, to: 1.1 }];
-        let setting = Setting { name, words };
+        let setting = Setting { name, words, turned: Turned::Running };
         let change = Change { setting, layers: Vec::new(), keys, experiment: (), refusal: None };
         let effects = [(OfFilament::Diameter, diameter), (OfFilament::Speed, -2.0 * diameter)]
             .map(|(of, value)| Effect::new(of, Difference::exact(value)));

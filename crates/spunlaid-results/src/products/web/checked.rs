@@ -75,7 +75,9 @@ fn on_titre(influence: &Influence) -> Option<(f64, String)> {
         true => ("10 K", 100.0 * change),
         false => ("1 %", change),
     };
-    let label = plain(influence.change.setting.words).to_lowercase();
+    let words = influence.change.setting.words;
+    // Without its symbol.
+    let label = plain(words.split(" *").next().unwrap_or(words)).to_lowercase();
     (percent.abs() > 0.005).then(|| (percent, format!("{label}, {more} more: {} %", signed(percent, 2))))
 }
 
@@ -86,7 +88,12 @@ fn spinlines(spec: &WebSpec) -> Vec<String> {
         let line = case.spinline.as_deref()?;
         let results = SpinResults::from_case(case)?;
         let filament = results.rows.first()?;
-        let mut influences: Vec<(f64, String)> = results.influences.iter().filter_map(on_titre).collect();
+        let mut influences: Vec<(f64, String)> = results
+            .influences
+            .iter()
+            .filter(|influence| !influence.change.setting.name.starts_with("spinline.material."))
+            .filter_map(on_titre)
+            .collect();
         influences.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
         let shown: Vec<String> = influences.into_iter().take(INFLUENCES).map(|(_, words)| words).collect();
         let follows = format!(

@@ -1,39 +1,75 @@
 //! Settings of the machine that change how even a web is, webs in which one of them is changed, and what these are
 //! judged by: the CV over patches of some size, which is that of what a buyer sees.
 
-use crate::ground::{Dimension, Error, Fault, Removed, Setting};
+use crate::ground::{Dimension, Error, Fault, Removed, Setting, Turned};
 use crate::simulation::WebSpec;
 
-const fn named(name: &'static str, words: &'static str) -> Setting {
-    Setting { name, words }
+const fn running(name: &'static str, words: &'static str) -> Setting {
+    Setting { name, words, turned: Turned::Running }
+}
+
+const fn stopped(name: &'static str, words: &'static str) -> Setting {
+    Setting { name, words, turned: Turned::Stopped }
+}
+
+const fn rebuilt(name: &'static str, words: &'static str) -> Setting {
+    Setting { name, words, turned: Turned::Rebuilt }
 }
 
 /// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become
 /// coarser with it.
-pub const THROUGHPUT: Setting = named("throughput", "throughput of a hole");
+pub const THROUGHPUT: Setting = running("throughput", "throughput of a hole");
 /// Number of holes.
-pub const HOLES: Setting = named("holes", "holes");
+pub const HOLES: Setting = rebuilt("holes", "holes");
 /// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they
 /// are coarser.
-pub const TITRE: Setting = named("titre", "titre");
+pub const TITRE: Setting = running("titre", "titre");
 /// Way from the inlet to the belt.
-pub const DISTANCE: Setting = named("distance", "distance to the belt");
+pub const DISTANCE: Setting = stopped("distance", "distance to the belt");
 /// Speed of the air between inlet and belt.
-pub const AIR_SPEED: Setting = named("air_speed", "air speed");
+pub const AIR_SPEED: Setting = running("air_speed", "air speed");
 /// How strongly this air fluctuates.
-pub const TURBULENCE: Setting = named("turbulence", "turbulence");
+pub const TURBULENCE: Setting = rebuilt("turbulence", "turbulence");
 /// Speed of the air that draws the filaments of a spinline.
-pub const DRAWING_AIR: Setting = named("drawing_air", "speed of the drawing air");
+pub const DRAWING_AIR: Setting = running("drawing_air", "speed of the drawing air");
 /// Temperature of the die.
-pub const DIE_TEMPERATURE: Setting = named("die_temperature", "die temperature");
+pub const DIE_TEMPERATURE: Setting = running("die_temperature", "die temperature");
+/// Velocity of the air that cools the filaments of a spinline.
+pub const QUENCH: Setting = running("quench", "quench air");
 /// Size of the slot in machine direction.
-pub const DEPTH: Setting = named("depth", "depth of the slot");
+pub const DEPTH: Setting = stopped("depth", "depth of the slot");
 /// Places of the rows in machine direction.
-pub const ROW_PLACES: Setting = named("row_places", "distance of the rows");
+pub const ROW_PLACES: Setting = rebuilt("row_places", "distance of the rows");
 /// Charge per mass that the filaments carry.
-pub const CHARGE: Setting = named("charge", "charge of the filaments");
+pub const CHARGE: Setting = running("charge", "charge of the filaments");
 /// None of the machine: a number that is a guess, and may be another one than is written.
-pub const GUESS: Setting = named("guess", "guessed number");
+pub const GUESS: Setting = rebuilt("guess", "guessed number");
+
+/// All settings of the machine.
+pub const SETTINGS: [Setting; 12] = [
+    THROUGHPUT,
+    HOLES,
+    TITRE,
+    DISTANCE,
+    AIR_SPEED,
+    TURBULENCE,
+    DRAWING_AIR,
+    DIE_TEMPERATURE,
+    QUENCH,
+    DEPTH,
+    ROW_PLACES,
+    CHARGE,
+];
+
+/// A setting of the line of a web, whose file may say which ones are turned while it runs (`web.turnable`).
+pub(crate) fn on_line_of(web: &WebSpec, setting: Setting) -> Setting {
+    let turned = match &web.turnable {
+        Some(named) if named.iter().any(|name| name == setting.name) => Turned::Running,
+        Some(_) => setting.turned.max(Turned::Stopped),
+        None => setting.turned,
+    };
+    Setting { turned, ..setting }
+}
 
 /// A changed web; of the same basis weight, unless what changes is a guess.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use super::super::web::WebFile;
 use super::Base;
 use super::web::WebBase;
 use crate::air::{Air, Flow};
-use crate::experiment::plausible::leads_outside;
+use crate::experiment::plausible::outside;
 use crate::experiment::{Change, ChangedWeb, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Dimension, Error, Setting};
@@ -77,7 +77,13 @@ impl WebToChange<'_> {
         }
         let changes =
             settings.iter().flat_map(|(setting, layers, ways)| self.changes_of(*setting, layers, ways));
-        changes.filter(|change| !leads_outside(self.spec(), &change.experiment.spec)).collect()
+        changes.map(|change| self.refuse_outside(change)).collect()
+    }
+
+    /// A change that is refused if it leads to numbers that no such line has.
+    fn refuse_outside(&self, change: Change) -> Change {
+        let refusal = outside(self.spec(), &change.experiment.spec);
+        Change { refusal: change.refusal.or(refusal), ..change }
     }
 
     /// The numbers of the layers, from 1, equal ones together: they differ in nothing but their names.
@@ -101,9 +107,10 @@ impl WebToChange<'_> {
             true => &["air.turbulence_intensity", "air.intensity_factor"],
             false => &[],
         };
-        let settings: [(Setting, &[&str]); 5] = [
+        let settings: [(Setting, &[&str]); 6] = [
             (setting::DRAWING_AIR, &["spinline.velocity_factor", "spinline.velocity"]),
             (setting::DIE_TEMPERATURE, &["spinline.die_temperature"]),
+            (setting::QUENCH, &["spinline.cross_velocity_factor", "spinline.cross_velocity"]),
             (setting::DISTANCE, &["belt.distance"]),
             (setting::AIR_SPEED, &["air.cabin_pressure", "air.speed_factor", "air.velocity"]),
             (setting::TURBULENCE, turbulence),
@@ -235,6 +242,7 @@ impl WebToChange<'_> {
         };
         let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
         let new = self.settings_of(&values);
+        let setting = setting::on_line_of(self.spec(), setting);
         (!keys.is_empty()).then(|| self.change((setting, layers.to_vec()), keys, new, Ok(made)))
     }
 

@@ -2,6 +2,7 @@
 
 use super::read::Reading;
 use super::{flies_none, is_of_case};
+use crate::experiment::setting::SETTINGS;
 use crate::fibre::case::keys::{self, Kind};
 use crate::ground::error::nearest_word;
 use crate::ground::{Dimension, Fault};
@@ -101,7 +102,24 @@ fn keys_of_web(web: &WebSpec, name: &str) -> Result<(Vec<String>, &'static WebKe
     Ok((keys, key))
 }
 
+/// The key that names the settings of the running line.
+const TURNABLE: &str = "web.turnable";
+
 impl Reading<'_> {
+    /// Refuses settings that a line does not have.
+    pub(super) fn check_turnable(&mut self, web: &WebSpec) {
+        let is_known = |name: &&String| SETTINGS.iter().any(|setting| setting.name == *name);
+        if let Some(name) = web.turnable.iter().flatten().find(|name| !is_known(name)) {
+            let all = SETTINGS.map(|setting| setting.name);
+            let remedy = match nearest_word(name, all.into_iter()) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("write some of {}", all.join(", ")),
+            };
+            self.key_values
+                .reject(TURNABLE, Fault::new(format!("names {name}, which is no setting"), remedy));
+        }
+    }
+
     /// Refuses guesses that are no numbers.
     pub(super) fn check_guessed(&mut self, web: &WebSpec) {
         // What other problems hide is not known.

@@ -74,6 +74,7 @@ impl OpenWeb<'_> {
         reading.complete_sheet(&mut web);
         reading.check_sources(&prefixes, &web);
         reading.check_guessed(&web);
+        reading.check_turnable(&web);
         reading.check_charge(&prefixes, &web);
         reading.settle_belt(&mut web, &ways);
         for (number, prefix) in prefixes.iter().enumerate() {

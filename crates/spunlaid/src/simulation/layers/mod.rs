@@ -49,6 +49,8 @@ pub struct WebSpec {
     pub fabric: FabricKeys,
     /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
     pub guessed: Vec<String>,
+    /// Names of the settings that are turned while the line runs; the usual ones if none are named.
+    pub turnable: Option<Vec<String>>,
 }
 
 /// How many filaments of a web in one air are flown for all of them.
@@ -194,6 +196,7 @@ impl WebSpec {
             basis_weight: None,
             fabric: FabricKeys::USUAL,
             guessed: Vec::new(),
+            turnable: None,
         }
     }
 

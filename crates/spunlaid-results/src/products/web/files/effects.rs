@@ -94,6 +94,7 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_gues
         let layer = alone(change);
         let mut told = json!({
             "setting": change.setting.name,
+            "turned": change.setting.turned.name(),
             // Counted from 1; null where several or all layers change.
             "layer": layer,
             "keys": keys(change),

@@ -122,6 +122,24 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Guessed numbers"),
+    key("web.turnable", Kind::Text("throughput, air_speed, depth"))
+        .access(Access {
+            get: |web| web.turnable.as_ref().map(|names| names.join(", ").into()),
+            set: |web, value| {
+                let names = text(value)?;
+                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
+                web.turnable = Some(names.map(ToOwned::to_owned).collect());
+                Ok(())
+            },
+        })
+        .or_words(&[NONE])
+        .follows("throughput, titre, air_speed, drawing_air, die_temperature, quench, charge")
+        .meaning(
+            "Settings that are turned while the line runs, with commas; advice names these first. Others are set \
+             when it stands still: distance, depth; or need another line: holes, turbulence, row_places.",
+        )
+        .synonyms(&["advice", "knobs", "what can be changed"])
+        .label("Settings of the running line"),
     positive("web.window", Dimension::Length, (1e-5, 10.0))
         .access(at!(window))
         .follows("20 mm, at most the web's smaller side")
