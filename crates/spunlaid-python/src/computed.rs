@@ -5,13 +5,13 @@ use crate::keys::described;
 use crate::save::{Figures, figure_files};
 use crate::source::Source;
 use crate::table::{column, locked};
-use crate::value::overrides;
+use crate::value::{overrides, positive};
 use crate::warning::warn_of;
 use crate::watched::{Watch, guarded, settled, watched};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
-use spunlaid::ground::FileKind;
+use spunlaid::ground::{Dimension, FileKind};
 use spunlaid::input::{Overrides, read_spinline, write_spinline};
 use spunlaid::simulation::{CurveValue, Trajectory};
 use spunlaid::web::Map;
@@ -209,6 +209,23 @@ pub(crate) fn solve_spinline(
     warn_of(py, &file.notes)?;
     let spinline = guarded(py, || SpinFolder::solve(name.clone(), file))?;
     Ok(Computed { name, of: Of::Spinline(Box::new(spinline)) })
+}
+
+/// The factor on the drag of a spinline with which its filament has a titre. See spunlaid.find_drag_factor.
+#[pyfunction]
+pub(crate) fn find_drag_factor(
+    py: Python<'_>,
+    path: Option<PathBuf>,
+    titre: &Bound<'_, PyAny>,
+    changes: &Bound<'_, PyAny>,
+) -> PyResult<f64> {
+    let titre = positive("titre", titre, Dimension::LinearDensity)?;
+    let changes = overrides(changes)?;
+    let set = Overrides::new(&changes, "find_drag_factor:");
+    let Source { text, file, .. } = Source::read(py, path, FileKind::Case, "spinline")?;
+    let file = settled(py, None, |resources| read_spinline((&text, &file), set.with(resources)))?;
+    warn_of(py, &file.notes)?;
+    guarded(py, || file.drag_factor_of_titre(titre))
 }
 
 /// Copies a results folder, as the program replaces one.

@@ -47,7 +47,7 @@ mod _spunlaid {
         air::AirSampler,
         bundle::fly_bundle,
         case::Case,
-        computed::{Computed, compare_folders, copy_results, solve_spinline},
+        computed::{Computed, compare_folders, copy_results, find_drag_factor, solve_spinline},
         fit::find_fit,
         flight::Flight,
         keys::{column_unit, keys, measures, program, removed},

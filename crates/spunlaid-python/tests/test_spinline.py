@@ -72,6 +72,14 @@ def test_constants_of_the_polymer_can_be_given() -> None:
     assert other.final_diameter_m > usual.final_diameter_m
 
 
+def test_the_drag_factor_of_a_titre_is_found() -> None:
+    changed = {"spinline.drag_factor": 0.8}
+    titre = spunlaid.spin({"spinline": LINE}, set=changed).linear_density_kg_m
+    assert spunlaid.find_drag_factor({"spinline": LINE}, titre) == pytest.approx(0.8, rel=1e-5)
+    with pytest.raises(spunlaid.CaseError, match="cannot be found"):
+        spunlaid.find_drag_factor({"spinline": LINE}, "0.01 dtex")
+
+
 def test_rejects_spinlines_without_a_steady_state() -> None:
     with pytest.raises(spunlaid.CaseError, match="freezes at 110 °C") as caught:
         spunlaid.spin({"spinline": {**LINE, "length": "50 mm", "end": "take-up", "take_up_speed": 20.0}})

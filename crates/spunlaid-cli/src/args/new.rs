@@ -107,7 +107,8 @@ pub(crate) struct MeltNumbers {
     #[arg(value_parser = in_unit(Dimension::MeltFlowRate, "g/10 min"))]
     pub(crate) melt_flow_rate: Option<Given<f64>>,
     /// Viscosity of the melt in Pa s at the usual temperature of the polymer, in place of the melt flow rate
-    #[arg(long, value_name = "VISCOSITY", requires = "web", value_parser = in_unit(Dimension::DynamicViscosity, "Pa s"))]
+    #[arg(long, value_name = "VISCOSITY", requires = "web")]
+    #[arg(value_parser = in_unit(Dimension::DynamicViscosity, "Pa s"))]
     pub(crate) viscosity: Option<Given<f64>>,
     /// Diameter of a hole of the spinneret in mm [default: "0.6 mm"]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]

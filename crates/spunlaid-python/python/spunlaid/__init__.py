@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from ._load import load
     from ._run import Run, run
     from ._scan import Scan, scan
-    from ._spinline import Spinline, spin
+    from ._spinline import Spinline, find_drag_factor, spin
     from ._study import Study, sweep
     from ._web import Web, web
 
@@ -75,6 +75,7 @@ __all__ = [
     "__version__",
     "analyse",
     "compare",
+    "find_drag_factor",
     "fit",
     "keys",
     "load",
@@ -96,7 +97,7 @@ _LATER = {
         "_load": ["load"],
         "_run": ["Run", "run"],
         "_scan": ["Scan", "scan"],
-        "_spinline": ["Spinline", "spin"],
+        "_spinline": ["Spinline", "find_drag_factor", "spin"],
         "_study": ["Study", "sweep"],
         "_web": ["Web", "web"],
     }.items()

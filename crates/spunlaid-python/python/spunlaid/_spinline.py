@@ -94,3 +94,18 @@ def spin(
     set: keys that replace those of the file, `{"spinline.throughput": "0.4 g/min"}`
     """
     return Spinline(_spunlaid.solve_spinline(*split_source(spinline, set)))
+
+
+def find_drag_factor(
+    spinline: str | os.PathLike[str] | Mapping[str, Any],
+    titre: str | float,
+    *,
+    set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
+) -> float:
+    """The factor on the drag of the air, `spinline.drag_factor`, with which the filament has a measured titre.
+
+    spinline, set: as of `spin`
+    titre: with its unit, `"1.9 dtex"`, or in kg/m
+    """
+    path, changes = split_source(spinline, set)
+    return _spunlaid.find_drag_factor(path, titre, changes)

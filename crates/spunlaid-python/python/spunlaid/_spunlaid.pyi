@@ -20,6 +20,7 @@ __all__ = [
     "column_unit",
     "compare_folders",
     "copy_results",
+    "find_drag_factor",
     "find_fit",
     "fly",
     "fly_bundle",
@@ -217,6 +218,7 @@ class Study:
 
 def check_figures(figures: _Figures) -> None: ...
 def solve_spinline(path: str | None, changes: Mapping[str, Any]) -> Computed: ...
+def find_drag_factor(path: str | None, titre: str | float, changes: Mapping[str, Any]) -> float: ...
 def fly(
     case: Case,
     place: str | os.PathLike[str],

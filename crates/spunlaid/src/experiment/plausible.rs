@@ -34,7 +34,7 @@ pub(crate) const LIMITS: &[Limit] = &[
         range: [0.05, 5.0],
         is_law: false,
         advice: "is it that of several holes?",
-        of: |_, layer| Some(layer.linear_density() * layer.feed_speed),
+        of: |_, layer| Some(layer.hole_flow()),
     },
     Limit {
         key: "fibre.linear_density",
@@ -169,8 +169,8 @@ fn of_layers(web: &WebSpec) -> Vec<Implausible> {
 /// Share by which a number may be outside.
 const ROUNDING: f64 = 1e-6;
 
-/// Why no spunbond line is a changed web: a number outside the ranges that the web itself has not, or a filament that is
-/// even faster than its air; none if there is no such number.
+/// Why no spunbond line is a changed web: a number outside the ranges that the web itself has not, or a filament that
+/// is even faster than its air; none if there is no such number.
 pub(crate) fn outside(before: &WebSpec, after: &WebSpec) -> Option<String> {
     let before = of_layers(before);
     let most = |found: &Implausible| {

@@ -50,7 +50,7 @@ fn line(spec: &WebSpec) -> Vec<String> {
             filament on each metre of belt{}",
             if several { format!("layer {name}: ") } else { String::new() },
             significant(filaments as f64 / spec.sheet.width, 4),
-            significant(layer.linear_density() * layer.feed_speed * 6e4, 4),
+            significant(layer.hole_flow() * 6e4, 4),
             significant(layer.linear_density() * 1e7, 4),
             Dimension::Length.pretty(layer.diameter),
             Dimension::Velocity.pretty(layer.feed_speed),

@@ -152,7 +152,7 @@ impl Reading<'_> {
         spec.defects = self.defects(&format!("{prefix}line."));
         spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
         if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
-            spec.feed_speed = throughput / spec.linear_density();
+            spec.feed(throughput);
         }
         let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
         Layer { spec, way, filament, spun }

@@ -158,7 +158,7 @@ impl Reading<'_> {
         let Some(weight) = weight else { return };
         web.basis_weight = Some(weight);
         let flow = |layer: &Layer| {
-            let each = layer.spun.unwrap_or(layer.spec.linear_density() * layer.spec.feed_speed);
+            let each = layer.spun.unwrap_or(layer.spec.hole_flow());
             each * layer.spec.filaments.count(&web.sheet) as f64
         };
         let belt = layers.iter().map(flow).sum::<f64>() / web.sheet.width / weight;

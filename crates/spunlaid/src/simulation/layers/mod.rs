@@ -164,6 +164,16 @@ impl LayerSpec {
         0.25 * PI * self.diameter * self.diameter * self.density
     }
 
+    /// Mass flow of a hole [kg/s].
+    pub fn hole_flow(&self) -> f64 {
+        self.linear_density() * self.feed_speed
+    }
+
+    /// Feeds the filaments so that a hole has this mass flow [kg/s].
+    pub(crate) fn feed(&mut self, throughput: f64) {
+        (self.feed_speed, self.throughput) = (throughput / self.linear_density(), Some(throughput));
+    }
+
     /// Whether other webs have other streaks, by the places of its filaments or by their defects.
     pub(crate) fn has_random_streaks(&self) -> bool {
         self.filaments.are_at_random() || self.defects.iter().any(|defect| defect.share < 1.0)
@@ -217,9 +227,7 @@ impl WebSpec {
 
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
     pub fn mass_flow(&self) -> f64 {
-        let flow = |layer: &LayerSpec| {
-            layer.linear_density() * layer.feed_speed * layer.filaments.count(&self.sheet) as f64
-        };
+        let flow = |layer: &LayerSpec| layer.hole_flow() * layer.filaments.count(&self.sheet) as f64;
         self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
     }
 

@@ -198,8 +198,8 @@ impl FinerCheck {
         own.or_else(|| self.change_of_statistic(measure))
     }
 
-    /// Whether it cannot say what step or mesh do to a measure: the axial waves of the fibre decide the measure, and they
-    /// are others in another scheme.
+    /// Whether it cannot say what step or mesh do to a measure: the axial waves of the fibre decide the measure, and
+    /// they are others in another scheme.
     pub fn is_silent_about(&self, measure: &str) -> bool {
         let compares = self.has_scheme_of_run && self.change_of(measure).is_some();
         !compares && follows_axial_waves(measure, self.is_fed)

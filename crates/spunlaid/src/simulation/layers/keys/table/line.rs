@@ -35,14 +35,13 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(Access {
             get: |web| layer(web)?.throughput.map(Value::Number),
             set: |web, value| {
-                let (throughput, layer) = (number(value)?, layer_mut(web)?);
-                (layer.feed_speed, layer.throughput) =
-                    (throughput / layer.linear_density(), Some(throughput));
+                let throughput = number(value)?;
+                layer_mut(web)?.feed(throughput);
                 Ok(())
             },
         })
         .alternative_to(&["line.feed_speed"], EITHER)
-        .in_other_words(|web| layer(web).map(|layer| (layer.linear_density() * layer.feed_speed).into()))
+        .in_other_words(|web| layer(web).map(|layer| layer.hole_flow().into()))
         .gives_case(&["feed.speed", "spinline.throughput"])
         .read_last()
         .follows("`feed_speed` and the filament give it")
