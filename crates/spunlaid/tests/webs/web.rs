@@ -76,6 +76,21 @@ fn one_fibre_says_how_uneven_the_web_is() {
     }
 }
 
+/// Other seeds have other fibres: two that follow each other once had half of them in common.
+#[test]
+fn single_fibres_of_two_seeds_have_none_in_common() {
+    let by_surrogate = layer(Fibres::Surrogate(SPUNBOND), 5000.0);
+    let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
+    let values = |seed| {
+        let of = OneFibre { cell: 1e-3, fibres: 16, seed };
+        one_fibre(&by_surrogate, &[10], of, by).expect("single fibres").remove(0).at_random.values
+    };
+    let (first, second) = (values(1), values(2));
+    assert_eq!((first.len(), second.len()), (16, 16));
+    assert!(!first.iter().any(|value| second.contains(value)), "{first:?} {second:?}");
+}
+
 /// Nozzles at an even pitch leave no streaks, and what is expected knows it; so do nozzles that stand far apart.
 #[test]
 fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {

@@ -3,9 +3,11 @@
 use super::lay::lay;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, FlownFibres, Layer, Row, Sheet, Web};
+use crate::ground::random::stream;
 use crate::ground::threads::try_each;
 use crate::ground::{Control, Error, Estimate};
 use crate::web::surrogate::Surrogate;
+use rand_chacha::rand_core::Rng;
 
 /// How the unevenness is found from single fibres.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +23,8 @@ pub struct OneFibre {
 /// Cells that fibres laid at the same time may take, and the shortest belt that a fibre is laid on [spreads].
 const CELLS: usize = 1 << 21;
 const SHORTEST: usize = 5;
+/// The last word of the keys of their random numbers.
+const SINGLE: u64 = 12;
 /// Fibres laid at the same time.
 const ABREAST: usize = 8;
 
@@ -72,12 +76,19 @@ pub fn one_fibre(
     let rows = (CELLS / (ABREAST * apart)).max(least);
     let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
     let fibres = sample.fibres.max(1);
-    for (seed, first) in (sample.seed..).zip((0..fibres).step_by(abreast as usize)) {
-        let fibres = abreast.min(fibres - first);
+    for first in (0..fibres).step_by(abreast as usize) {
+        let (fibres, seed) = (abreast.min(fibres - first), seed_of_batch(sample.seed, first));
         add(layer, sides, OneFibre { fibres, seed, ..sample }, [apart, trace, rows], by, &mut found)?;
     }
     let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));
     Ok(found.into_iter().zip(scales).map(|(sums, area)| sums.finish(area, trace)).collect())
+}
+
+/// The seed of the fibres that are laid at the same time, which no other seed has for its own.
+///
+/// * `first` – number of the first of them, from 0
+fn seed_of_batch(seed: u64, first: u64) -> u64 {
+    if first == 0 { seed } else { stream([seed, first, u64::MAX, SINGLE]).next_u64() }
 }
 
 /// Lays several fibres at once, `apart` columns from each other on a ring of rows, and adds the sums that they give.
