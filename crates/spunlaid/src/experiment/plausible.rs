@@ -124,9 +124,9 @@ impl Implausible {
         let meant = dimension.and_then(|dimension| dimension.meant_in(unit, self.value, *ends));
         let advice =
             meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
-        let (told, range) = self.words();
+        let (found, range) = self.words();
         let what = Remark::doubt(format!(
-            "is doubtful: a {words} of {told}, where spunbond lines have {range}; {advice}"
+            "is doubtful: a {words} of {found}, where spunbond lines have {range}; {advice}"
         ))
         .outside_by(self.excess());
         Note { place: Place::Code, key: (*key).to_owned(), value: None, what }

@@ -1,4 +1,4 @@
-//! The one number of a spinline that nobody knows, from the titre that was measured.
+//! The one number of a spinline that is not known, from the titre that was measured.
 
 use super::shooting::brent;
 use super::{Failure, SpinSpec};

@@ -73,7 +73,7 @@ pub struct Spinline {
     pub dissipation: bool,
     /// Factor on the Nusselt number [-].
     pub nusselt_factor: f64,
-    /// Factor on the friction between thread and air [-].
+    /// Factor on the friction between filament and air [-].
     pub drag_factor: f64,
     /// Stress at which the thread breaks [Pa]; infinite if it is not known.
     pub break_stress: f64,

@@ -78,7 +78,7 @@ pub struct AirTable {
 }
 
 impl AirTable {
-    /// The velocity along the thread at a distance from the die [m/s].
+    /// The velocity along the filament at a distance from the die [m/s].
     pub(crate) fn velocity_at(&self, distance: f64) -> f64 {
         self.at(distance, &mut 0).velocity
     }
