@@ -3,6 +3,7 @@
 pub(crate) mod clouds;
 mod curtain;
 pub(crate) mod effects;
+pub(crate) mod picture;
 mod profiles;
 pub(crate) mod unevenness;
 

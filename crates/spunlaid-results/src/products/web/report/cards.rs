@@ -11,6 +11,7 @@ use crate::products::web::files::effects::HOUR;
 use crate::products::web::files::fabric::fabric_rows;
 use crate::products::web::files::summary::Layer;
 use spunlaid::experiment::plausible::implausible;
+use spunlaid::ground::Dimension;
 use spunlaid::simulation::{LayerSpec, WebSpec};
 use spunlaid::web::map::Findings;
 use spunlaid::web::{Fabric, Map};
@@ -32,7 +33,7 @@ impl From<Card> for Section<'static> {
     }
 }
 
-/// Most layers whose filaments have rows of their own.
+/// Most kinds of layers whose filaments have rows of their own.
 const MOST_LAYERS: usize = 3;
 
 /// The line itself, and whether it is one.
@@ -51,29 +52,43 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
         row("Belt", speed(belt)),
         row("Basis weight", grams(made)).detail(piece),
     ];
-    for (layer, LayerSpec { density, .. }) in layers.iter().zip(&spec.layers).take(MOST_LAYERS) {
-        let of = if layers.len() > 1 { format!(" of layer {}", layer.name) } else { String::new() };
+    let of_layer = |(layer, LayerSpec { density, .. }): (&Layer, &LayerSpec)| {
         let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
         let size = (4.0 * titre / (PI * density)).sqrt();
         let holes = significant(layer.filaments as f64 / spec.sheet.width, 4);
-        rows.extend([
-            row(
-                &format!("Filament{of}"),
-                format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm")),
-            ),
-            row(&format!("Spinning speed{of}"), speed(feed)),
-            row(
-                &format!("Holes per metre{of}"),
-                format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min")),
-            ),
-        ]);
+        let slot = layer.air_at_slot_m_s.map(|speed| format!(", {} at the slot", shown(speed, "m/s")));
+        let cabin = layer
+            .cabin_pressure_pa
+            .map(|pressure| Dimension::Pressure.pretty_to(pressure, 4).replace(' ', &THIN.to_string()));
+        let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
+        let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
+        let cabin = cabin.map(|cabin| ("Cabin pressure", cabin + &slot.unwrap_or_default()));
+        let rows =
+            [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)].into_iter();
+        rows.chain(cabin).collect::<Vec<_>>()
+    };
+    // Equal layers are told of once.
+    let mut alike: Vec<(Vec<(&str, String)>, Vec<&str>)> = Vec::new();
+    for (layer, numbers) in layers.iter().zip(layers.iter().zip(&spec.layers).map(of_layer)) {
+        match alike.iter_mut().find(|(same, _)| *same == numbers) {
+            Some((_, names)) => names.push(&layer.name),
+            None => alike.push((numbers, vec![&layer.name])),
+        }
+    }
+    let is_told_apart = alike.len() > 1;
+    for (numbers, names) in alike.into_iter().take(MOST_LAYERS) {
+        let of = if is_told_apart { format!(" of layer {}", names.join(", ")) } else { String::new() };
+        if names.len() > 1 && !is_told_apart {
+            rows.push(row("Beams", format!("{}, alike", names.len())));
+        }
+        rows.extend(numbers.into_iter().map(|(name, value)| row(&format!("{name}{of}"), value)));
     }
     let doubts = implausible(spec);
-    rows.push(row("Plausible", if doubts.is_empty() { "yes" } else { "doubtful" }.to_owned()));
-    let mut words: Vec<String> = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
-    if words.is_empty() {
-        words.push("No number is outside of what spunbond lines are known to have.".to_owned());
-    }
+    rows.push(row(
+        "Plausible",
+        if doubts.is_empty() { "yes, as lines are known to be" } else { "doubtful" }.to_owned(),
+    ));
+    let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
     Card { id: "line", title: "The line", rows, words }
 }
 
@@ -96,5 +111,5 @@ pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, 
         Some(scale) => section.view(View::new(&scale, &[])),
         None => section,
     };
-    Ok(section.paragraph(scale::words(judged)).told().card())
+    Ok(section.paragraph(scale::words(judged)).told().picture())
 }

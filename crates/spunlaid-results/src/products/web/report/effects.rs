@@ -48,8 +48,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
             Some(false) => ", acts on each filament",
             None => "",
         };
-        let [_, belt] = tried.change.experiment.belt_speed;
-        let detail = format!("{}, belt {}{THIN}m/min{acts}{also}", cost(tried), significant(60.0 * belt, 4));
+        let detail = format!("{}{acts}{also}", of_line(spec, &tried.change.experiment));
         Row::new(describe(&tried.change, spec), [format!("{}{THIN}%", per_cent(effect))]).detail(detail)
     };
     let with_command =
@@ -150,16 +149,25 @@ fn per_cent(effect: &Effect<f64>) -> String {
     difference_text(&effect.difference, PER_CENT)
 }
 
-/// What a change costs in throughput.
-fn cost(tried: &Tried) -> String {
-    let [before, after] = tried.change.experiment.mass_flow;
-    let change = after / before - 1.0;
-    // What is held is rounded by less than this.
-    if change.abs() < 1e-4 {
-        return "with the same throughput".to_owned();
-    }
-    let way = if change < 0.0 { "less" } else { "more" };
-    format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
+/// What becomes of titre, mass and belt: `2 dtex, 150 to 120 kg/h, belt 125 to 100 m/min`.
+fn of_line(spec: &WebSpec, ChangedWeb { spec: changed, belt_speed, mass_flow, .. }: &ChangedWeb) -> String {
+    let layers = spec.layers.iter().zip(&changed.layers);
+    let mut titres: Vec<String> = layers
+        .map(|(before, after)| from_to([before, after].map(|layer| 1e7 * layer.linear_density()), "dtex"))
+        .collect();
+    titres.dedup();
+    let mass = from_to(mass_flow.map(|flow| HOUR * flow), "kg/h");
+    format!(
+        "{}, {mass} per metre, belt {}",
+        titres.join(" and "),
+        from_to(belt_speed.map(|speed| 60.0 * speed), "m/min")
+    )
+}
+
+/// `150 to 120 kg/h`, or one number of what stays.
+fn from_to([before, after]: [f64; 2], unit: &str) -> String {
+    let [from, to] = [before, after].map(|number| significant(number, 4));
+    if from == to { format!("{to}{THIN}{unit}") } else { format!("{from} to {to}{THIN}{unit}") }
 }
 
 /// A cell of a table of effects; one that may be by chance is faint.
