@@ -39,10 +39,6 @@ const MOST_LAYERS: usize = 3;
 /// The line itself, and whether it is one.
 pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
     let row = |name: &str, value: String| Row::new(name, [value]);
-    let speed = |speed: f64| {
-        format!("{}{THIN}m/min ({}{THIN}m/s)", significant(60.0 * speed, 4), significant(speed, 3))
-    };
-    let shown = |value: f64, unit: &str| format!("{}{THIN}{unit}", significant(value, 3));
     let belt = layers.first().map_or(f64::NAN, |layer| layer.belt_speed_m_s);
     let made = spec.mass_flow() / belt;
     let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
@@ -52,36 +48,19 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
         row("Belt", speed(belt)),
         row("Basis weight", grams(made)).detail(piece),
     ];
-    let of_layer = |(layer, LayerSpec { density, .. }): (&Layer, &LayerSpec)| {
-        let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
-        let size = (4.0 * titre / (PI * density)).sqrt();
-        let holes = significant(layer.filaments as f64 / spec.sheet.width, 4);
-        let slot = layer.air_at_slot_m_s.map(|speed| format!(", {} at the slot", shown(speed, "m/s")));
-        let cabin = layer
-            .cabin_pressure_pa
-            .map(|pressure| Dimension::Pressure.pretty_to(pressure, 4).replace(' ', &THIN.to_string()));
-        let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
-        let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
-        let cabin = cabin.map(|cabin| ("Cabin pressure", cabin + &slot.unwrap_or_default()));
-        let rows =
-            [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)].into_iter();
-        rows.chain(cabin).collect::<Vec<_>>()
-    };
+    let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
+    let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
     // Equal layers are told of once.
-    let mut alike: Vec<(Vec<(&str, String)>, Vec<&str>)> = Vec::new();
-    for (layer, numbers) in layers.iter().zip(layers.iter().zip(&spec.layers).map(of_layer)) {
-        match alike.iter_mut().find(|(same, _)| *same == numbers) {
-            Some((_, names)) => names.push(&layer.name),
-            None => alike.push((numbers, vec![&layer.name])),
-        }
+    let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
+    let is_one_kind = kinds.clone().count() == 1;
+    if is_one_kind && all.len() > 1 {
+        rows.push(row("Beams", format!("{}, alike", all.len())));
     }
-    let is_told_apart = alike.len() > 1;
-    for (numbers, names) in alike.into_iter().take(MOST_LAYERS) {
-        let of = if is_told_apart { format!(" of layer {}", names.join(", ")) } else { String::new() };
-        if names.len() > 1 && !is_told_apart {
-            rows.push(row("Beams", format!("{}, alike", names.len())));
-        }
-        rows.extend(numbers.into_iter().map(|(name, value)| row(&format!("{name}{of}"), value)));
+    for kind in kinds.take(MOST_LAYERS).map(|i| &all[i]) {
+        let alike = layers.iter().zip(&all).filter(|(_, other)| *other == kind);
+        let names: Vec<&str> = alike.map(|(layer, _)| layer.name.as_str()).collect();
+        let of = if is_one_kind { String::new() } else { format!(" of layer {}", names.join(", ")) };
+        rows.extend(kind.iter().map(|(name, value)| row(&format!("{name}{of}"), value.clone())));
     }
     let doubts = implausible(spec);
     rows.push(row(
@@ -90,6 +69,34 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
     ));
     let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
     Card { id: "line", title: "The line", rows, words }
+}
+
+fn shown(value: f64, unit: &str) -> String {
+    format!("{}{THIN}{unit}", significant(value, 3))
+}
+
+fn speed(speed: f64) -> String {
+    format!("{}{THIN}m/min ({})", significant(60.0 * speed, 4), shown(speed, "m/s"))
+}
+
+/// The numbers of a layer, with their names.
+///
+/// * `density` – of its filaments [kg/m³]
+/// * `width` – of the sheet [m]
+fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String)> {
+    let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
+    let size = (4.0 * titre / (PI * density)).sqrt();
+    let holes = significant(layer.filaments as f64 / width, 4);
+    let slot =
+        layer.air_at_slot_m_s.map_or_else(String::new, |air| format!(", {} at the slot", shown(air, "m/s")));
+    let cabin = layer.cabin_pressure_pa.map(|cabin| {
+        let cabin = Dimension::Pressure.pretty_to(cabin, 4).replace(' ', &THIN.to_string());
+        ("Cabin pressure", cabin + &slot)
+    });
+    let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
+    let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
+    let rows = [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)];
+    rows.into_iter().chain(cabin).collect()
 }
 
 /// By how much faster a belt is told of [%].
