@@ -9,7 +9,7 @@ use crate::page::methods::methods;
 use crate::page::table::{Row, Table};
 use crate::page::words::{cost, grams, metres, millimetres};
 use crate::products::web::figures::clouds::SEEN;
-use crate::products::web::figures::picture::Pictures;
+use crate::products::web::files::picture::Pictures;
 use crate::products::web::report::below;
 use crate::products::web::report::cards;
 use crate::products::web::report::cards::scale_card;

@@ -244,8 +244,8 @@ pub fn expected_of_web(
     Ok([head, web].into_iter().chain(trials.into_iter().flatten()).collect())
 }
 
-/// Time for figures and report, for a cell that a fibre crosses, and for a change of a web of known numbers [s]; time of
-/// a web and of its changes over that of their flights. From lines of one and of two beams.
+/// Time for figures and report, for a cell that a fibre crosses, and for a change of a web of known numbers [s]; time
+/// of a web and of its changes over that of their flights.
 const FIGURES: f64 = 4.0;
 const LAYING: f64 = 2.5e-8;
 const KNOWN: f64 = 1.2;

@@ -3,7 +3,6 @@
 pub(crate) mod clouds;
 mod curtain;
 pub(crate) mod effects;
-pub(crate) mod picture;
 mod profiles;
 pub(crate) mod unevenness;
 

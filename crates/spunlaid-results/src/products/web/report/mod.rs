@@ -8,7 +8,7 @@ pub(crate) mod scale;
 pub(crate) mod spinlines;
 pub(crate) mod unevenness;
 
-use super::figures::picture::Pictures;
+use super::files::picture::Pictures;
 use super::files::summary::Layer;
 use crate::Failure;
 use crate::effects::PER_CENT;

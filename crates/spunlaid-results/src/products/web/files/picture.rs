@@ -1,9 +1,9 @@
 //! The web as it is seen beside what chance alone makes of it, at one scale and in one set of shades; for a slide with
 //! a scale, the CV and the name of the line.
 
+use super::map::{Shades, grey_png};
 use crate::files::pictures::SOFTWARE;
 use crate::numbers::{HARD, THIN};
-use crate::products::web::files::map::{Shades, grey_png};
 use spunlaid::web::{Map, Web};
 use spunlaid_charts::palette::INK;
 use spunlaid_charts::picture::{Anchor, Text};
