@@ -3,7 +3,7 @@
 // Started by `check`, which says where Chromium and playwright-core are.
 
 import { createRequire } from "node:module";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { parseArgs } from "node:util";
 import { pathToFileURL } from "node:url";
@@ -152,6 +152,20 @@ async function pinch(page, [x, y], from, to) {
   await client.detach();
 }
 
+/** What chance alone makes is drawn as high as the web, and a picture of both can be saved, wider than they are on the page. */
+async function checkSaved(page, where) {
+  const chance = await page.locator("#chance").evaluate((one) => {
+    const { data } = one.getContext("2d").getImageData(0, 0, one.width, one.height);
+    return { colours: new Set(data.filter((_, i) => i % 4 === 0)).size, height: one.clientHeight, table: document.getElementById("table").clientHeight };
+  });
+  expect(chance.colours > 3 && Math.abs(chance.height - chance.table) <= 1, `${where}: no picture of chance beside the web (${JSON.stringify(chance)})`);
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.locator("#save").click()]);
+  const file = readFileSync(await saved.path());
+  const both = await page.locator(".panes").boundingBox();
+  const [width, height] = [file.readUInt32BE(16), file.readUInt32BE(20)];
+  expect(saved.suggestedFilename().endsWith(".png") && width > 2 * both.width && height > both.height, `${where}: the saved picture is ${width} × ${height} px`);
+}
+
 /** The light table is full of web, shows single fibres, can be moved, and goes back to the whole web; its words are those of the web. */
 async function checkTable(page, where, shot) {
   const canvas = page.locator("#table");
@@ -166,6 +180,7 @@ async function checkTable(page, where, shot) {
     expect(await changes(page, () => page.locator(`#${id}`).click()), `${where}: the button ${id} does nothing`);
     await shot(id, false);
   }
+  await checkSaved(page, where);
   const box = await canvas.boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   const drag = async (right, down) => {
@@ -200,9 +215,13 @@ async function checkTable(page, where, shot) {
 async function checkAnswers(page, where) {
   const cards = await page.locator(".card").evaluateAll((all) => all.map((one) => [one.id, one.getBoundingClientRect().top + scrollY]));
   const ids = cards.map(([id]) => id);
-  for (const id of ["web", "scale", "line", "buyer", "measure", "change", "doubt"]) expect(ids.includes(id), `${where}: the answer ${id} is missing`);
+  for (const id of ["web", "scale", "change", "line", "buyer", "measure"]) expect(ids.includes(id), `${where}: the answer ${id} is missing`);
   const below = cards.filter(([, top]) => top > 900).map(([id]) => id);
   expect(innerWidthOf(where) < 1000 || below.length === 0, `${where}: ${below} are below the first screen`);
+  const [change, table] = [await page.locator("#change").boundingBox(), await page.locator("#table").boundingBox()];
+  const isFirst = change.x > table.x + table.width && change.y < 200 && change.y + change.height < 800;
+  expect(innerWidthOf(where) < 1000 || isFirst, `${where}: what to change first does not stand at the top right (${JSON.stringify(change)})`);
+  expect(innerWidthOf(where) < 1000 || table.width >= 500, `${where}: the picture is ${table.width} px wide`);
   const folded = await page.locator("details.fold").evaluateAll((all) => all.map((one) => [one.open, one.querySelector("summary span").textContent]));
   expect(folded.length >= 4 && folded.every(([open]) => !open), `${where}: what is folded is open`);
   expect(folded.every(([, contents]) => contents.trim() !== ""), `${where}: a fold does not say what is in it`);

@@ -37,6 +37,10 @@ function startTable(canvas, image, data) {
   const byId = (id) => document.getElementById(id);
   // Middle of the view [mm] and pixels per mm.
   const view = { x: 0, y: 0, scale: 1 };
+  const chance = byId("chance");
+  // Pixels of the pictures for one of the page while they are saved; else as many as the screen has.
+  let sharpness = 0;
+  const ratio = () => sharpness || devicePixelRatio || 1;
   const size = () => [canvas.clientWidth, canvas.clientHeight];
   /** Scales at which the whole web is in the frame, and at which it fills the frame. */
   const whole = () => Math.min(size()[0] / data.width, size()[1] / data.length);
@@ -175,9 +179,8 @@ function startTable(canvas, image, data) {
 
   function draw() {
     const [width, height] = size();
-    const ratio = devicePixelRatio || 1;
-    [canvas.width, canvas.height] = [width * ratio, height * ratio];
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    [canvas.width, canvas.height] = [width * ratio(), height * ratio()];
+    pen.setTransform(ratio(), 0, 0, ratio(), 0, 0);
     pen.fillStyle = "#e9e5d8";
     pen.fillRect(0, 0, width, height);
     const x = width / 2 - view.x * view.scale;
@@ -187,6 +190,49 @@ function startTable(canvas, image, data) {
     drawFibres();
     drawMarks();
     drawScale();
+    drawChance();
+  }
+
+  /** What chance alone makes, at the same scale; the piece goes on at all of its edges. */
+  function drawChance() {
+    if (!chance) return;
+    const [width, { height }] = [chance.clientWidth, canvas.getBoundingClientRect()];
+    chance.style.height = `${height}px`;
+    [chance.width, chance.height] = [width * ratio(), height * ratio()];
+    const brush = chance.getContext("2d");
+    const pattern = brush.createPattern(byId("tile"), "repeat");
+    const pixel = data.pixel * view.scale;
+    pattern.setTransform(new DOMMatrix([pixel, 0, 0, pixel, -view.x * view.scale, -view.y * view.scale]));
+    brush.setTransform(ratio(), 0, 0, ratio(), 0, 0);
+    brush.fillStyle = pattern;
+    brush.fillRect(0, 0, width, height);
+  }
+
+  /** What is seen, sharp enough for a slide: the pictures with their scale, what they are, and the name of the line. */
+  function save() {
+    const [GAP, HEAD, FOOT] = [24, 90, 66];
+    sharpness = 3;
+    draw();
+    const panes = [canvas, chance].filter((one) => one && one.width > 0);
+    const slide = document.createElement("canvas");
+    slide.width = panes.reduce((sum, one) => sum + one.width + GAP, GAP);
+    slide.height = HEAD + canvas.height + FOOT;
+    const brush = slide.getContext("2d");
+    brush.fillStyle = "#fff";
+    brush.fillRect(0, 0, slide.width, slide.height);
+    brush.fillStyle = "#1a1a1a";
+    const { name } = document.body.dataset;
+    brush.font = "600 48px system-ui, sans-serif";
+    brush.fillText(name, GAP, 62, slide.width - 2 * GAP);
+    brush.font = "36px system-ui, sans-serif";
+    panes.reduce((left, one) => {
+      brush.drawImage(one, left, HEAD);
+      brush.fillText(one.parentElement.querySelector("p").textContent, left, slide.height - 22, one.width);
+      return left + one.width + GAP;
+    }, GAP);
+    slide.toBlob((blob) => download(`${name || "web"}.png`, blob));
+    sharpness = 0;
+    draw();
   }
 
   const within = (scale) => Math.min(Math.max(scale, whole()), 2000);
@@ -217,6 +263,7 @@ function startTable(canvas, image, data) {
   byId("closer").addEventListener("click", () => zoom(1.6));
   byId("farther").addEventListener("click", () => zoom(1 / 1.6));
   byId("whole").addEventListener("click", showWhole);
+  byId("save").addEventListener("click", save);
   byId("fibres")?.addEventListener("click", fibres);
   canvas.addEventListener("wheel", (e) => {
     e.preventDefault();
@@ -260,7 +307,8 @@ function startTable(canvas, image, data) {
     offerThinnest();
     image.hidden = true;
     canvas.hidden = byId("moves").hidden = false;
-    show(data.width / 2, data.length / 2, full());
+    if (chance) byId("beside").hidden = false;
+    show(data.width / 2, data.length / 2, Math.max(full(), Math.max(...size()) / data.piece));
     // A frame of another width shows the same part of the web.
     let before = size()[0];
     new ResizeObserver(() => {
@@ -269,8 +317,7 @@ function startTable(canvas, image, data) {
       before = now || before;
     }).observe(canvas);
   };
-  if (image.complete) start();
-  else image.addEventListener("load", start);
+  Promise.all([image.decode(), byId("tile")?.decode()]).then(start, start);
 }
 
 {

@@ -132,6 +132,9 @@ fn analytic_check_tells_the_numbers_of_a_web() {
         "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
         "#   nothing is flown: the spread and the noise are given\n",
         "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
+        "# expected, on ",
+        "\n#   the web: about ",
+        "\n#   advice, ",
         "# ready: spunlaid web web.toml\n",
         "basis_weight = \"0.02 kg/m²\"\n",
     ] {
@@ -174,6 +177,8 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows \
         from them (web.flown)\n",
         "#   the field takes ",
+        "\n#   the web: about ",
+        "\n#   advice, ",
         "--set line.depth=\"20 mm\"\n",
         "#   What the filaments do to their air can be found with the size of the slot: line.depth",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",

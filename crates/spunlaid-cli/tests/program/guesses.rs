@@ -55,6 +55,7 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
     assert_eq!(failed.len(), 1, "{failed:?}");
     let why = failed[0]["why"].as_str().unwrap();
     assert!(why.contains("would tear the fibre"), "{why}");
+    let error = 100.0 * cv_over_10_mm(&summary["web"]["patches"], "cv_standard_error");
     let [from, to] = ["cv_from", "cv_to"].map(|end| (100.0 * cv_over_10_mm(ranges, end)).round());
     let patch = &summary["web"]["patches"].as_array().unwrap()[1];
     assert_eq!(
@@ -65,8 +66,14 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
     for text in [said, report] {
         let text = text.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ");
         for part in [
-            // The headline says both.
-            &format!("each other; {from} to {to} % with the assumed values halved or doubled"),
+            // The headline says both, and no basis weight, which is an input.
+            &format!(
+                "The weight varies by at least {:.1} % over 10 mm: ± {error:.1} by chance",
+                100.0 * of_web
+            ),
+            &format!(
+                " by chance, {from} to {to} % with what was assumed; the filaments are independent of each"
+            ),
             "Guesses, of which the error knows nothing",
             &format!("the CV over patches of 10 mm lies between {from} and {to} %"),
             "Filaments per metre: 1000",

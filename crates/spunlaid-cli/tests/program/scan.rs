@@ -66,7 +66,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     scan(&desk, "scan.png", 200, &laid);
     let command = "analyse scan.png --pixel 0.5mm --white 60000 --keep-shading --patches 2mm,4mm,10mm";
     let said = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out scan")));
-    assert!(said.contains("A web of 18 g/m²") && said.contains("95 % interval"), "{said}");
+    assert!(said.contains("along the web, of 18 g/m².") && said.contains("95 % interval"), "{said}");
     assert!(said.contains("open scan/report.html"), "{said}");
     assert_eq!(
         desk.entries("scan"),
@@ -99,7 +99,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(far < 1e-3, "{far}");
     let page = String::from_utf8(desk.read("scan/report.html")).unwrap();
     for part in [
-        "A web of 18",
+        "along the web, of 18",
         "spunlaid analyse · scan",
         "The scan",
         "Lost by one more pixel of blur",
@@ -174,10 +174,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
     let headline = told.lines().next().unwrap();
     assert!(headline.ends_with(" mm: the level of the lamp is a guess."), "{headline}");
-    assert!(
-        headline.starts_with("A web of 18 g/m² that varies by at least ") && !headline.contains('±'),
-        "{headline}"
-    );
+    assert!(headline.starts_with("The weight varies by at least ") && !headline.contains('±'), "{headline}");
     let notes = desk.summary("guessed")["notes"].to_string();
     assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
@@ -242,7 +239,10 @@ fn a_table_without_names_asks_what_it_is() {
     );
     // No camera has blurred a map.
     let said = success(&mut desk.spunlaid("analyse gauge.csv --pixel 1mm --weight 16gsm --patches 1mm"));
-    assert!(said.starts_with("A web of 16 g/m² that varies by ") && !said.contains("blur"), "{said}");
+    assert!(
+        said.starts_with("The weight varies by ") && said.contains("of 16 g/m²") && !said.contains("blur"),
+        "{said}"
+    );
     assert!(desk.summary("results/gauge")["web"]["patches"][0].get("blur_of_a_pixel").is_none());
     // Who says which column is the velocity has a record.
     let said = refusal(&mut desk.spunlaid("analyse gauge.csv --columns 2 --out other"), 1);

@@ -203,3 +203,56 @@ fn identical_web_and_filament_of_one_file_and_of_two() {
     let said = success(&mut desk.spunlaid("check one.toml"));
     assert!(said.contains("#   one.toml: its eddies lie in space"), "{said}");
 }
+
+/// The text of a part of a page from one heading to another, as one reads it.
+fn read_between(page: &str, from: &str, to: &str) -> String {
+    let part =
+        page.split(&format!(">{from}</h2>")).nth(1).unwrap().split(&format!(">{to}</h2>")).next().unwrap();
+    let words = part.split('<').map(|piece| piece.split_once('>').map_or("", |(_, words)| words));
+    let words: Vec<&str> = words.flat_map(str::split_whitespace).collect();
+    words.join(" ").replace(['\u{202f}', '\u{a0}'], " ")
+}
+
+/// Equal beams are told of once, and a change says what becomes of titre, mass and belt, as `summary.json` does. The
+/// picture for a slide has the web and what chance makes of it.
+#[test]
+fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
+    let desk = desk();
+    let [head, first] = BEAMS.split_once("[[layer]]").map(|(head, rest)| [head, rest]).unwrap();
+    let [beam, _] = first.split_once("[[layer]]").map(|(beam, rest)| [beam, rest]).unwrap();
+    let web = BEAMS.split_once("[web]").unwrap().1;
+    let equal = format!("{head}[[layer]]{beam}[[layer]]{}[web]{web}", beam.replace("S1", "S2"));
+    for (file, text) in [("equal.toml", equal.as_str()), ("beams.toml", BEAMS)] {
+        fs::write(desk.path(file), text).unwrap();
+    }
+    success(&mut desk.spunlaid("web equal.toml --out w --advice --quiet"));
+    success(&mut desk.spunlaid("web beams.toml --out other --no-advice --quiet"));
+    let page = |folder: &str| String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
+    let [line, other] =
+        ["w", "other"].map(|folder| read_between(&page(folder), "The line", "What a buyer counts"));
+    assert!(line.contains("Beams 2, alike") && !line.contains("of layer"), "{line}");
+    assert_eq!(line.matches("Holes per metre").count(), 1, "{line}");
+    assert!(other.contains("Filament of layer S1") && other.contains("Filament of layer S2"), "{other}");
+
+    let change = read_between(&page("w"), "Change first", "The line");
+    // `20 % more holes, 500 to 600 −6 ± 1 % Copy 2.3 dtex, 120 to 144 kg/h per metre, belt 300 to 360 m/min`: the last
+    // number before each unit is that of the changed web.
+    let first = change.split_once("m/min").unwrap().0;
+    let last = |unit: &str| -> f64 {
+        let before = first.rsplit_once(unit).map_or(first, |(before, _)| before);
+        before.split_whitespace().last().unwrap().parse().unwrap()
+    };
+    let told = [last("dtex") * 1e-7, last("kg/h"), last("no other unit") / 60.0];
+    let summary = desk.summary("w");
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let is_told = |one: &&serde_json::Value| {
+        let of_change =
+            [&one["linear_density_kg_m"][0], &one["throughput_kg_h_m"], &one["belt_speed_m_s"]].map(number);
+        told.iter().zip(of_change).all(|(told, number)| (told / number - 1.0).abs() < 1e-3)
+    };
+    assert!(summary["advice"]["changes"].as_array().unwrap().iter().any(|one| is_told(&one)), "{change}");
+    let picture = desk.read("w/figures/web_picture.png");
+    let side = |at: usize| u32::from_be_bytes(picture[at..at + 4].try_into().unwrap());
+    // 200 mm × 300 mm in pixels of 1 mm, three times as large, with a third of that beside it.
+    assert_eq!((side(16), side(20)), (3 * (200 + 67) + 3 * 24, 3 * 300 + 84 + 64));
+}

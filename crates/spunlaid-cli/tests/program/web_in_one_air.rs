@@ -62,6 +62,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
+    assert!(!page.contains("Cabin pressure") && summary["layers"][0].get("cabin_pressure_pa").is_none());
     assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
     assert!(page.contains("Correlation of neighbours"), "no figure of neighbours");
     let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
@@ -162,8 +163,10 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
 /// Twelve filaments 25 mm apart know nothing of the 900 for which they stand. Such a web was said to vary by 0 %.
 #[test]
 fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
-    let desk =
-        Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
+    let desk = Desk::with_case(
+        &FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\"")
+            .replace("velocity = \"45 m/s\"", "cabin_pressure = \"1.5 kPa\""),
+    );
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
         "filaments_per_metre = 3000\ndepth = \"10 mm\"\n[web]\nwidth = \"0.3 m\"\nlength = \"40 mm\"\n\
@@ -171,15 +174,20 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
-    let untold = "How uneven it is, is not known: too few filaments were flown.";
+    let untold = "How uneven the web is, is not known: too few filaments were flown.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
     let remedy = "Leave web.flown out: then as many fly as it takes, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
         assert!(text.contains(untold) && text.contains(remedy), "{text}");
-        assert!(!text.contains("that varies by") && !text.contains("times less"), "{text}");
+        assert!(!text.contains("The weight varies by") && !text.contains("times less"), "{text}");
     }
     let summary = desk.summary("w");
+    let layer = &summary["layers"][0];
+    let slot = format!("{:.1}", layer["air_at_slot_m_s"].as_f64().unwrap());
+    assert_eq!(layer["cabin_pressure_pa"], 1500.0);
+    let told = format!("1.5\u{202f}kPa, {slot}\u{202f}m/s at the slot");
+    assert!(page.contains("Cabin pressure") && page.contains(&told), "no {told}");
     for patch in summary["web"]["patches"].as_array().unwrap() {
         assert!(patch.get("cv").is_some_and(serde_json::Value::is_null), "{patch}");
         assert_eq!(patch["no_interval"], "too few filaments were flown");

@@ -98,6 +98,12 @@ impl<'a> Report<'a> {
         self.sections.iter().filter(|section| section.seen != Seen::Terminal)
     }
 
+    /// The columns of the first screen.
+    fn columns(&self) -> Vec<Vec<&Section<'a>>> {
+        let columns = [Shape::Picture, Shape::Card].map(|shape| self.shaped(shape));
+        columns.into_iter().filter(|column| !column.is_empty()).collect()
+    }
+
     /// Those of them that stand there in a way.
     fn shaped(&self, shape: Shape) -> Vec<&Section<'a>> {
         self.on_page().filter(|section| section.shape == shape).collect()
@@ -130,10 +136,11 @@ pub(crate) struct Section<'a> {
     pub(crate) parts: Vec<Part<'a>>,
 }
 
-/// How a section stands on its page: an answer beside others on the first screen, open below these, or folded, with
-/// what is in it.
+/// How a section stands on its page: a picture on the first screen, an answer beside it, open below these, or folded,
+/// with what is in it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 enum Shape {
+    Picture,
     Card,
     Open,
     Folded,
@@ -218,10 +225,15 @@ impl<'a> Section<'a> {
 
     /// Not folded.
     pub(crate) fn open(self) -> Self {
-        Self { shape: if self.shape == Shape::Card { Shape::Card } else { Shape::Open }, ..self }
+        Self { shape: if self.shape == Shape::Folded { Shape::Open } else { self.shape }, ..self }
     }
 
-    /// On the first screen, beside others.
+    /// On the first screen, at its left.
+    pub(crate) fn picture(self) -> Self {
+        Self { shape: Shape::Picture, ..self }
+    }
+
+    /// On the first screen, beside its picture.
     pub(crate) fn card(self) -> Self {
         Self { shape: Shape::Card, ..self }
     }

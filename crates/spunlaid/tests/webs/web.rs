@@ -45,10 +45,11 @@ fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
     let fibres = Fibres::Surrogate(Surrogate { sigma_md: 1.0, sigma_cd: 1.0, noise: 0.1 });
     let straight = Layer { feed_speed: 1.0, belt_speed: 0.1, ..layer(fibres, 4000.0) };
     let web = Web { sheet: Sheet::new(1.0, 1.0, 1e-3), layers: vec![straight], seed: 7 };
-    let map = laid(&web).map;
+    let thrown = web.at_random([400, 600], 1e-3).expect("a piece");
+    close(thrown.basis_weight(), web.basis_weight(), 1e-3);
     let tau = web.basis_weight() / LINEAR_DENSITY;
-    for side in [1, 2, 5, 10] {
-        let found = unevenness(&map, side).expect("an unevenness");
+    for (map, side) in [laid(&web).map, thrown].iter().flat_map(|map| [1, 2, 5, 10].map(|side| (map, side))) {
+        let found = unevenness(map, side).expect("an unevenness");
         let law = straight_fibres(tau, found.patch);
         let error = found.standard_error.expect("an error");
         assert!((found.cv - law).abs() < 4.0 * error, "{found:?} where {law} is wanted");

@@ -4,10 +4,10 @@ use super::{looked_at, show};
 use crate::args::{Check, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::input::{read_spinline, read_web, write_case, write_spinline};
+use spunlaid::input::{Changes, read_changes, read_spinline, read_web, write_case, write_spinline};
 use spunlaid_results::products::run::about_case;
 use spunlaid_results::products::spinline::{SpinResults, spinline_text};
-use spunlaid_results::products::web::about_web;
+use spunlaid_results::products::web::{about_web, expected_of_web};
 use std::time::Instant;
 
 /// Checks a case.
@@ -36,6 +36,10 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     let set = overrides(&check.source.set);
     let file = looked_at(|resources| read_web(&check.source.case, set.with(resources)))?;
     file.notes.iter().for_each(say::note);
-    show("web", (&file.text, &file.notes), &about_web(&file.spec), "web", &check.source);
+    let changes = [Changes::OfGuesses, Changes::OfLine]
+        .map(|which| looked_at(|resources| read_changes(&check.source.case, set.with(resources), which)));
+    let [guesses, of_line] = changes;
+    let expected = expected_of_web(&file.spec, Threads::default().number(), [&guesses?, &of_line?])?;
+    show("web", (&file.text, &file.notes), &[about_web(&file.spec), expected].concat(), "web", &check.source);
     Ok(())
 }

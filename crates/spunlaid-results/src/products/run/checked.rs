@@ -296,7 +296,7 @@ fn positions(case: &Case) -> f64 {
 }
 
 /// An expected time in words.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".to_owned(),
         s if s < 120.0 => format!("about {s:.0} s"),

@@ -1,6 +1,6 @@
 //! A case that was flown.
 
-mod checked;
+pub(crate) mod checked;
 mod doubt;
 pub(crate) mod figures;
 mod finer;

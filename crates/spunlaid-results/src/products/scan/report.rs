@@ -9,6 +9,8 @@ use crate::page::methods::methods;
 use crate::page::table::{Row, Table};
 use crate::page::words::{cost, grams, metres, millimetres};
 use crate::products::web::figures::clouds::SEEN;
+use crate::products::web::files::picture::Pictures;
+use crate::products::web::report::below;
 use crate::products::web::report::cards;
 use crate::products::web::report::cards::scale_card;
 use crate::products::web::report::fabric::fabric_section;
@@ -36,16 +38,25 @@ pub fn scan_report<'a>(
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
-    let sheet = sheet(&with_spots(findings), None, Some(MarkedPlaces::new(fabric)))?;
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let judged = seen.map(|i| judged(findings, &findings.patches[i]));
+    let map = with_spots(findings);
+    let pictures = Pictures::new(&map, None, below(judged));
+    let sheet = sheet(&map, &pictures, None, Some(MarkedPlaces::new(fabric)))?;
     let headline = title(findings);
     let summary = format!(
-        "A scan of {} across and {} along the web.",
+        "A scan of {} across and {} along the web{}.",
         metres(findings.map.columns as f64 * findings.map.cell),
-        metres(findings.map.rows as f64 * findings.map.cell)
+        metres(findings.map.rows as f64 * findings.map.cell),
+        if findings.mean_known {
+            format!(", of {}", grams(findings.map.basis_weight()))
+        } else {
+            String::new()
+        }
     );
     let facts = facts(file, findings);
     let spots = if findings.aside.spots.is_empty() { "" } else { " Black spots were left out." };
-    let caption = picture_note(sheet.pixel) + spots + &marks_note(fabric);
+    let caption = picture_note(&sheet) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; one row of the web after \
         the other), all numbers in summary.json, beside this page.",
@@ -53,9 +64,7 @@ pub fn scan_report<'a>(
     let web = Section::new("web", "The web on a light table")
         .view(sheet.view())
         .with(Part::reading(caption))
-        .card();
-    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
-    let judged = seen.map(|i| judged(findings, &findings.patches[i]));
+        .picture();
     let scale = judged.map(|judged| scale_card(&findings.map, judged)).transpose()?;
     Ok(Report::new("analyse", headline)
         .lead(summary)
@@ -80,24 +89,17 @@ fn judged(findings: &Findings, PatchFindings { unevenness, interval, .. }: &Patc
 fn title(findings: &Findings) -> String {
     let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
     let patch = nearest_patch.map(|i| &findings.patches[i].unevenness);
-    let weight = findings.mean_known.then(|| findings.map.basis_weight());
     let (Some(guess), Some(patch)) = (findings.guess, patch) else {
-        return headline(weight.map(|weight| (weight, None)), patch, false);
+        return headline(patch, false, None);
     };
-    let web = weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams(weight)));
+    let varies = |by: &str| {
+        format!("The weight varies by {by} {} over {}: {guess}.", rough(patch), millimetres(patch.patch))
+    };
     match guess {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
-        Doubt::White => format!(
-            "{web} that varies by at least {} over patches of {}: {guess}.",
-            rough(patch),
-            millimetres(patch.patch)
-        ),
-        Doubt::Shading => format!(
-            "{web} that varies by about {} over patches of {}: {guess}.",
-            rough(patch),
-            millimetres(patch.patch)
-        ),
-        _ => format!("{web} whose unevenness is not known: {guess}."),
+        Doubt::White => varies("at least"),
+        Doubt::Shading => varies("about"),
+        _ => format!("How uneven the web is, is not known: {guess}."),
     }
 }
 

@@ -2,13 +2,17 @@
 
 use crate::numbers::{THIN, signed, significant};
 use crate::products::load::{load_of, load_words};
+use crate::products::run::checked::duration;
 use crate::products::spinline::files::SpinResults;
 use spunlaid::air::{Air, Axis, Cabin, PlacedField};
+use spunlaid::experiment::Change;
+use spunlaid::experiment::advice::{are_short, steps};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
-use spunlaid::ground::Dimension;
 use spunlaid::ground::error::counted;
+use spunlaid::ground::{Dimension, Error, Isa, WIDTH};
 use spunlaid::input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
 use spunlaid::simulation::PlannedFlight;
+use spunlaid::simulation::ensemble::pace;
 use spunlaid::web::map::Filaments;
 use spunlaid_charts::label::plain;
 
@@ -251,6 +255,55 @@ fn load(spec: &WebSpec) -> Vec<String> {
     }
     if lines.len() > 1 { lines } else { Vec::new() }
 }
+
+/// What the web, other values of its guesses and changes of its line are expected to take, in lines.
+///
+/// * `threads` – on which they would fly
+/// * `changes` – the values and the changes
+///
+/// # Errors
+/// If a case cannot be flown.
+pub fn expected_of_web(
+    spec: &WebSpec,
+    threads: usize,
+    [guesses, of_line]: [&[Change]; 2],
+) -> Result<Vec<String>, Error> {
+    let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
+    let mut each = Vec::new();
+    for case in spec.layers.iter().filter_map(|layer| layer.source.case()) {
+        // A thread flies eight filaments at once.
+        each.push(pace(case, Isa::detect())? / (WIDTH as f64 * abreast));
+    }
+    let flying = flights.iter().zip(&each).map(|(flight, each)| flight.steps as f64 * each).sum::<f64>();
+    let laid = |layer: &LayerSpec| {
+        layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.feed_speed / layer.belt_speed
+    };
+    let cells = spec.layers.iter().map(laid).sum::<f64>() / spec.sheet.cell;
+    let web = format!("  the web: {}", duration(FIGURES + FINDING * flying + LAYING * cells / abreast));
+    let each = each.iter().sum::<f64>() / each.len().max(1) as f64;
+    let trial = |changes: &[Change], noun: &str, words: &str| {
+        let seconds = match spec.flies() {
+            true => TRIAL * steps(spec, changes) as f64 * each,
+            false => KNOWN * changes.len() as f64 / abreast,
+        };
+        let is_few = flights.iter().all(|flight| flight.is_few);
+        let asked = if is_few && are_short(spec, changes) { "" } else { "; only with --advice" };
+        let count = counted(changes.len() as u64, noun);
+        (!changes.is_empty()).then(|| format!("  {words}, {count}: {}{asked}", duration(seconds)))
+    };
+    let trials =
+        [trial(guesses, "other value", "assumptions (web.guessed)"), trial(of_line, "change", "advice")];
+    let head = format!("expected, on {}", counted(threads as u64, "thread"));
+    Ok([head, web].into_iter().chain(trials.into_iter().flatten()).collect())
+}
+
+/// Time for figures and report, for a cell that a fibre crosses, and for a change of a web of known numbers [s]; time
+/// of a web and of its changes over that of their flights.
+const FIGURES: f64 = 4.0;
+const LAYING: f64 = 2.5e-8;
+const KNOWN: f64 = 1.2;
+const FINDING: f64 = 1.25;
+const TRIAL: f64 = 1.4;
 
 /// Which numbers are guesses, and what is done about them.
 fn guesses(spec: &WebSpec) -> Vec<String> {

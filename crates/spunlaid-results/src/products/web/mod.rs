@@ -5,9 +5,10 @@ pub(crate) mod figures;
 pub(crate) mod files;
 pub(crate) mod report;
 
-pub use checked::{about_web, numbers_of_line};
+pub use checked::{about_web, expected_of_web, numbers_of_line};
 
 use crate::Failure;
+use crate::failure::undrawable;
 use crate::files::folder::{CASE_FILES, Staging};
 use crate::files::kept_input::Input;
 use crate::files::origin::{ORIGIN, Performance};
@@ -20,6 +21,7 @@ use crate::products::spinline::figures::{SPINLINE, spinline_figures};
 use crate::products::spinline::files::{STATIONS, SpinResults, part_of_case, write_stations};
 use figures::effects::effects_figure;
 use figures::web_figures;
+use files::picture::Pictures;
 use files::summary::Layer;
 use report::effects::Advised;
 use report::spinlines::LayerSpinline;
@@ -141,6 +143,8 @@ impl Contents for WebFolder {
         let spinlines = spinlines(spec);
         let of_spinlines = spinlines.iter().flat_map(|spinline| &spinline.figures);
         let all: Vec<&Figure> = figures.iter().chain(of_spinlines).collect();
+        let pictures =
+            Pictures::new(&findings.laid.map, Some(web), report::below(findings.seen().map(Into::into)));
         let files = |staging: &Staging<'_>| {
             let first = |spinline: &LayerSpinline| spinline.layers.first().map_or(1, |layer| layer + 1);
             let threads = spinlines.iter().map(|spinline| (first(spinline), &spinline.results.rows[..]));
@@ -149,6 +153,8 @@ impl Contents for WebFolder {
                 write_stations(staging, &threads)?;
             }
             paraview::write_strands(staging, &strands)?;
+            let slide = pictures.slide(&self.name).map_err(|reason| undrawable("web_picture", &reason))?;
+            staging.write("figures/web_picture.png", slide)?;
             files::map::write(staging, &findings.laid.map)
         };
         let report = || {
@@ -157,7 +163,7 @@ impl Contents for WebFolder {
                 (findings, &self.fabric),
                 Advised { advice, guesses, awaited: self.awaited, beside: &self.beside },
                 (&rows(spec, web), &spinlines),
-                &strands,
+                (&pictures, &strands),
                 &figures,
                 self.performance,
             )
@@ -177,6 +183,8 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
             feed_speed_m_s: drawn.feed_speed,
             belt_speed_m_s: drawn.belt_speed,
             filaments: drawn.count(&web.sheet),
+            cabin_pressure_pa: layer.source.case().and_then(|case| case.air.cabin_pressure),
+            air_at_slot_m_s: layer.source.case().and_then(|case| case.air.velocity_at_slot()),
             basis_weight_kg_m2: drawn.basis_weight(&web.sheet),
             sigma_md_m: surrogate.map(|drawn| drawn.sigma_md),
             sigma_cd_m: surrogate.map(|drawn| drawn.sigma_cd),

@@ -77,9 +77,14 @@ pub const MOST_STEPS: u64 = 20_000_000;
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
     let is_told = findings.seen().is_none_or(|seen| seen.doubt.is_none());
     let says_enough = is_told && findings.laid.flown.iter().all(|layer| layer.few.is_some());
+    says_enough && are_short(spec, changes)
+}
+
+/// Whether changes are tried without being asked if a few filaments tell the web.
+pub fn are_short(spec: &WebSpec, changes: &[Change]) -> bool {
     let are_guesses = changes.iter().any(is_guess);
     let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
-    says_enough && steps(spec, changes) <= MOST_STEPS && fits()
+    steps(spec, changes) <= MOST_STEPS && fits()
 }
 
 fn is_same(patch: f64, side: f64) -> bool {

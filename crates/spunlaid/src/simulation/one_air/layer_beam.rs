@@ -330,6 +330,8 @@ pub struct PlannedFlight {
     pub filaments: u64,
     /// Whether they stand for others that are not flown.
     pub is_few: bool,
+    /// Steps of all of them, about.
+    pub steps: u64,
     /// Size of the sheet that they lay, across and along [m].
     pub sheet: [f64; 2],
     /// Memory that the field of eddies takes [B].
@@ -343,6 +345,7 @@ impl WebSpec {
         let plan = layers.map(|layer| PlannedFlight {
             filaments: layer.places.len() as u64,
             is_few: layer.few.is_some(),
+            steps: layer.beam().steps(&layer.sheet),
             sheet: [layer.sheet.width, layer.sheet.length],
             memory: layer.beam().memory_of_air(&layer.sheet),
         });

@@ -16,6 +16,7 @@
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
+mod at_random;
 mod basis_weight;
 mod canvas;
 mod clouds;

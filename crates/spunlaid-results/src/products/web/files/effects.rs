@@ -6,6 +6,7 @@ use crate::files::measured::{joined, known};
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::{Advice, Change, ChangedWeb, Tried};
 use spunlaid::ground::{ChangedKey, Effect};
+use spunlaid::simulation::LayerSpec;
 use spunlaid::web::map::Findings;
 
 /// Seconds of an hour.
@@ -89,7 +90,7 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_gues
     };
     let changed_web = |tried: &Tried| {
         let Tried { change, effects, at_first } = tried;
-        let ChangedWeb { set, belt_speed, mass_flow, .. } = &change.experiment;
+        let ChangedWeb { set, spec, belt_speed, mass_flow, .. } = &change.experiment;
         let guess = keys(change).into_iter().next().filter(|_| are_guesses).unwrap_or_default();
         let layer = alone(change);
         let mut told = json!({
@@ -104,6 +105,8 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_gues
             "belt_speed_m_s": belt_speed[1],
             "belt_speed_change": belt_speed[1] / belt_speed[0] - 1.0,
             "throughput_kg_h_m": HOUR * mass_flow[1],
+            // Of a filament of each layer.
+            "linear_density_kg_m": spec.layers.iter().map(LayerSpec::linear_density).collect::<Json>(),
             "throughput_change": mass_flow[1] / mass_flow[0] - 1.0,
         });
         if layer.is_none() && !change.layers.is_empty() {

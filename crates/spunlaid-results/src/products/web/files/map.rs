@@ -75,33 +75,63 @@ fn picture(map: &Map) -> Result<Vec<u8>, String> {
     png([map.columns, map.rows], png::BitDepth::Sixteen, &levels, &words, Some(per_metre))
 }
 
-/// The web as on a light table, in at most so many pixels: 8-bit grey, and the sides of a pixel [cells].
-pub fn light_table(map: &Map, most: usize) -> Result<(Vec<u8>, usize), String> {
-    let each = (map.cells.len() as f64 / most as f64).sqrt().ceil() as usize;
-    let each = each.max(map.columns.max(map.rows).div_ceil(LONGEST_SIDE)).clamp(1, map.columns.min(map.rows));
-    let (sides, sums) = map.squares(each);
-    let count = sums.len() as f64;
-    let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;
-    let variance = sums.iter().map(|sum| (*sum as f64 - mean).powi(2)).sum::<f64>() / count;
-    let deviation = variance.sqrt().max(1e-9 * mean).max(f64::MIN_POSITIVE);
-    let levels: Vec<u8> = sums.into_iter().map(|sum| grey((sum as f64 - mean) / deviation)).collect();
-    png(sides, png::BitDepth::Eight, &levels, &[], None).map(|png| (png, each))
+/// A web as on a light table: shades of grey.
+#[derive(Clone, Debug)]
+pub(crate) struct Shades {
+    /// Columns and rows of pixels.
+    pub(crate) size: [usize; 2],
+    /// A row after the other.
+    pub(crate) levels: Vec<u8>,
+    /// Side of a pixel [m].
+    pub(crate) pixel: f64,
+    /// Standard deviation of the basis weight over its mean that the shades stand for.
+    pub(crate) deviation: f64,
+}
+
+impl Shades {
+    /// The web in at most so many pixels, in shades that suit it.
+    pub(crate) fn new(map: &Map, most: usize) -> Self {
+        let each = (map.cells.len() as f64 / most as f64).sqrt().ceil() as usize;
+        let each =
+            each.max(map.columns.max(map.rows).div_ceil(LONGEST_SIDE)).clamp(1, map.columns.min(map.rows));
+        let (size, sums) = map.squares(each);
+        let count = sums.len() as f64;
+        let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;
+        let variance = sums.iter().map(|sum| (*sum as f64 - mean).powi(2)).sum::<f64>() / count;
+        let deviation = variance.sqrt().max(1e-9 * mean).max(f64::MIN_POSITIVE);
+        let levels = sums.into_iter().map(|sum| grey((sum as f64 - mean) / deviation)).collect();
+        Self { size, levels, pixel: each as f64 * map.cell, deviation: deviation / mean }
+    }
+
+    /// A pixel for each cell, in given shades.
+    pub(crate) fn of(map: &Map, deviation: f64) -> Self {
+        let mean = map.total() as f64 / map.cells.len() as f64;
+        let level = |quanta: &u32| grey((f64::from(*quanta) / mean - 1.0) / deviation);
+        let levels = map.cells.iter().map(level).collect();
+        Self { size: [map.columns, map.rows], levels, pixel: map.cell, deviation }
+    }
+
+    pub(crate) fn png(&self) -> Result<Vec<u8>, String> {
+        let per_metre = (1.0 / self.pixel).round() as u32;
+        png(self.size, png::BitDepth::Eight, &self.levels, &[], Some(per_metre))
+    }
 }
 
 /// The map as on a light table, a pixel for each cell.
 ///
 /// * `deviation` – standard deviation of the basis weight over its mean that the shades stand for
 pub(crate) fn light_table_of(map: &Map, deviation: f64) -> Result<Vec<u8>, String> {
-    let mean = map.total() as f64 / map.cells.len() as f64;
-    let level = |quanta: &u32| grey((f64::from(*quanta) / mean - 1.0) / deviation);
-    let levels: Vec<u8> = map.cells.iter().map(level).collect();
-    let per_metre = (1.0 / map.cell).round() as u32;
-    png([map.columns, map.rows], png::BitDepth::Eight, &levels, &[], Some(per_metre))
+    Shades::of(map, deviation).png()
 }
 
 /// The shade of a place so many standard deviations heavier than the mean: three either way are black and white.
 fn grey(deviations: f64) -> u8 {
     (128.0 - 42.0 * deviations).round().clamp(0.0, 255.0) as u8
+}
+
+/// A picture of 8-bit greys, with what the file says of itself.
+pub(crate) fn grey_png(size: [usize; 2], levels: &[u8], words: &[(&str, String)]) -> Result<Vec<u8>, String> {
+    png(size, png::BitDepth::Eight, levels, words, None)
 }
 
 /// A grey picture.

@@ -3,6 +3,7 @@
 pub(crate) mod effects;
 pub(crate) mod fabric;
 pub(crate) mod map;
+pub(crate) mod picture;
 pub(crate) mod pieces;
 pub(crate) mod sheet;
 pub(crate) mod summary;

@@ -32,6 +32,12 @@ pub struct Layer {
     pub belt_speed_m_s: f64,
     /// Number of filaments.
     pub filaments: u64,
+    /// Pressure of the cabin above that under the belt, if it gives the speed of the air [Pa].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cabin_pressure_pa: Option<f64>,
+    /// Speed of the air at the slot, where a case says it [m/s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub air_at_slot_m_s: Option<f64>,
     /// Basis weight [kg/m²].
     pub basis_weight_kg_m2: f64,
     /// Of the surrogate, if the filaments were laid by one.

@@ -11,6 +11,7 @@ use crate::products::web::files::effects::HOUR;
 use crate::products::web::files::fabric::fabric_rows;
 use crate::products::web::files::summary::Layer;
 use spunlaid::experiment::plausible::implausible;
+use spunlaid::ground::Dimension;
 use spunlaid::simulation::{LayerSpec, WebSpec};
 use spunlaid::web::map::Findings;
 use spunlaid::web::{Fabric, Map};
@@ -22,26 +23,25 @@ pub(crate) struct Card {
     pub(crate) id: &'static str,
     pub(crate) title: &'static str,
     pub(crate) rows: Vec<Row>,
+    /// Rows under a heading of their own; without rows, there is no heading.
+    pub(crate) apart: (&'static str, Vec<Row>),
     pub(crate) words: Vec<String>,
 }
 
 impl From<Card> for Section<'static> {
-    fn from(Card { id, title, rows, words }: Card) -> Self {
+    fn from(Card { id, title, rows, apart: (heading, apart), words }: Card) -> Self {
         let table = Table::new(["", ""]).laid_out(Layout::Facts).rows(rows);
+        let table = if apart.is_empty() { table } else { table.group(heading.to_owned(), apart) };
         Section::new(id, title).table(table).paragraphs(words).told().card()
     }
 }
 
-/// Most layers whose filaments have rows of their own.
+/// Most kinds of layers whose filaments have rows of their own.
 const MOST_LAYERS: usize = 3;
 
 /// The line itself, and whether it is one.
 pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
     let row = |name: &str, value: String| Row::new(name, [value]);
-    let speed = |speed: f64| {
-        format!("{}{THIN}m/min ({}{THIN}m/s)", significant(60.0 * speed, 4), significant(speed, 3))
-    };
-    let shown = |value: f64, unit: &str| format!("{}{THIN}{unit}", significant(value, 3));
     let belt = layers.first().map_or(f64::NAN, |layer| layer.belt_speed_m_s);
     let made = spec.mass_flow() / belt;
     let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
@@ -51,30 +51,55 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
         row("Belt", speed(belt)),
         row("Basis weight", grams(made)).detail(piece),
     ];
-    for (layer, LayerSpec { density, .. }) in layers.iter().zip(&spec.layers).take(MOST_LAYERS) {
-        let of = if layers.len() > 1 { format!(" of layer {}", layer.name) } else { String::new() };
-        let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
-        let size = (4.0 * titre / (PI * density)).sqrt();
-        let holes = significant(layer.filaments as f64 / spec.sheet.width, 4);
-        rows.extend([
-            row(
-                &format!("Filament{of}"),
-                format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm")),
-            ),
-            row(&format!("Spinning speed{of}"), speed(feed)),
-            row(
-                &format!("Holes per metre{of}"),
-                format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min")),
-            ),
-        ]);
+    let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
+    let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
+    // Equal layers are told of once.
+    let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
+    let is_one_kind = kinds.clone().count() == 1;
+    if is_one_kind && all.len() > 1 {
+        rows.push(row("Beams", format!("{}, alike", all.len())));
+    }
+    for kind in kinds.take(MOST_LAYERS).map(|i| &all[i]) {
+        let alike = layers.iter().zip(&all).filter(|(_, other)| *other == kind);
+        let names: Vec<&str> = alike.map(|(layer, _)| layer.name.as_str()).collect();
+        let of = if is_one_kind { String::new() } else { format!(" of layer {}", names.join(", ")) };
+        rows.extend(kind.iter().map(|(name, value)| row(&format!("{name}{of}"), value.clone())));
     }
     let doubts = implausible(spec);
-    rows.push(row("Plausible", if doubts.is_empty() { "yes" } else { "doubtful" }.to_owned()));
-    let mut words: Vec<String> = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
-    if words.is_empty() {
-        words.push("No number is outside of what spunbond lines are known to have.".to_owned());
-    }
-    Card { id: "line", title: "The line", rows, words }
+    rows.push(row(
+        "Plausible",
+        if doubts.is_empty() { "yes, as lines are known to be" } else { "doubtful" }.to_owned(),
+    ));
+    let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
+    Card { id: "line", title: "The line", rows, apart: Default::default(), words }
+}
+
+fn shown(value: f64, unit: &str) -> String {
+    format!("{}{THIN}{unit}", significant(value, 3))
+}
+
+fn speed(speed: f64) -> String {
+    format!("{}{THIN}m/min ({})", significant(60.0 * speed, 4), shown(speed, "m/s"))
+}
+
+/// The numbers of a layer, with their names.
+///
+/// * `density` – of its filaments [kg/m³]
+/// * `width` – of the sheet [m]
+fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String)> {
+    let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
+    let size = (4.0 * titre / (PI * density)).sqrt();
+    let holes = significant(layer.filaments as f64 / width, 4);
+    let slot =
+        layer.air_at_slot_m_s.map_or_else(String::new, |air| format!(", {} at the slot", shown(air, "m/s")));
+    let cabin = layer.cabin_pressure_pa.map(|cabin| {
+        let cabin = Dimension::Pressure.pretty_to(cabin, 4).replace(' ', &THIN.to_string());
+        ("Cabin pressure", cabin + &slot)
+    });
+    let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
+    let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
+    let rows = [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)];
+    rows.into_iter().chain(cabin).collect()
 }
 
 /// By how much faster a belt is told of [%].
@@ -83,7 +108,8 @@ const FASTER: f64 = 10.0;
 /// What a buyer counts.
 pub(crate) fn fabric(fabric: &Fabric) -> Card {
     let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
-    Card { id: "buyer", title: "What a buyer counts", rows, words: fabric.notes.clone() }
+    let (apart, words) = (Default::default(), fabric.notes.clone());
+    Card { id: "buyer", title: "What a buyer counts", rows, apart, words }
 }
 
 /// The scale as a card; without pictures if the web is too small for them.
@@ -96,5 +122,5 @@ pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, 
         Some(scale) => section.view(View::new(&scale, &[])),
         None => section,
     };
-    Ok(section.paragraph(scale::words(judged)).told().card())
+    Ok(section.paragraph(scale::words(judged)).told().picture())
 }

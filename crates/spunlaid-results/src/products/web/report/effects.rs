@@ -9,7 +9,7 @@ use crate::page::table::{Cell, Row, Table, Tone};
 use crate::page::words::{grams, millimetres};
 use crate::products::web::files::effects::HOUR;
 use spunlaid::experiment::{Advice, ChangedWeb, Tried, setting};
-use spunlaid::ground::{Difference, Effect, NAMED};
+use spunlaid::ground::{Difference, Effect, NAMED, Turned};
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::{Evidence, Findings};
 
@@ -33,14 +33,18 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
 
 /// Which changed settings lower the CV of a web most, by how much, and what they cost in throughput.
 pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
-    let card = |rows, words: String| Card { id: "change", title: "Change first", rows, words: vec![words] };
+    let card = |[rows, apart]: [Vec<Row>; 2], words: String| {
+        let apart = ("Not on the running line", apart);
+        Card { id: "change", title: "Change first", rows, apart, words: vec![words] }
+    };
+    let none = || [Vec::new(), Vec::new()];
     let Some(advice) = tried.advice else {
-        return card(Vec::new(), untried("What would make it more even", tried.awaited));
+        return card(none(), untried("What would make it more even", tried.awaited));
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
         let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to \
             fly (laydown.case).";
-        return card(Vec::new(), why.to_owned());
+        return card(none(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {
         let acts = match effect.is_of_clouds() {
@@ -48,19 +52,24 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
             Some(false) => ", acts on each filament",
             None => "",
         };
-        let [_, belt] = tried.change.experiment.belt_speed;
-        let detail = format!("{}, belt {}{THIN}m/min{acts}{also}", cost(tried), significant(60.0 * belt, 4));
+        let detail = format!("{}{acts}{also}", of_line(spec, &tried.change.experiment));
         Row::new(describe(&tried.change, spec), [format!("{}{THIN}%", per_cent(effect))]).detail(detail)
     };
     let with_command =
         |row: Row, (found, _): Found<'_>| row.command(web_command(&found.change, tried.beside));
     let improvements = advice.improvements(patch);
-    let named = improvements.iter().take(NAMED).map(|found| with_command(row(*found, String::new()), *found));
-    let other = elsewhere(findings, advice, patch).map(|found| {
-        let here = found.0.on(patch).map_or_else(String::new, |here| {
-            format!(", where it changes that of {} by {}{THIN}%", millimetres(patch), per_cent(here))
+    let other = elsewhere(findings, advice, patch);
+    let rows = [true, false].map(|running| {
+        let is_one = |(tried, _): &Found<'_>| (tried.change.setting.turned == Turned::Running) == running;
+        let named = improvements.iter().copied().filter(is_one).take(NAMED);
+        let named = named.map(|found| with_command(row(found, String::new()), found));
+        let other = other.filter(is_one).map(|found| {
+            let here = found.0.on(patch).map_or_else(String::new, |here| {
+                format!(", where it changes that of {} by {}{THIN}%", millimetres(patch), per_cent(here))
+            });
+            with_command(row(found, format!("; over patches of {}{here}", millimetres(found.1.of))), found)
         });
-        with_command(row(found, format!("; over patches of {}{here}", millimetres(found.1.of))), found)
+        named.chain(other).collect()
     });
     let weight = grams(findings.within().basis_weight());
     let what = if findings.laid.evidence() == Evidence::Known { "expected CV" } else { "CV" };
@@ -81,7 +90,7 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
     if !spec.flies() {
         words += " The lay-down itself is taken as it is, because no fibre was flown.";
     }
-    card(named.chain(other).collect(), words)
+    card(rows, words)
 }
 
 /// That something is tried next, or was not.
@@ -150,16 +159,25 @@ fn per_cent(effect: &Effect<f64>) -> String {
     difference_text(&effect.difference, PER_CENT)
 }
 
-/// What a change costs in throughput.
-fn cost(tried: &Tried) -> String {
-    let [before, after] = tried.change.experiment.mass_flow;
-    let change = after / before - 1.0;
-    // What is held is rounded by less than this.
-    if change.abs() < 1e-4 {
-        return "with the same throughput".to_owned();
-    }
-    let way = if change < 0.0 { "less" } else { "more" };
-    format!("with {}{THIN}% {way} throughput", significant(PER_CENT * change.abs(), 2))
+/// What becomes of titre, mass and belt: `2 dtex, 150 to 120 kg/h, belt 125 to 100 m/min`.
+fn of_line(spec: &WebSpec, ChangedWeb { spec: changed, belt_speed, mass_flow, .. }: &ChangedWeb) -> String {
+    let layers = spec.layers.iter().zip(&changed.layers);
+    let mut titres: Vec<String> = layers
+        .map(|(before, after)| from_to([before, after].map(|layer| 1e7 * layer.linear_density()), "dtex"))
+        .collect();
+    titres.dedup();
+    let mass = from_to(mass_flow.map(|flow| HOUR * flow), "kg/h");
+    format!(
+        "{}, {mass} per metre, belt {}",
+        titres.join(" and "),
+        from_to(belt_speed.map(|speed| 60.0 * speed), "m/min")
+    )
+}
+
+/// `150 to 120 kg/h`, or one number of what stays.
+fn from_to([before, after]: [f64; 2], unit: &str) -> String {
+    let [from, to] = [before, after].map(|number| significant(number, 4));
+    if from == to { format!("{to}{THIN}{unit}") } else { format!("{from} to {to}{THIN}{unit}") }
 }
 
 /// A cell of a table of effects; one that may be by chance is faint.
@@ -242,7 +260,13 @@ pub(super) fn effects_table(
 /// What the CV of a web is with half and twice of each number that its file calls a guess, because the error
 /// of the CV knows nothing of them: the guess that matters most first.
 pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
-    let card = |rows, words: String| Card { id: "measure", title: "Measure first", rows, words: vec![words] };
+    let card = |rows, words: String| Card {
+        id: "measure",
+        title: "Measure first",
+        rows,
+        apart: Default::default(),
+        words: vec![words],
+    };
     let names: Vec<String> = spec.guessed.iter().map(|key| in_sentence(label(key))).collect();
     let names = listed(&names);
     let judged = tried.guesses.and_then(|guesses| {

@@ -5,7 +5,8 @@ use crate::failure::undrawable;
 use crate::numbers::significant;
 use crate::page::document::{View, script};
 use crate::page::words::millimetres;
-use crate::products::web::files::map::light_table;
+use crate::products::web::files::map::Shades;
+use crate::products::web::files::picture::{PIECE, Pictures};
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -13,8 +14,6 @@ use serde::Serialize;
 use spunlaid::web::{Fabric, Map, Marked, Marks, Strand, Streak, StripPlace, Window};
 
 const MM: f64 = 1e3;
-/// Most pixels of the picture of the web: a page of some megabytes.
-const PIXELS: usize = 3_000_000;
 /// Most points of fibres in the page.
 const POINTS: usize = 150_000;
 
@@ -24,9 +23,13 @@ const POINTS: usize = 150_000;
 pub(crate) struct Sheet {
     /// Base64 of the picture.
     pub(crate) picture: String,
+    /// Base64 of the picture of what chance alone makes of it; empty where that is not known.
+    pub(crate) chance: String,
+    /// What is said below each.
+    pub(crate) below: [String; 2],
     /// How large the web is, in words.
     pub(crate) words: String,
-    /// Width over length.
+    /// Width over length of the piece that is seen first.
     pub(crate) aspect: f64,
     /// Side of a pixel of the picture [m].
     pub(crate) pixel: f64,
@@ -52,6 +55,8 @@ struct Data {
     length: f64,
     /// Side of a pixel of the picture.
     pixel: f64,
+    /// Side of the piece that is seen first.
+    piece: f64,
     window: Option<Fibres>,
     #[serde(skip_serializing_if = "Option::is_none")]
     marks: Option<MarkedPlaces>,
@@ -187,21 +192,24 @@ impl Fibres {
     }
 }
 
-/// The picture of a map.
+/// The pictures of a map on the page.
 pub(crate) fn sheet(
     map: &Map,
+    Pictures { web, chance, words }: &Pictures,
     window: Option<Fibres>,
     marks: Option<MarkedPlaces>,
 ) -> Result<Sheet, Failure> {
     let failed = |reason: String| undrawable("web", &reason);
-    let (picture, each) = light_table(map, PIXELS).map_err(failed)?;
-    let pixel = each as f64 * map.cell;
+    let (pixel, piece) = (web.pixel, PIECE * MM);
     let [width, length] = [map.columns, map.rows].map(|cells| cells as f64 * map.cell * MM);
-    let data = Data { width, length, pixel: pixel * MM, window, marks };
+    let data = Data { width, length, pixel: pixel * MM, piece, window, marks };
+    let picture = |shades: &Shades| shades.png().map(|picture| STANDARD.encode(picture)).map_err(failed);
     Ok(Sheet {
-        picture: STANDARD.encode(picture),
+        picture: picture(web)?,
+        chance: chance.as_ref().map(picture).transpose()?.unwrap_or_default(),
+        below: words.clone(),
         words: format!("The web is {} mm wide and {} mm long.", thousands(width), thousands(length)),
-        aspect: width / length,
+        aspect: width.min(piece) / length.min(piece),
         pixel,
         has_fibres: data.window.is_some(),
         has_marks: data.marks.is_some(),
@@ -221,14 +229,19 @@ fn thousands(number: f64) -> String {
 }
 
 /// What is told of a picture below it.
-///
-/// * `pixel` – side of a pixel of the picture [m]
-pub(crate) fn picture_note(pixel: f64) -> String {
+pub(crate) fn picture_note(Sheet { pixel, chance, .. }: &Sheet) -> String {
+    let has_chance = !chance.is_empty();
     format!(
         "Lighter where there is less fibre; black and white are three standard deviations apart from the \
         mean. The machine direction runs downwards. A pixel is {} wide. Drag to move the web, zoom with the \
-        wheel, two fingers, the buttons or the keys + and −; the key 0 shows the whole web.",
-        millimetres(pixel)
+        wheel, two fingers, the buttons or the keys + and −; the key 0 shows the whole web.{}",
+        millimetres(*pixel),
+        if has_chance {
+            " Beside it, at the same scale and in the same shades, straight fibres of the same mass at random: what \
+             chance alone makes."
+        } else {
+            ""
+        }
     )
 }
 
@@ -246,11 +259,12 @@ mod tests {
             closed: [false; 2],
             cells: (0..4500 * 800).map(|i| 5 + i % 7).collect(),
         };
-        let sheet = sheet(&map, None, None).unwrap();
+        let sheet = sheet(&map, &Pictures::new(&map, None, Default::default()), None, None).unwrap();
         assert_eq!(sheet.words, "The web is 4,500 mm wide and 800 mm long.");
-        // Two cells to a pixel: an elongated web is as fine as a square one of the same area.
-        assert_eq!((sheet.pixel, sheet.aspect), (2e-3, 5.625));
-        assert!(sheet.data.starts_with(r#"{"width":4500.0,"length":800.0,"pixel":2.0,"#), "{}", sheet.data);
+        // Two cells to a pixel: an elongated web is as fine as a square one of the same area. A square piece is seen.
+        assert_eq!((sheet.pixel, sheet.aspect), (2e-3, 1.0));
+        let data = r#"{"width":4500.0,"length":800.0,"pixel":2.0,"piece":500.0,"#;
+        assert!(sheet.data.starts_with(data), "{}", sheet.data);
         for (number, words) in [(62.5, "62.5"), (999.0, "999"), (12_345_678.0, "12,345,678")] {
             assert_eq!(thousands(number), words);
         }

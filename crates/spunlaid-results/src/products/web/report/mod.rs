@@ -8,6 +8,7 @@ pub(crate) mod scale;
 pub(crate) mod spinlines;
 pub(crate) mod unevenness;
 
+use super::files::picture::Pictures;
 use super::files::summary::Layer;
 use crate::Failure;
 use crate::effects::PER_CENT;
@@ -18,7 +19,7 @@ use crate::page::methods::{methods, of_web};
 use crate::page::table::{Row, Table};
 use crate::page::words::{cost, count, grams, grams_with_error, metres, millimetres};
 use crate::products::load::section_of_loads;
-use cards::{Card, scale_card};
+use cards::scale_card;
 use effects::{Advised, advice_card, effects_table, guess_card};
 use fabric::fabric_section;
 use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
@@ -40,7 +41,7 @@ use unevenness::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent}
 /// * `findings` – of the web, with what is told of its fabric
 /// * `tried` – what was tried with it
 /// * `layers` – with the spinlines from which their filaments come
-/// * `strands` – the fibres in the window
+/// * `pictures` – of the web, with the fibres in its window
 ///
 /// # Errors
 /// The picture cannot be drawn.
@@ -49,28 +50,24 @@ pub fn web_report<'a>(
     (findings, fabric): (&Findings, &Fabric),
     tried: Advised<'_>,
     (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
-    strands: &[Strand],
+    (pictures, strands): (&Pictures, &[Strand]),
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
     let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
     let strands = Strands { window: spec.window(), strands, diameter };
-    let sheet = sheet(&findings.laid.map, Some(Fibres::new(strands)), Some(MarkedPlaces::new(fabric)))?;
-    let caption = format!("{} {}{}", picture_note(sheet.pixel), strands.words(), marks_note(fabric));
+    let marks = Some(MarkedPlaces::new(fabric));
+    let sheet = sheet(&findings.laid.map, pictures, Some(Fibres::new(strands)), marks)?;
+    let caption = format!("{} {}{}", picture_note(&sheet), strands.words(), marks_note(fabric));
     let table = Section::new("web", "The web on a light table")
         .view(sheet.view())
         .with(Part::reading(caption))
-        .card();
+        .picture();
     let loads = named_loads(layers);
     let spun = spinlines
         .first()
         .map_or("", |_| "Its filaments begin at the die: [from the melt to the web](#spinline).");
-    let doubts = Card {
-        id: "doubt",
-        title: "What its error is made of",
-        rows: Vec::new(),
-        words: [error_sentences(findings), air_sentence(findings)].into(),
-    };
+    let error = sentences([error_sentences(findings), air_sentence(findings)]);
     let judged = findings.seen().map(Judged::from);
     let scale = judged.map(|judged| scale_card(&findings.within(), judged)).transpose()?;
     let mut sentences = verdict(findings);
@@ -81,14 +78,14 @@ pub fn web_report<'a>(
         .with_all(scale)
         .with_all(
             [
-                cards::line(spec, findings, layers),
-                cards::fabric(fabric),
-                doubts,
-                guess_card(spec, findings, tried),
                 advice_card(spec, findings, tried),
+                cards::line(spec, findings, layers),
+                guess_card(spec, findings, tried),
+                cards::fabric(fabric),
             ]
             .map(Section::from),
         )
+        .with(Section::new("doubt", "What its error is made of").paragraph(error).told())
         .with(uneven(web, findings, sentences))
         .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
@@ -190,15 +187,12 @@ const AS_HEAVY: f64 = 0.005;
 
 /// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
 fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
-    let weight = findings.basis_weight();
     let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
         let told = patch.and_then(PatchFindings::told_with_whole_error);
-        let line = headline(Some(weight), told.as_ref(), findings.laid.evidence() == Evidence::Known);
-        return match told.filter(|_| !spec.guessed.is_empty()) {
-            Some(told) => with_assumed(&line, &told, tried.guesses),
-            None => line,
-        };
+        let assumed = told.as_ref().filter(|_| !spec.guessed.is_empty());
+        let assumed = assumed.map(|told| assumed_words(told, tried.guesses));
+        return headline(told.as_ref(), findings.laid.evidence() == Evidence::Known, assumed);
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
@@ -206,28 +200,30 @@ fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Strin
         true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
         false => "Fly all of them, web.flown = \"all\"".to_owned(),
     };
-    format!(
-        "A web of {}. How uneven it is, is not known: too few filaments were flown. {remedy}.",
-        grams_with_error(weight)
-    )
+    format!("How uneven the web is, is not known: too few filaments were flown. {remedy}.")
 }
 
-/// A headline that also says what assumed values make of the CV, because its error is that of sampling alone.
-fn with_assumed(line: &str, told: &Unevenness, guesses: Option<&Advice>) -> String {
+/// What half and twice of the assumed values make of the CV, for a headline.
+fn assumed_words(told: &Unevenness, guesses: Option<&Advice>) -> String {
     let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(told.patch).is_some());
-    let assumed = match guesses.filter(known).map(|guesses| guesses.range(told.patch)) {
-        None => "the ± is the sampling error, without that of the assumed values".to_owned(),
-        Some([1.0, 1.0]) => {
-            "no assumed value, halved or doubled, changes it by more than sampling".to_owned()
-        }
+    match guesses.filter(known).map(|guesses| guesses.range(told.patch)) {
+        None => "without what was assumed".to_owned(),
+        Some([1.0, 1.0]) => "and no more with what was assumed".to_owned(),
         Some(ends) => {
             let [from, to] = ends.map(|end| significant(PER_CENT * end * told.cv, 2));
-            format!(
-                "{from} to {to}{THIN}% with the assumed values halved or doubled, which the ± of sampling excludes"
-            )
+            format!("{from} to {to}{THIN}% with what was assumed")
         }
-    };
-    format!("{}; {assumed}.", line.trim_end_matches('.'))
+    }
+}
+
+/// What is said below the pictures of a web and of what chance makes of it.
+pub(crate) fn below(judged: Option<Judged>) -> [String; 2] {
+    let Some(Judged { patch, told, chance, .. }) = judged else { return Default::default() };
+    let over = format!(" over {}", millimetres(patch));
+    [
+        told.map_or_else(String::new, |(cv, error)| format!("CV of this web: {}{over}", per_cent(cv, error))),
+        chance.map_or_else(String::new, |cv| format!("By chance: {}{THIN}%", significant(PER_CENT * cv, 3))),
+    ]
 }
 
 /// What the filaments of a web without independent filaments have in common, and what those with airs of

@@ -1,9 +1,9 @@
 //! How uneven a web is, in the words that the reports of laid and of scanned webs share, and the table of its patches.
 
 use crate::files::measured::text;
-use crate::numbers::{THIN, plus_minus, significant};
+use crate::numbers::{HARD, THIN, plus_minus, rounded, significant};
 use crate::page::table::{Row, Table};
-use crate::page::words::{grams_with_error, millimetres};
+use crate::page::words::millimetres;
 use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
 use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Findings, PatchFindings};
@@ -16,25 +16,23 @@ pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis we
     one standard error, in percentage points as the CV is; the interval holds the CV of all such webs in 95 % of \
     the cases.";
 
-/// * `weight` – mean basis weight and its standard error, if they are known [kg/m²]
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
-pub(crate) fn headline(
-    weight: Option<(f64, Option<f64>)>,
-    patch: Option<&Unevenness>,
-    is_bound: bool,
-) -> String {
-    let web =
-        weight.map_or_else(|| "A web".to_owned(), |weight| format!("A web of {}", grams_with_error(weight)));
-    match patch {
-        Some(unevenness) => format!(
-            "{web} that varies by {}{} over patches of {}{}.",
-            if is_bound { "at least " } else { "" },
-            per_cent(unevenness.cv, unevenness.standard_error),
-            millimetres(unevenness.patch),
-            if is_bound { ": its filaments are independent of each other" } else { "" }
-        ),
-        None => format!("{web}."),
-    }
+/// * `assumed` – what is to be said of assumed values, because the error is that of sampling alone
+pub(crate) fn headline(patch: Option<&Unevenness>, is_bound: bool, assumed: Option<String>) -> String {
+    let Some(Unevenness { cv, standard_error, patch, .. }) = patch else {
+        return "How uneven the web is, is not known: it is smaller than the patches.".to_owned();
+    };
+    let (cv, error) = rounded(PER_CENT * cv, standard_error.map(|error| PER_CENT * error));
+    let at_least = if is_bound { "at least " } else { "" };
+    let error = error.map(|error| format!("±{HARD}{error} by chance"));
+    let error: Vec<String> = error.into_iter().chain(assumed).collect();
+    format!(
+        "The weight varies by {at_least}{cv}{THIN}% over {}{}{}{}.",
+        millimetres(*patch),
+        if error.is_empty() { "" } else { ": " },
+        error.join(", "),
+        if is_bound { "; the filaments are independent of each other" } else { "" }
+    )
 }
 
 pub(crate) fn per_cent(cv: f64, error: Option<f64>) -> String {
