@@ -1,13 +1,14 @@
 //! Air drag on a fibre, along and across its axis.
 //!
 //! ```text
-//! law (friction, normal; boundary_layer) → ElementDrag → DragLanes (powers and curve), in the kernel
+//! law (friction, normal; boundary_layer, table) → ElementDrag → DragLanes (powers and curve), in the kernel
 //! ```
 
 mod boundary_layer;
 mod curve;
 mod friction;
 mod normal;
+mod table;
 
 use crate::fibre::body::Fibre;
 use crate::ground::lanes::{exp2, log2, power};
@@ -17,6 +18,7 @@ pub use curve::Curve;
 pub use friction::FrictionLaw;
 pub use normal::NormalLaw;
 use std::f64::consts::PI;
+pub use table::{DragTable, TableLaw};
 
 /// The drag laws and their constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +30,13 @@ pub struct Drag {
 }
 
 impl Drag {
+    /// The laws along and across that come from files.
+    pub(crate) fn tables(&self) -> [Option<TableLaw>; 2] {
+        let along = if let FrictionLaw::Table(law) = self.along { Some(law) } else { None };
+        let across = if let NormalLaw::Table(law) = self.across { Some(law) } else { None };
+        [along, across]
+    }
+
     /// The laws for an element of a fibre in air of `density` [kg/m³] and kinematic `viscosity` [m²/s].
     pub fn element_drag(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
         let d = fibre.diameter;
@@ -49,12 +58,14 @@ impl Drag {
                     power(PI * pressure_area * coefficient, 1.0 - exponent)
                 }
                 friction::Form::Layer(_, curve) => layer(curve),
+                friction::Form::Table(law) => curve(PI, Curve::Table(law), re_per_velocity),
             },
             across: match across.form() {
                 normal::Form::Power { exponent, coefficient } => {
                     power(pressure_area * coefficient(re_per_velocity, d), 1.0 - exponent)
                 }
                 normal::Form::Curve { .. } => curve(1.0, Curve::Across(across), re_per_velocity),
+                normal::Form::Table(law) => curve(1.0, Curve::Table(law), re_per_velocity),
             },
         }
     }

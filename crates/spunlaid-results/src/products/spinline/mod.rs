@@ -43,7 +43,7 @@ impl SpinFolder {
     /// If it has no steady state that a line could run in.
     pub fn solve(name: String, file: SpinFile) -> Result<Self, Error> {
         let results = SpinResults::new(&file)?;
-        let found = remarks(&results.rows);
+        let found = remarks(file.spec.drag.along, &results.rows);
         Ok(Self { name, file, results, found })
     }
 

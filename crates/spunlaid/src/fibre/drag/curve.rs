@@ -2,6 +2,7 @@
 
 use super::boundary_layer::BoundaryLayer;
 use super::normal::{Form, NormalLaw};
+use super::table::TableLaw;
 use crate::ground::lanes::{exp2, indices};
 use crate::ground::{Register, WIDTH, Wide};
 use std::sync::{LazyLock, OnceLock};
@@ -15,6 +16,8 @@ pub enum Curve {
     Held,
     /// `½ s C_n(s)` over the Reynolds number `s` of a law across the fibre.   theory.md (45)
     Across(NormalLaw),
+    /// `½ s C(s)` over the Reynolds number `s` of a law of a file, along or across the fibre.
+    Table(TableLaw),
 }
 
 impl Curve {
@@ -23,7 +26,7 @@ impl Curve {
         matches!(self, Self::Moving | Self::Held)
     }
 
-    /// `g(s)` itself, which the table follows to 1e-6.
+    /// `g(s)` itself, which the table of a named law follows to 1e-6.
     pub(crate) fn exact(self, s: f64) -> f64 {
         match self {
             Self::Moving => 1.0 / BoundaryLayer::Moving.thickness(1.0 / s),
@@ -31,7 +34,9 @@ impl Curve {
             Self::Across(law) => match law.form() {
                 Form::Curve { resistance, .. } => resistance(s),
                 Form::Power { coefficient, .. } => 0.5 * s * coefficient(s, 1.0),
+                Form::Table(table) => 0.5 * s * table.coefficient(s),
             },
+            Self::Table(table) => 0.5 * s * table.coefficient(s),
         }
     }
 
@@ -43,7 +48,8 @@ impl Curve {
         match self {
             Self::Moving => &MOVING,
             Self::Held => &HELD,
-            Self::Across(law) => ACROSS[law as usize].get_or_init(|| Table::new(self)),
+            Self::Table(law) | Self::Across(NormalLaw::Table(law)) => law.kernel(),
+            Self::Across(law) => ACROSS[law.index()].get_or_init(|| Table::new(self)),
         }
     }
 }
@@ -71,9 +77,9 @@ impl Table {
         let joins = match curve {
             Curve::Across(law) => match law.form() {
                 Form::Curve { joins, .. } => joins,
-                Form::Power { .. } => None,
+                Form::Power { .. } | Form::Table(_) => None,
             },
-            Curve::Moving | Curve::Held => None,
+            Curve::Moving | Curve::Held | Curve::Table(_) => None,
         };
         let (per_unit, zero) = joins.map_or((1.0, middle), |(from, to)| {
             // Cubics end where the pieces of the law do.
@@ -81,11 +87,20 @@ impl Table {
             let per_unit = (to - from).round() / (to - from);
             (per_unit, (middle + per_unit * from).round() - per_unit * from)
         });
-        let log_g = |place: f64| libm::log2(curve.exact(libm::exp2(0.5 * (place - zero) / per_unit)));
-        let end = |place: f64| {
-            const STEP: f64 = 1.0 / 4096.0;
-            (log_g(place), (log_g(place + STEP) - log_g(place - STEP)) / (2.0 * STEP))
-        };
+        Self::of((per_unit, zero), 1.0 / 4096.0, |q| libm::log2(curve.exact(libm::exp2(0.5 * q))))
+    }
+
+    /// A law of which `log2 g` is known at every `q`, and is straight outside of `from` to `to`, where the cubics are.
+    /// Their slopes are those over two cubics, so that rows that lie closer than cubics cannot make waves.
+    pub(super) fn between([from, to]: [f64; 2], log_g: impl Fn(f64) -> f64) -> Self {
+        let per_unit = (CUBICS - 2) as f64 / (to - from);
+        Self::of((per_unit, 2.0 - per_unit * from), 1.0, log_g)
+    }
+
+    /// * `step` – over which slopes are found, in cubics
+    fn of((per_unit, zero): (f64, f64), step: f64, log_g: impl Fn(f64) -> f64) -> Self {
+        let log_g = |place: f64| log_g((place - zero) / per_unit);
+        let end = |place: f64| (log_g(place), (log_g(place + step) - log_g(place - step)) / (2.0 * step));
         let mut lower = end(1.0);
         let mut cubics = [[lower.0 - lower.1, lower.1, 0.0, 0.0]; CUBICS + 2];
         for (i, cubic) in cubics.iter_mut().enumerate().skip(1) {
