@@ -15,6 +15,7 @@ use crate::ground::lanes::{exp2, log2, power};
 use crate::ground::{Lanes, Register, Simd, Vec3, WIDTH, Wide};
 pub use boundary_layer::BoundaryLayer;
 pub use curve::Curve;
+use curve::Table;
 pub use friction::FrictionLaw;
 pub use normal::NormalLaw;
 use std::f64::consts::PI;
@@ -139,12 +140,19 @@ impl ElementDrag {
     }
 }
 
+/// A curve with its table, which is found once and not for each element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Tabled {
+    curve: Curve,
+    table: &'static Table,
+}
+
 /// [`ElementDrag`] of eight fibres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DragLanes {
     /// Along and across.
     factor: [Lanes; 2],
-    curve: [Option<Curve>; 2],
+    curve: [Option<Tabled>; 2],
     /// Exponent, of `|V_t|` and of `|V_n|²`, or shift of the curve.
     growth: [Lanes; 2],
 }
@@ -164,6 +172,7 @@ impl DragLanes {
             Growth::Power(p) => per_square * p,
             Growth::Curve(_, shift) => shift,
         };
+        let curve = curve.map(|curve| curve.map(|curve| Tabled { curve, table: curve.table() }));
         Self { factor: both(&|share, _| share.factor), curve, growth: both(&growth) }
     }
 
@@ -195,7 +204,7 @@ impl DragLanes {
     #[inline(always)]
     pub(crate) fn look_up<S: Register>(&self, j: usize, split: &mut Split<S>) {
         let [mut along, across] = split.powers.0;
-        if matches!(self.curve[0], Some(curve) if curve.fades()) {
+        if matches!(self.curve[0], Some(Tabled { curve, .. }) if curve.fades()) {
             along = along.mul(S::splat(1.0 / (j as f64 + 0.5)));
         }
         let [along, across] = log2(Wide([along, across])).0;
@@ -208,7 +217,7 @@ impl DragLanes {
         let growth = Wide::load(&self.growth[direction]);
         match self.curve[direction] {
             None => exp2(log2 * growth),
-            Some(curve) => curve.table().at(log2.mul_add(Wide::splat(to_square), growth)),
+            Some(Tabled { table, .. }) => table.at(log2.mul_add(Wide::splat(to_square), growth)),
         }
     }
 

@@ -56,7 +56,7 @@ impl Curve {
 
 /// `log2 g` as a function of `q = log2 s²`: cubics of about a unit of `q` each from values and slopes at their
 /// ends, and a straight line, a power of the velocity, beyond.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Table {
     /// By powers of the distance from the cubic's lower end, in cubics.
     cubics: [[f64; 4]; CUBICS + 2],

@@ -4,7 +4,6 @@ use super::Source;
 use super::boundary_layer::BoundaryLayer;
 use super::curve::Curve;
 use super::table::TableLaw;
-use std::ops::RangeInclusive;
 
 /// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,14 +119,6 @@ impl FrictionLaw {
     /// `β` [-] of the law, if it is an input.
     pub fn factor(self) -> Option<f64> {
         self.law().input
-    }
-
-    /// The Reynolds numbers of the rows of a table [-]; those of other laws are not known.
-    pub(crate) fn fitted_reynolds(self) -> Option<RangeInclusive<f64>> {
-        match self {
-            Self::Table(table) => Some(table.reynolds()),
-            _ => None,
-        }
     }
 
     pub(super) fn form(self) -> Form {

@@ -12,17 +12,17 @@ use std::sync::Mutex;
 
 /// Drag coefficients over the Reynolds number. Between the rows `ln C` is a cubic of `ln Re` that does not overshoot
 /// them; beyond the ends the coefficient is a power of the Reynolds number with the slope of the end, which is kept
-/// between −1 and 0.                                                                           theory.md (45a)
+/// between −1 and 0.                                                                          
 #[derive(Clone, Debug)]
 pub struct DragTable {
     rows: Vec<Row>,
     kernel: Table,
-    /// Lowest and highest Reynolds number [-].
-    reynolds: [f64; 2],
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Row {
+    /// Reynolds number and coefficient as they are given [-].
+    given: (f64, f64),
     ln_re: f64,
     ln_c: f64,
     /// `d ln C/d ln Re` [-].
@@ -35,13 +35,11 @@ impl DragTable {
     /// * `reynolds` – Reynolds numbers on diameter and velocity [-], positive and increasing, at least two
     /// * `coefficients` – of each [-], positive
     pub fn new(reynolds: &[f64], coefficients: &[f64]) -> Self {
-        let [ln_re, ln_c] = [reynolds, coefficients].map(|all| all.iter().map(|x| libm::log(*x)).collect());
-        let rows = with_slopes(ln_re, ln_c);
-        let ends = [reynolds.first(), reynolds.last()].map(|end| end.copied().unwrap_or(1.0));
+        let rows = with_slopes(reynolds.iter().copied().zip(coefficients.iter().copied()).collect());
         // g = ½ s C over q = log2 s².
         let log_g = |q: f64| 0.5 * q - 1.0 + ln_c_at(&rows, 0.5 * q * LN_2) / LN_2;
-        let kernel = Table::between(ends.map(|s| 2.0 * libm::log2(s)), log_g);
-        Self { rows, kernel, reynolds: ends }
+        let kernel = Table::between(range_of(&rows).map(|s| 2.0 * libm::log2(s)), log_g);
+        Self { rows, kernel }
     }
 
     /// The coefficient [-] at a Reynolds number above zero [-].
@@ -49,9 +47,14 @@ impl DragTable {
         libm::exp(ln_c_at(&self.rows, libm::log(re)))
     }
 
-    /// Number of rows.
-    pub fn rows(&self) -> usize {
-        self.rows.len()
+    /// Reynolds number and coefficient of each row [-].
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = (f64, f64)> {
+        self.rows.iter().map(|row| row.given)
+    }
+
+    /// Lowest and highest Reynolds number [-].
+    pub fn range(&self) -> [f64; 2] {
+        range_of(&self.rows)
     }
 
     /// Largest relative change of the coefficient at a row when every second row is left out [-], the ends not; none
@@ -59,8 +62,7 @@ impl DragTable {
     pub fn change_without_every_second_row(&self) -> Option<f64> {
         let last = self.rows.len() - 1;
         let kept = self.rows.iter().enumerate().filter(|(i, _)| i % 2 == 0 || *i == last);
-        let (ln_re, ln_c) = kept.map(|(_, row)| (row.ln_re, row.ln_c)).unzip();
-        let fewer = with_slopes(ln_re, ln_c);
+        let fewer = with_slopes(kept.map(|(_, row)| row.given).collect());
         let change = |row: &Row| libm::expm1(ln_c_at(&fewer, row.ln_re) - row.ln_c).abs();
         (last >= 2).then(|| self.rows.iter().map(change).fold(0.0, f64::max))
     }
@@ -70,7 +72,8 @@ const LN_2: f64 = std::f64::consts::LN_2;
 
 /// Rows with slopes after Fritsch and Carlson: those of parabolas through three rows, limited so that the cubics rise
 /// and fall only where the rows do.
-fn with_slopes(x: Vec<f64>, y: Vec<f64>) -> Vec<Row> {
+fn with_slopes(given: Vec<(f64, f64)>) -> Vec<Row> {
+    let (x, y): (Vec<f64>, Vec<f64>) = given.iter().map(|(re, c)| (libm::log(*re), libm::log(*c))).unzip();
     let chord = |i: usize| (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
     let last = x.len().saturating_sub(2);
     let limited = |slope: f64, chord: f64| {
@@ -89,7 +92,15 @@ fn with_slopes(x: Vec<f64>, y: Vec<f64>) -> Vec<Row> {
         i if i == last + 1 => limited(parabola(last, last - 1, true), chord(last)),
         i => limited(limited(parabola(i - 1, i, false), chord(i - 1)), chord(i)),
     };
-    (0..x.len()).map(|i| Row { ln_re: x[i], ln_c: y[i], slope: slope(i) }).collect()
+    given
+        .iter()
+        .enumerate()
+        .map(|(i, of)| Row { given: *of, ln_re: x[i], ln_c: y[i], slope: slope(i) })
+        .collect()
+}
+
+fn range_of(rows: &[Row]) -> [f64; 2] {
+    [rows.first(), rows.last()].map(|end| end.map_or(1.0, |row| row.given.0))
 }
 
 /// `ln C` at `ln Re`.
@@ -130,10 +141,10 @@ impl TableLaw {
             return Self(known);
         }
         let name = file.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let [from, to] = file.reynolds.map(|re| Dimension::Ratio.pretty_to(re, 3));
+        let [from, to] = file.range().map(|re| Dimension::Ratio.pretty_to(re, 3));
         let full = format!(
             "Drag coefficients of the file {name}: {} rows, Reynolds numbers from {from} to {to}.",
-            file.rows()
+            file.rows().len()
         );
         let new: &'static Kept = Box::leak(Box::new(Kept { file, name, full }));
         kept.push(new);
@@ -162,13 +173,13 @@ impl TableLaw {
 
     /// The Reynolds numbers of its rows [-].
     pub(super) fn reynolds(self) -> RangeInclusive<f64> {
-        let [from, to] = self.file().reynolds;
+        let [from, to] = self.file().range();
         from..=to
     }
 
     /// What is to be said where a usual and a large Reynolds number [-] lie beyond its rows.
     pub(crate) fn beyond(self, [usual, large]: [f64; 2]) -> Option<String> {
-        let [from, to] = self.file().reynolds;
+        let [from, to] = self.file().range();
         let shown = |re: f64| Dimension::Ratio.pretty_to(re, 3);
         (usual > 0.0 && usual < from || large > to).then(|| {
             format!(
@@ -193,8 +204,7 @@ impl TableLaw {
 
 /// Orders tables by their numbers.
 fn order(one: &DragTable, other: &DragTable) -> Ordering {
-    let numbers =
-        |table: &DragTable| table.rows.iter().flat_map(|row| [row.ln_re, row.ln_c]).collect::<Vec<f64>>();
+    let numbers = |table: &DragTable| table.rows().flat_map(|(re, c)| [re, c]).collect::<Vec<f64>>();
     let (one, other) = (numbers(one), numbers(other));
     let first = one.iter().zip(&other).map(|(a, b)| a.total_cmp(b)).find(|order| order.is_ne());
     first.unwrap_or(one.len().cmp(&other.len()))

@@ -77,7 +77,13 @@ const ENERGY: &str = "energy";
 
 const DRAG_LAW: [ColumnRule; 2] = [
     column("of Reynolds numbers", "reynolds re reynolds_number", Ratio, "reynolds", Positive),
-    column("of drag coefficients", "coefficient c cd c_d cn c_n cf c_f", Ratio, "coefficient", Positive),
+    column(
+        "of drag coefficients",
+        "coefficient drag_coefficient c cd c_d cn c_n cf c_f",
+        Ratio,
+        "coefficient",
+        Positive,
+    ),
 ];
 
 const POINTS: [ColumnRule; 3] = [
@@ -127,7 +133,7 @@ pub(super) fn drag_law(text: &[u8]) -> Result<DragTable, FileError> {
 pub(super) fn interpolation(law: &DragTable) -> Remark {
     /// Change without every second row from which on more rows are asked for [-].
     const LARGE: f64 = 0.05;
-    let rows = law.rows();
+    let rows = law.rows().len();
     let Some(change) = law.change_without_every_second_row() else {
         return Remark::note("has two rows, between which the drag is a power of the Reynolds number");
     };
@@ -387,6 +393,25 @@ mod tests {
         assert!(mean.contains("% of its energy at 0 Hz, which is the mean velocity"), "{mean}");
         assert!(spectrum(long([0.0, 0.0]).as_bytes()).is_ok());
         assert!(spectrum(text("psd_m2_s", &|i| energies[i]).as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn rejects_a_drag_law_that_is_no_law() {
+        for (text, said) in [
+            ("re,c\n1,2\n", "has 1 row of numbers"),
+            ("re,c\n1,2\n1,3\n", "must"),
+            ("re,c\n0,2\n1,3\n", "is not positive"),
+            ("re,c\n1,2\n2,-3\n", "is not positive"),
+            ("re,c\n1,2\n2,nan\n", "is not a finite number"),
+            ("re,velocity\n1,2\n2,3\n", "has no column of drag coefficients (it has"),
+            ("1,2\n2,3\n", "reynolds,coefficient"),
+        ] {
+            let error = drag_law(text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(said), "{text}: {error}");
+        }
+        let law = drag_law("Reynolds; Coefficient\n1; 8\n10; 2\n100; 1\n".as_bytes()).unwrap();
+        assert_eq!(law.rows().collect::<Vec<_>>(), [(1.0, 8.0), (10.0, 2.0), (100.0, 1.0)]);
+        assert!(interpolation(&law).is_warning() && interpolation(&law).to_string().contains("add rows"));
     }
 
     #[test]
