@@ -140,19 +140,15 @@ impl ElementDrag {
     }
 }
 
-/// A curve with its table, which is found once and not for each element.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Tabled {
-    curve: Curve,
-    table: &'static Table,
-}
-
 /// [`ElementDrag`] of eight fibres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DragLanes {
     /// Along and across.
     factor: [Lanes; 2],
-    curve: [Option<Tabled>; 2],
+    /// Of laws that are no powers, found once and not for each element.
+    table: [Option<&'static Table>; 2],
+    /// Whether the law along the fibre fades with the distance from the root.
+    fades: bool,
     /// Exponent, of `|V_t|` and of `|V_n|²`, or shift of the curve.
     growth: [Lanes; 2],
 }
@@ -172,8 +168,12 @@ impl DragLanes {
             Growth::Power(p) => per_square * p,
             Growth::Curve(_, shift) => shift,
         };
-        let curve = curve.map(|curve| curve.map(|curve| Tabled { curve, table: curve.table() }));
-        Self { factor: both(&|share, _| share.factor), curve, growth: both(&growth) }
+        Self {
+            factor: both(&|share, _| share.factor),
+            table: curve.map(|curve| curve.map(Curve::table)),
+            fades: curve[0].is_some_and(Curve::fades),
+            growth: both(&growth),
+        }
     }
 
     /// Splits the relative velocity into its parts along and across the element.
@@ -190,7 +190,7 @@ impl DragLanes {
     /// Whether both laws are powers of the velocity, as in the paper.
     #[inline(always)]
     pub(crate) fn is_powers(&self) -> bool {
-        self.curve[0].is_none() && self.curve[1].is_none()
+        self.table[0].is_none() && self.table[1].is_none()
     }
 
     /// Computes `g_t` and `g_n` if both laws are powers.
@@ -204,7 +204,7 @@ impl DragLanes {
     #[inline(always)]
     pub(crate) fn look_up<S: Register>(&self, j: usize, split: &mut Split<S>) {
         let [mut along, across] = split.powers.0;
-        if matches!(self.curve[0], Some(Tabled { curve, .. }) if curve.fades()) {
+        if self.fades {
             along = along.mul(S::splat(1.0 / (j as f64 + 0.5)));
         }
         let [along, across] = log2(Wide([along, across])).0;
@@ -215,9 +215,9 @@ impl DragLanes {
     #[inline(always)]
     fn grown<S: Register>(&self, direction: usize, log2: Wide<S>, to_square: f64) -> Wide<S> {
         let growth = Wide::load(&self.growth[direction]);
-        match self.curve[direction] {
+        match self.table[direction] {
             None => exp2(log2 * growth),
-            Some(Tabled { table, .. }) => table.at(log2.mul_add(Wide::splat(to_square), growth)),
+            Some(table) => table.at(log2.mul_add(Wide::splat(to_square), growth)),
         }
     }
 

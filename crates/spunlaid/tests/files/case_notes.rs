@@ -91,7 +91,7 @@ fn a_drag_law_says_once_where_it_ends() {
 
 #[test]
 fn a_drag_law_of_a_file_says_how_it_is_interpolated_and_where_it_ends() {
-    // Wieselsberger's cylinders, from 0.116 to 1.48e4.
+    // Wieselsberger's cylinders, from 0.116 to 15,000.
     const FILE: &str = "../spunlaid-results/assets/published/cylinders.csv";
     let across = |more: &[(&str, &str)]| changed(&[&[("drag.across", FILE)], more].concat());
     let (case, said) = across(&[]);
@@ -102,7 +102,7 @@ fn a_drag_law_of_a_file_says_how_it_is_interpolated_and_where_it_ends() {
     // Three times 10 % of 10 m/s over 1 µm have a Reynolds number of 0.2, one time 0.066.
     let fine = across(&[("fibre.diameter", "1 µm"), ("run.time_step", "auto")]).1;
     let ends = "drag.across = \"../spunlaid-results/assets/published/cylinders.csv\" has rows for Reynolds numbers \
-        from 0.116 to 1.48e4, and here they are about 0.0662, up to 0.199; beyond its rows the drag is extrapolated";
+        from 0.116 to 15000, and here they are about 0.0662, up to 0.199; beyond its rows the drag is extrapolated";
     assert!(fine.iter().any(|note| note.contains(ends)), "{fine:?}");
     let vacuum =
         across(&[("fibre.diameter", "1 µm"), ("run.time_step", "auto"), ("air.density", "0 kg/m³")]).1;

@@ -137,7 +137,7 @@ pub(super) fn interpolation(law: &DragTable) -> Remark {
     let Some(change) = law.change_without_every_second_row() else {
         return Remark::note("has two rows, between which the drag is a power of the Reynolds number");
     };
-    let [error, shown] = [0.25 * change, change].map(|share| Ratio.pretty_to(100.0 * share, 2));
+    let [error, shown] = [change / 3.0, change].map(|share| Ratio.pretty_to(100.0 * share, 2));
     let text = format!(
         "is interpolated between its {rows} rows to about {error} %: without every second row its coefficients \
          change by up to {shown} %"

@@ -330,6 +330,7 @@ impl Kind {
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
             Self::Switch => "true or false, without quotes".to_owned(),
             Self::Choice(_) => one_of(&self.names()),
+            Self::File(kind) if !kind.words().0.is_empty() => one_of(&self.names()),
             Self::Text(example) => format!("a text like \"{example}\""),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),
