@@ -5,6 +5,7 @@
 //! ```
 
 mod boundary_layer;
+mod cubics;
 mod curve;
 mod friction;
 mod normal;
@@ -14,8 +15,8 @@ use crate::fibre::body::Fibre;
 use crate::ground::lanes::{exp2, log2, power};
 use crate::ground::{Lanes, Register, Simd, Vec3, WIDTH, Wide};
 pub use boundary_layer::BoundaryLayer;
+use cubics::Table;
 pub use curve::Curve;
-use curve::Table;
 pub use friction::FrictionLaw;
 pub use normal::NormalLaw;
 use std::f64::consts::PI;
