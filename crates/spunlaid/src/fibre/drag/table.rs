@@ -187,7 +187,7 @@ impl TableLaw {
         (usual > 0.0 && usual < from || large > to).then(|| {
             format!(
                 "has rows for Reynolds numbers from {} to {}, and here they are about {}, up to {}; beyond its rows \
-                 the drag is extrapolated as a power of the Reynolds number. Add rows, or take a law that is valid there",
+                 the drag is extrapolated as a power of the Reynolds number. Add rows, or take a law that is valid",
                 shown(from),
                 shown(to),
                 shown(usual),
