@@ -81,7 +81,9 @@ fn setting(case: &Case, key: &'static Key, value: &Value) -> Option<Setting> {
             let (low, high) = (low.min(*now), high.max(*now));
             SettingKind::Quantity { low, high, logarithmic: low > 0.0 && high / low >= 50.0 }
         }
-        (Kind::Choice(_), _, Value::Text(_)) => SettingKind::Word { words: key.kind.words() },
+        // A law of the drag may also come from a file, which a page does not choose.
+        (Kind::File(_), _, Value::Text(_)) if !key.in_flight => return None,
+        (Kind::Choice(_) | Kind::File(_), _, Value::Text(_)) => SettingKind::Word { words: key.kind.words() },
         (Kind::Whole(low, _), _, Value::Whole(_)) if key.name == "run.seed" => {
             SettingKind::Whole { low: *low }
         }

@@ -14,6 +14,8 @@ from conftest import CASES
 import spunlaid
 from spunlaid import Case, CaseError
 
+CYLINDERS = CASES.parent / "crates/spunlaid-results/assets/published/cylinders.csv"
+
 # Webs and spinlines alone are no cases.
 OTHERS = ("web", "whole_line.", "spinline", "melt_spinning")
 ALL = sorted(path for path in CASES.glob("*.toml") if not path.name.startswith(OTHERS))
@@ -101,6 +103,7 @@ def test_every_problem_is_listed() -> None:
         ("table1", {"fibre.diameter": "2 m", "run.duration": "1e9 s"}),
         ("table1", {"air.velocity": "400 m/s", "drag.along": "sakiadis"}),
         ("table1", {"feed.speed": "40 m/s"}),
+        ("table1", {"drag.across": str(CYLINDERS), "fibre.diameter": "1 um"}),
         ("spunbond", {"belt.speed": "2 m/s", "run.replicates": "300"}),
         ("spunbond", {"air.turbulence_intensity": "20 %", "belt.distance": "9 mm"}),
         ("whole_line_fibre", {"spinline.throughput": "20 g/min"}),

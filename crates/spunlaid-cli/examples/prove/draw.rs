@@ -378,8 +378,10 @@ impl Drawable {
                 None => (least + random.below(most.min(least + 20) as usize) as u64).to_string(),
             },
             Kind::Switch => ["true", "false"][random.below(2)].to_owned(),
-            Kind::Choice(names) => {
-                let names = names();
+            // A law of the drag may come from a file too.
+            Kind::File(_) if !self.name.starts_with("drag.") => return None,
+            Kind::Choice(_) | Kind::File(_) => {
+                let names = self.kind.words();
                 names[random.below(names.len())].to_owned()
             }
             _ => return None,

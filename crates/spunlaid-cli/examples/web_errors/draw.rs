@@ -187,8 +187,10 @@ fn drawn<T>(
             };
             Some(dimension.exact(random.between(0.5 * middle, 2.0 * middle)))
         }
-        Kind::Choice(names) if random.happens(0.5) => {
-            let names = names();
+        // A law of the drag may come from a file too.
+        Kind::File(_) if !key.name.starts_with("drag.") => None,
+        Kind::Choice(_) | Kind::File(_) if random.happens(0.5) => {
+            let names = key.kind.words();
             Some(names[random.below(names.len())].to_owned())
         }
         Kind::Switch => Some(random.happens(0.5).to_string()),

@@ -129,7 +129,7 @@ A spinline is a table of a small text file, or of a case, where it takes the pla
 and fibre.diameter:
 
   [spinline]
-  polymer = \"pp\"                 # pp, pet, pa6, pla, or a file with the constants of yours
+  polymer = \"pp\"                 # pp, pet, pa6, pla, pe, or a file with the constants of yours
   melt_flow_rate = 35            # g/10 min; or viscosity in [spinline.material]
   die_temperature = \"230 °C\"
   hole_diameter = \"0.6 mm\"

@@ -35,7 +35,7 @@ pub(crate) struct New {
 #[derive(Clone, Debug, Args)]
 #[command(next_help_heading = "Numbers of the line, with --web")]
 pub(crate) struct LineNumbers {
-    /// Polymer: pp, pet, pa6 or pla, in capitals or not
+    /// Polymer: pp, pet, pa6, pla or pe, in capitals or not
     #[arg(long, value_name = "NAME", requires = "web", value_parser = polymer)]
     pub(crate) polymer: Option<Given<Polymer>>,
     /// Throughput of a hole in g/min, or with its unit, as "0.5 g/min/hole"
@@ -144,7 +144,7 @@ pub(crate) enum Need {
 /// What is asked: the options of which the first takes the answer that can read it, the question, and what an empty
 /// answer means.
 pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
-    (&["polymer"], Needed, "Polymer: pp, pet, pa6 or pla", "pp"),
+    (&["polymer"], Needed, "Polymer: pp, pet, pa6, pla or pe", "pp"),
     (&["throughput"], Needed, "Throughput of a hole", "0.5 g/min"),
     (&["dtex", "diameter"], Needed, "Titre or diameter of a filament", "2 dtex"),
     (&["basis-weight", "belt-speed"], Needed, "Basis weight of the web, or speed of its belt", "20 g/m²"),

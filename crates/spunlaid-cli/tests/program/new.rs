@@ -330,7 +330,7 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     assert!(said.matches("note:").count() == 4, "{said}");
     let desk = Desk::new();
     let said = refusal(desk.spunlaid("new --web line.toml --polymer").args(["MFR 35"]), 1);
-    assert!(said.contains("write one of pp, pet, pa6, pla before the melt flow rate"), "{said}");
+    assert!(said.contains("write one of pp, pet, pa6, pla, pe before the melt flow rate"), "{said}");
     let said = refusal(&mut desk.spunlaid("new --web line.toml --beams 0"), 1);
     assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }

@@ -204,6 +204,49 @@ fn words_are_words_in_every_result() {
 }
 
 #[test]
+fn a_list_of_files_is_varied_and_kept_with_the_study() {
+    let rows = |factor: f64| -> String {
+        let row = |i: i32| 10f64.powf(0.2 * f64::from(i));
+        let lines = (-10..=20).map(|i| format!("{},{}\n", row(i), factor * row(i).powf(-0.61)));
+        std::iter::once("reynolds,coefficient\n".to_owned()).chain(lines).collect()
+    };
+    let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n\
+                 'drag.along' = ['majumdar-shambaugh', 'mine.csv', 'other.csv']\n";
+    let place = StudyFolder::new(&case(0.02), study);
+    for (name, factor) in [("mine.csv", 0.78), ("other.csv", 0.37)] {
+        fs::write(place.path(name), rows(factor)).unwrap();
+    }
+    let output = said(&place.swept("out", &[]));
+    assert!(
+        output.contains("(drag.along = \"mine.csv\"): drag.along = \"mine.csv\" is interpolated"),
+        "{output}"
+    );
+    let found = csv(&place, "out");
+    let words: Vec<&str> = found[1..].iter().map(|row| &*row[2]).collect();
+    assert_eq!(words, ["majumdar-shambaugh", "mine.csv", "other.csv"]);
+    // The law as a table of itself, and another.
+    let amplitude = |row: usize| found[row][5].parse::<f64>().unwrap();
+    assert_eq!(found[0][5], "amplitude_y_m");
+    assert!((amplitude(2) / amplitude(1) - 1.0).abs() < 1e-3, "{found:?}");
+    assert!((amplitude(3) / amplitude(1) - 1.0).abs() > 1e-3, "{found:?}");
+    let written = fs::read_to_string(place.path("out/study.toml")).unwrap();
+    assert!(
+        written.contains("[\"majumdar-shambaugh\", \"case_files/mine.csv\", \"case_files/other.csv\"]"),
+        "{written}"
+    );
+    // What is kept gives the same bits, and the study goes on from where it was.
+    let again = place.spunlaid(&["sweep", "out/study.toml", "--out", "again"]).output().unwrap();
+    assert!(again.status.success(), "{}", said(&again));
+    let numbers = |rows: &[Vec<String>]| rows.iter().map(|row| row[3..].to_vec()).collect::<Vec<_>>();
+    assert_eq!(numbers(&csv(&place, "again")), numbers(&found));
+    let complete = said(&place.spunlaid(&["sweep", "study.toml", "--out", "out"]).output().unwrap());
+    assert!(complete.contains("the study was already complete"), "{complete}");
+    // A file that is not there.
+    fs::remove_file(place.path("other.csv")).unwrap();
+    assert!(place.refused("none", &[]).contains("other.csv"));
+}
+
+#[test]
 fn words_of_two_factors_are_told_apart_by_the_legend() {
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'drag.along' = ['sakiadis', 'matsui']\n\
                  'drag.across' = ['ju-shambaugh', 'marheineke-wegener']\n";

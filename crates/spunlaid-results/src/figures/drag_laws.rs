@@ -1,12 +1,37 @@
-//! The pictures of the drag laws in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
+//! The drag laws with names, with measurements beside, and the law of a file among them.
 
-use spunlaid::fibre::{FrictionLaw, NormalLaw};
+use spunlaid::fibre::{Drag, FrictionLaw, NormalLaw, TableLaw};
 use spunlaid_charts::palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
-use std::fs;
 
-const CYLINDERS: &str = include_str!("../../../spunlaid/tests/published/cylinders.csv");
-const COTTON: &str = include_str!("../../../spunlaid/tests/published/cotton_fibres.csv");
+const CYLINDERS: &str = include_str!("../../assets/published/cylinders.csv");
+const COTTON: &str = include_str!("../../assets/published/cotton_fibres.csv");
+
+/// A figure for each law that comes from a file.
+///
+/// * `diameter` – of the fibre [m], for the laws that depend on it
+pub(crate) fn of_files(drag: &Drag, diameter: f64) -> Vec<Figure> {
+    let figure = |chart: Chart, law: TableLaw| {
+        let [from, to] = law.file().range().map(f64::log10);
+        let name = law.file().path().file_name().unwrap_or_default().to_string_lossy();
+        let rows: Vec<_> = law.file().rows().map(|(re, c)| (re, c, None)).collect();
+        let between = self::law((from, to), |re| law.file().coefficient(re));
+        let chart = chart
+            .line(Series::new(&name, INK).width(2.5), &between)
+            .scatter(Series::spots(&format!("{name}, rows"), INK).unlabelled(), &rows);
+        let caption = "The drag law of the case beside those that have a name and what was measured: its rows, and \
+            the interpolation between them.";
+        Figure::new(&chart, caption)
+    };
+    let mut figures = Vec::new();
+    if let FrictionLaw::Table(law) = drag.along {
+        figures.push(figure(along(diameter), law));
+    }
+    if let NormalLaw::Table(law) = drag.across {
+        figures.push(figure(across(&[diameter]), law));
+    }
+    figures
+}
 
 /// A law over Reynolds numbers between powers of ten.
 fn law(decades: (f64, f64), coefficient: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
@@ -19,18 +44,17 @@ fn law(decades: (f64, f64), coefficient: impl Fn(f64) -> f64) -> Vec<(f64, f64)>
 fn cotton() -> Vec<Vec<(f64, f64)>> {
     let numbers = |line: &str| line.split(',').filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
     let fits: Vec<Vec<f64>> = COTTON.lines().map(numbers).filter(|fit| fit.len() == 4).collect();
-    assert_eq!(fits.len(), 2);
     let fit = |f: &Vec<f64>| law((f[0].log10(), f[1].log10()), |re| f[2] * re.powf(-f[3]));
     fits.iter().map(fit).collect()
 }
 
-fn across() -> Chart {
+/// * `diameters` – of the fibres for which the law of Ju & Shambaugh is shown [m]
+fn across(diameters: &[f64]) -> Chart {
     let measured: Vec<(f64, f64, Option<f64>)> = CYLINDERS
         .lines()
         .filter_map(|line| line.split_once(','))
         .filter_map(|(re, c)| Some((re.parse().ok()?, c.parse().ok()?, None)))
         .collect();
-    assert_eq!(measured.len(), 15);
     let general = NormalLaw::MarheinekeWegener;
     let mut chart = Chart::new(
         "drag_across",
@@ -39,9 +63,9 @@ fn across() -> Chart {
         Axis::logarithmic("Coefficient *C*_{n} (–)"),
     )
     .line(Series::new("Marheineke & Wegener", BLUE), law((-1.5, 4.5), |re| general.coefficient(re, 50e-6)));
-    for (diameter, colour) in [(20e-6, GREEN), (50e-6, ORANGE), (150e-6, PURPLE)] {
+    for (diameter, colour) in diameters.iter().zip([GREEN, ORANGE, PURPLE]) {
         let label = format!("Ju & Shambaugh, {:.0} µm", diameter * 1e6);
-        let fitted = law((-1.5, 3.0), |re| NormalLaw::JuShambaugh.coefficient(re, diameter));
+        let fitted = law((-1.5, 3.0), |re| NormalLaw::JuShambaugh.coefficient(re, *diameter));
         chart = chart.line(Series::new(&label, colour).dashed(&[7.0, 3.0]), &fitted);
     }
     let cotton: Vec<(f64, f64)> = cotton().into_iter().flatten().collect();
@@ -49,11 +73,10 @@ fn across() -> Chart {
     chart.scatter(Series::spots("cylinders, Wieselsberger", INK), &measured)
 }
 
-fn along() -> Chart {
-    let diameter = 20e-6;
+fn along(diameter: f64) -> Chart {
     let mut chart = Chart::new(
         "drag_along",
-        "Friction along a fibre of 20 µm",
+        &format!("Friction along a fibre of {:.0} µm", diameter * 1e6),
         Axis::logarithmic("Reynolds number *Re* (–)").tight(),
         Axis::logarithmic("Coefficient *C*_{f} (–)"),
     );
@@ -80,14 +103,37 @@ fn along() -> Chart {
     chart
 }
 
-#[test]
-fn identical_pictures_in_the_theory() {
-    for chart in [across(), along()] {
-        let path = format!("{}/../../docs/images/{}.svg", env!("CARGO_MANIFEST_DIR"), chart.name);
-        let svg = Figure::new(&chart, "").svg();
-        if std::env::var_os("BLESS").is_some() {
-            fs::write(&path, &svg).unwrap();
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spunlaid::air::FileContent;
+    use spunlaid::fibre::DragTable;
+    use std::{fs, sync::Arc};
+
+    /// The pictures in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
+    #[test]
+    fn identical_pictures_in_the_theory() {
+        assert_eq!(cotton().len(), 2);
+        for chart in [across(&[20e-6, 50e-6, 150e-6]), along(20e-6)] {
+            let path = format!("{}/../../docs/images/{}.svg", env!("CARGO_MANIFEST_DIR"), chart.name);
+            let svg = Figure::new(&chart, "").svg();
+            if std::env::var_os("BLESS").is_some() {
+                fs::write(&path, &svg).unwrap();
+            }
+            assert_eq!(fs::read_to_string(&path).unwrap(), svg, "{path}");
         }
-        assert_eq!(fs::read_to_string(&path).unwrap(), svg, "{path}");
+    }
+
+    #[test]
+    fn a_law_of_a_file_is_drawn_among_the_others() {
+        let table = DragTable::new(&[0.1, 1.0, 10.0], &[70.0, 11.0, 2.9]);
+        let law = TableLaw::new(FileContent::new("mine.csv".into(), 1, Arc::new(table)));
+        let named = Drag { along: FrictionLaw::ALL[0], across: NormalLaw::MarheinekeWegener };
+        assert!(of_files(&named, 20e-6).is_empty());
+        let figures = of_files(&Drag { across: NormalLaw::Table(law), ..named }, 20e-6);
+        assert_eq!((figures.len(), &*figures[0].name), (1, "drag_across"));
+        for label in ["mine.csv", "Marheineke", "cylinders, Wieselsberger", "single cotton fibres"] {
+            assert!(figures[0].svg().contains(label), "{label}");
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! What the figures of several products share.
 
-#[cfg(test)]
-mod drag_laws;
+pub(crate) mod drag_laws;
 pub(crate) mod effects;
 
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, INK, ORANGE, PURPLE, VERMILION};

@@ -1,22 +1,26 @@
 //! Air drag on a fibre, along and across its axis.
 //!
 //! ```text
-//! law (friction, normal; boundary_layer) → ElementDrag → DragLanes (powers and curve), in the kernel
+//! law (friction, normal; boundary_layer, table) → ElementDrag → DragLanes (powers and curve), in the kernel
 //! ```
 
 mod boundary_layer;
+mod cubics;
 mod curve;
 mod friction;
 mod normal;
+mod table;
 
 use crate::fibre::body::Fibre;
 use crate::ground::lanes::{exp2, log2, power};
 use crate::ground::{Lanes, Register, Simd, Vec3, WIDTH, Wide};
 pub use boundary_layer::BoundaryLayer;
+use cubics::Table;
 pub use curve::Curve;
 pub use friction::FrictionLaw;
 pub use normal::NormalLaw;
 use std::f64::consts::PI;
+pub use table::{DragTable, TableLaw};
 
 /// The drag laws and their constants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +32,13 @@ pub struct Drag {
 }
 
 impl Drag {
+    /// The laws along and across that come from files.
+    pub(crate) fn tables(&self) -> [Option<TableLaw>; 2] {
+        let along = if let FrictionLaw::Table(law) = self.along { Some(law) } else { None };
+        let across = if let NormalLaw::Table(law) = self.across { Some(law) } else { None };
+        [along, across]
+    }
+
     /// The laws for an element of a fibre in air of `density` [kg/m³] and kinematic `viscosity` [m²/s].
     pub fn element_drag(&self, fibre: &Fibre, density: f64, viscosity: f64) -> ElementDrag {
         let d = fibre.diameter;
@@ -49,12 +60,14 @@ impl Drag {
                     power(PI * pressure_area * coefficient, 1.0 - exponent)
                 }
                 friction::Form::Layer(_, curve) => layer(curve),
+                friction::Form::Table(law) => curve(PI, Curve::Table(law), re_per_velocity),
             },
             across: match across.form() {
                 normal::Form::Power { exponent, coefficient } => {
                     power(pressure_area * coefficient(re_per_velocity, d), 1.0 - exponent)
                 }
                 normal::Form::Curve { .. } => curve(1.0, Curve::Across(across), re_per_velocity),
+                normal::Form::Table(law) => curve(1.0, Curve::Table(law), re_per_velocity),
             },
         }
     }
@@ -133,7 +146,10 @@ impl ElementDrag {
 pub(crate) struct DragLanes {
     /// Along and across.
     factor: [Lanes; 2],
-    curve: [Option<Curve>; 2],
+    /// Of laws that are no powers, found once and not for each element.
+    table: [Option<&'static Table>; 2],
+    /// Whether the law along the fibre fades with the distance from the root.
+    fades: bool,
     /// Exponent, of `|V_t|` and of `|V_n|²`, or shift of the curve.
     growth: [Lanes; 2],
 }
@@ -153,7 +169,12 @@ impl DragLanes {
             Growth::Power(p) => per_square * p,
             Growth::Curve(_, shift) => shift,
         };
-        Self { factor: both(&|share, _| share.factor), curve, growth: both(&growth) }
+        Self {
+            factor: both(&|share, _| share.factor),
+            table: curve.map(|curve| curve.map(Curve::table)),
+            fades: curve[0].is_some_and(Curve::fades),
+            growth: both(&growth),
+        }
     }
 
     /// Splits the relative velocity into its parts along and across the element.
@@ -170,7 +191,7 @@ impl DragLanes {
     /// Whether both laws are powers of the velocity, as in the paper.
     #[inline(always)]
     pub(crate) fn is_powers(&self) -> bool {
-        self.curve[0].is_none() && self.curve[1].is_none()
+        self.table[0].is_none() && self.table[1].is_none()
     }
 
     /// Computes `g_t` and `g_n` if both laws are powers.
@@ -184,7 +205,7 @@ impl DragLanes {
     #[inline(always)]
     pub(crate) fn look_up<S: Register>(&self, j: usize, split: &mut Split<S>) {
         let [mut along, across] = split.powers.0;
-        if matches!(self.curve[0], Some(curve) if curve.fades()) {
+        if self.fades {
             along = along.mul(S::splat(1.0 / (j as f64 + 0.5)));
         }
         let [along, across] = log2(Wide([along, across])).0;
@@ -195,9 +216,9 @@ impl DragLanes {
     #[inline(always)]
     fn grown<S: Register>(&self, direction: usize, log2: Wide<S>, to_square: f64) -> Wide<S> {
         let growth = Wide::load(&self.growth[direction]);
-        match self.curve[direction] {
+        match self.table[direction] {
             None => exp2(log2 * growth),
-            Some(curve) => curve.table().at(log2.mul_add(Wide::splat(to_square), growth)),
+            Some(table) => table.at(log2.mul_add(Wide::splat(to_square), growth)),
         }
     }
 

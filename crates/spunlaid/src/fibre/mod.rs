@@ -32,7 +32,9 @@ pub use case::{
 pub use chain::Strand;
 pub use charge::{BREAKDOWN, Charge, ChargeEstimate, SheetHeight};
 pub(crate) use charge::{ChargedNode, STRONG, SheetField, Sheets};
-pub use drag::{BoundaryLayer, Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share, Source};
+pub use drag::{
+    BoundaryLayer, Drag, DragTable, ElementDrag, FrictionLaw, Growth, NormalLaw, Share, Source, TableLaw,
+};
 pub use energy::Energy;
 pub(crate) use flight::{Common, SurroundingRun};
 pub use flight::{EndNodeMotion, Flight, Job, LaidPoint, Snapshot};

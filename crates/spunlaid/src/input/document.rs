@@ -361,7 +361,7 @@ impl<'a, T> Document<'a, T> {
 
     /// The path that an entry names. It is relative to the folder of the file, or to the working directory if
     /// the entry is an override.
-    fn beside(&self, place: &Place, named: &str) -> PathBuf {
+    pub(super) fn beside(&self, place: &Place, named: &str) -> PathBuf {
         match (place, Path::new(&self.name).parent()) {
             (Place::Override(_), _) | (_, None) => PathBuf::from(named),
             (_, Some(folder)) => folder.join(named),

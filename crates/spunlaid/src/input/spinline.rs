@@ -185,6 +185,10 @@ impl OpenCase {
         let Some(spinline) = &self.case.spinline else { return Ok(()) };
         let solved = spinline.solve(self.case.drag.along);
         let filament = solved.map_err(|failure| rejected(&self.key_values, &self.case, failure))?;
+        if let Some(beyond) = filament.beyond_table(self.case.drag.along) {
+            let finding = keys::finding("drag.along", f64::NAN, Remark::warning(beyond));
+            self.notes.push(self.key_values.placed(finding));
+        }
         self.case.take_filament(&filament);
         Ok(())
     }

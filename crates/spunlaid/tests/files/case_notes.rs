@@ -90,6 +90,30 @@ fn a_drag_law_says_once_where_it_ends() {
 }
 
 #[test]
+fn a_drag_law_of_a_file_says_how_it_is_interpolated_and_where_it_ends() {
+    // Wieselsberger's cylinders, from 0.116 to 15,000.
+    const FILE: &str = "../spunlaid-results/assets/published/cylinders.csv";
+    let across = |more: &[(&str, &str)]| changed(&[&[("drag.across", FILE)], more].concat());
+    let (case, said) = across(&[]);
+    assert_eq!(case.files().len(), 1);
+    let [interpolated] = &said[..] else { panic!("{said:?}") };
+    let told = "cylinders.csv\" is interpolated between its 15 rows to about ";
+    assert!(interpolated.contains(told) && interpolated.contains("without every second row"), "{said:?}");
+    // Three times 10 % of 10 m/s over 1 µm have a Reynolds number of 0.2, one time 0.066.
+    let fine = across(&[("fibre.diameter", "1 µm"), ("run.time_step", "auto")]).1;
+    let ends = "drag.across = \"../spunlaid-results/assets/published/cylinders.csv\" has rows for Reynolds numbers \
+        from 0.116 to 15000, and here they are about 0.0662, up to 0.199; beyond its rows the drag is extrapolated";
+    assert!(fine.iter().any(|note| note.contains(ends)), "{fine:?}");
+    let vacuum =
+        across(&[("fibre.diameter", "1 µm"), ("run.time_step", "auto"), ("air.density", "0 kg/m³")]).1;
+    assert!(!vacuum.iter().any(|note| note.contains("has rows")), "{vacuum:?}");
+    // Along, 10 m/s over 50 µm are 33, and 43 with three times the rms.
+    let along = changed(&[("drag.along", FILE)]).1;
+    assert!(!along.iter().any(|note| note.contains("has rows")), "{along:?}");
+    assert_eq!(bits(&read_again(&case)), bits(&case));
+}
+
+#[test]
 fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_thick() {
     let warnings = |set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();

@@ -187,7 +187,7 @@ fn identical_constants_of_polymers_on_their_page() {
     // What the viscosity is of a polymer whose grade decides it.
     const NONE: &str = "–";
     let page = fs::read_to_string("../../docs/theory.md").unwrap();
-    let section = page.split("\n## ").find(|section| section.starts_with("The constants of four polymers\n"));
+    let section = page.split("\n## ").find(|section| section.starts_with("The constants of five polymers\n"));
     let mut rows = section.unwrap().lines().filter(|line| line.starts_with("| ")).map(|line| {
         let cells = line.trim_matches('|').split('|').map(str::trim);
         cells.collect::<Vec<_>>()

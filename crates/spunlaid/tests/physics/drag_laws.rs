@@ -2,10 +2,14 @@
 //! has them.
 
 use crate::common::*;
+use spunlaid::air::FileContent;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{BoundaryLayer, Drag, Fibre, Flight, FrictionLaw, NormalLaw, Root, Strand};
+use spunlaid::fibre::{
+    BoundaryLayer, Drag, DragTable, Fibre, Flight, FrictionLaw, Job, NormalLaw, Root, Strand, TableLaw,
+};
 use spunlaid::ground::Isa;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 const DENSITY: f64 = 1.204;
 const VISCOSITY: f64 = 1.51e-5;
@@ -15,6 +19,35 @@ fn pairs() -> impl Iterator<Item = Drag> {
     FrictionLaw::ALL
         .into_iter()
         .flat_map(|along| NormalLaw::ALL.into_iter().map(move |across| Drag { along, across }))
+}
+
+/// A law as a table of ten rows to a decade, Reynolds numbers from 1e-4 to 1e5.
+fn as_table(law: impl Fn(f64) -> f64) -> TableLaw {
+    let re: Vec<f64> = (-40..=50).map(|i| 10f64.powf(0.1 * f64::from(i))).collect();
+    let coefficients: Vec<f64> = re.iter().map(|re| law(*re)).collect();
+    let table = DragTable::new(&re, &coefficients);
+    TableLaw::new(FileContent::new("law.csv".into(), 1, Arc::new(table)))
+}
+
+/// The paper's law along and that of measurements across, as they are and as tables.
+fn named_and_as_tables() -> [Drag; 2] {
+    let (along, across) = (FrictionLaw::ALL[0], NormalLaw::MarheinekeWegener);
+    let tables = Drag {
+        along: FrictionLaw::Table(as_table(|re| along.coefficient(re, 1.0))),
+        across: NormalLaw::Table(as_table(|re| across.coefficient(re, 1e-5))),
+    };
+    [Drag { along, across }, tables]
+}
+
+/// Every pair of named laws, and pairs with tables.
+fn pairs_with_tables() -> impl Iterator<Item = Drag> {
+    let [named, tables] = named_and_as_tables();
+    let laminar = FrictionLaw::GlauertLighthill;
+    pairs().chain([
+        tables,
+        Drag { along: tables.along, ..named },
+        Drag { along: laminar, across: tables.across },
+    ])
 }
 
 fn strand(drag: Drag, root: Root, diameter: f64, direction: V) -> Strand {
@@ -42,7 +75,7 @@ fn element_force(drag: Drag, fibre: &Fibre, j: usize, v: V, tangent: V) -> V {
 
 /// Cylinders across a stream that Wieselsberger measured: Reynolds number and drag coefficient.
 fn measured_cylinders() -> Vec<(f64, f64)> {
-    let measured: Vec<(f64, f64)> = include_str!("../published/cylinders.csv")
+    let measured: Vec<(f64, f64)> = include_str!("../../../spunlaid-results/assets/published/cylinders.csv")
         .lines()
         .filter_map(|line| line.split_once(','))
         .filter_map(|(re, c)| Some((re.parse().ok()?, c.parse().ok()?)))
@@ -92,7 +125,7 @@ fn frozen_deviation_from_cylinders_in_fast_flow() {
 #[test]
 fn published_drag_across_cotton_fibres() {
     let numbers = |line: &str| line.split(',').filter_map(|n| n.parse().ok()).collect::<Vec<f64>>();
-    let fits: Vec<[f64; 4]> = include_str!("../published/cotton_fibres.csv")
+    let fits: Vec<[f64; 4]> = include_str!("../../../spunlaid-results/assets/published/cotton_fibres.csv")
         .lines()
         .filter_map(|line| numbers(line).try_into().ok())
         .collect();
@@ -276,6 +309,21 @@ fn analytic_forces_of_every_law_in_the_kernel() {
 }
 
 #[test]
+fn analytic_a_flight_by_a_named_law_as_a_table_is_that_flight() {
+    let mut case = table1(Scheme::SemiImplicitEuler, 1e-5, 0.05, 1);
+    let ends = named_and_as_tables().map(|drag| {
+        case.drag = drag;
+        let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).expect("a flight");
+        flight.step_to(0.05).expect("it flies");
+        flight.snapshot().position[case.fibre.elements].lane(0)
+    });
+    // Where it hung before.
+    let moved = ends[0] - X * case.fibre.length;
+    let error = (ends[1] - ends[0]).norm() / moved.norm();
+    assert!(moved.norm() > 1e-3 && error < 1e-3 && error > 0.0, "{error:e} of {moved:?}");
+}
+
+#[test]
 fn analytic_terminal_velocity_across_by_marheineke_and_wegener() {
     // A free fibre falls across itself at w = ½ d ρ C_n(V) V² per length, for V by halving.
     let drag = Drag { along: FrictionLaw::GlauertLighthill, across: NormalLaw::MarheinekeWegener };
@@ -332,7 +380,7 @@ fn analytic_no_drag_at_no_velocity() {
 #[test]
 fn identical_alone_or_in_company_on_any_instruction_set() {
     let (eddies, turbulence) = steady_air(7.0, 8, 1.0);
-    for drag in pairs() {
+    for drag in pairs_with_tables() {
         for scheme in Scheme::ALL {
             let strands: Vec<Strand> = (1..=8)
                 .map(|i| strand(drag, Root::Pinned, 7e-6 * f64::from(i), V::new(0.6, 0.0, 0.8)))

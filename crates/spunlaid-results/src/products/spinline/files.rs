@@ -7,7 +7,7 @@ use crate::files::table::{Column, Value, number, whole};
 use crate::files::versioned_json;
 use crate::numbers::{number_to, significant, to_decimals};
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::{Case, FreezingCause, OF_SPINLINES, Solution, Station, ZERO_CELSIUS};
+use spunlaid::fibre::{Case, FreezingCause, FrictionLaw, OF_SPINLINES, Solution, Station, ZERO_CELSIUS};
 use spunlaid::ground::{Dimension, Error};
 use spunlaid::input::{Influence, OfFilament, SpinFile};
 use spunlaid_charts::label::plain;
@@ -207,7 +207,7 @@ pub fn influence(influence: &Influence) -> String {
 }
 
 /// What a reader must know of the solution.
-pub fn remarks(rows: &[Solution]) -> Vec<String> {
+pub fn remarks(law: FrictionLaw, rows: &[Solution]) -> Vec<String> {
     let several: Vec<String> = (rows.iter().enumerate())
         .filter(|(_, row)| row.has_second)
         .map(|(i, _)| (i + 1).to_string())
@@ -218,5 +218,7 @@ pub fn remarks(rows: &[Solution]) -> Vec<String> {
     };
     let remark =
         format!("there are two steady states{whose}; the one with the smaller tension at the die is given");
-    (!several.is_empty()).then_some(remark).into_iter().collect()
+    let beyond = rows.iter().find_map(|row| row.beyond_table(law));
+    let beyond = beyond.map(|beyond| format!("drag.along = \"{}\" {beyond}", law.name()));
+    (!several.is_empty()).then_some(remark).into_iter().chain(beyond).collect()
 }

@@ -10,6 +10,7 @@ pub use files::SpinResults;
 pub use report::spinline_text;
 
 use crate::Failure;
+use crate::figures::drag_laws;
 use crate::files::folder::{CASE_FILES, Staging};
 use crate::files::kept_input::Input;
 use crate::files::origin::ORIGIN;
@@ -19,7 +20,7 @@ use figures::{SPINLINE, spinline_figures};
 use files as spinline;
 use files::{STATIONS, remarks, write_stations};
 use report::spinline_report;
-use spunlaid::fibre::Remark;
+use spunlaid::fibre::{Drag, NormalLaw, Remark};
 use spunlaid::ground::Error;
 use spunlaid::input::SpinFile;
 
@@ -43,7 +44,7 @@ impl SpinFolder {
     /// If it has no steady state that a line could run in.
     pub fn solve(name: String, file: SpinFile) -> Result<Self, Error> {
         let results = SpinResults::new(&file)?;
-        let found = remarks(&results.rows);
+        let found = remarks(file.spec.drag.along, &results.rows);
         Ok(Self { name, file, results, found })
     }
 
@@ -68,7 +69,10 @@ impl Contents for SpinFolder {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let SpinResults { rows, influences } = &self.results;
         let input = maker.keep(Input::Spinline(&self.file.spec))?;
-        let figures = spinline_figures(SPINLINE, rows, influences);
+        let mut figures = spinline_figures(SPINLINE, rows, influences);
+        // Only the friction along the thread counts here.
+        let drag = Drag { across: NormalLaw::MarheinekeWegener, ..self.file.spec.drag };
+        figures.extend(rows.first().iter().flat_map(|row| drag_laws::of_files(&drag, row.final_diameter)));
         let report = || Ok(spinline_report(&self.file.spec, &self.results, &figures, &input));
         let files = |staging: &Staging<'_>| write_stations(staging, &[(1, rows)]);
         maker.finish((&self.name, &self.notes()), &figures, files, report)

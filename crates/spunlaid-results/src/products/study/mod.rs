@@ -85,7 +85,8 @@ pub fn open<'a>(
         // These files follow from the study, so they are restored if someone has removed them. They are
         // renewed for more replicates.
         let was = fs::read_to_string(at.place().join(STUDY)).unwrap_or_default();
-        if was != file.text || !at.place().join(file.base_name()).exists() {
+        let [text, _] = with_files_at(file, &places(files_of(file)));
+        if was != text || !at.place().join(file.base_name()).exists() {
             describe(at.place(), file, stop)?;
         }
     }
@@ -122,8 +123,10 @@ fn begin(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failur
 
 fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Failure> {
     let mut staging = Staging::new(place, DESCRIPTION, true, stop)?;
-    staging.write(file.base_name(), keep_files(file, &staging)?)?;
-    staging.write(STUDY, &file.text)?;
+    let copied = copy(files_of(file), &staging.place(CASE_FILES).0)?;
+    for (name, text) in [STUDY, file.base_name()].into_iter().zip(with_files_at(file, &copied)) {
+        staging.write(name, text)?;
+    }
     staging.publish()
 }
 
@@ -131,9 +134,9 @@ fn describe(place: &Path, file: &StudyFile, stop: &AtomicBool) -> Result<(), Fai
 fn differs(place: &Path, file: &StudyFile) -> Failure {
     let copied = places(files_of(file));
     let mut all = Vec::new();
-    for (name, now) in [(STUDY, &file.text), (file.base_name(), &with_files_at(file, &copied))] {
+    for (name, now) in [STUDY, file.base_name()].into_iter().zip(with_files_at(file, &copied)) {
         let was = fs::read_to_string(place.join(name)).unwrap_or_default();
-        all.extend(differences(&was, now).into_iter().map(|line| format!("{name}: {line}")));
+        all.extend(differences(&was, &now).into_iter().map(|line| format!("{name}: {line}")));
     }
     let mut changed = BTreeSet::new();
     for (file, parts) in files_of(file) {
@@ -192,12 +195,6 @@ impl Contents for FoundStudy<'_> {
     }
 }
 
-/// Copies the files that the case names, and returns the text of the case or web with the paths of the copies.
-fn keep_files(file: &StudyFile, staging: &Staging<'_>) -> Result<String, Failure> {
-    let copied = copy(files_of(file), &staging.place(CASE_FILES).0)?;
-    Ok(with_files_at(file, &copied))
-}
-
 /// The files that all points name, with the files that these name.
 fn files_of(file: &StudyFile) -> impl Iterator<Item = (&Path, &[PathBuf])> {
     file.study.points.iter().flat_map(|point| match &point.experiment {
@@ -207,18 +204,22 @@ fn files_of(file: &StudyFile) -> impl Iterator<Item = (&Path, &[PathBuf])> {
     })
 }
 
-/// The text of the case with the paths of copies.
-fn with_files_at(file: &StudyFile, copied: &BTreeMap<PathBuf, PathBuf>) -> String {
+/// The texts of the study and of its case or web with the paths of copies.
+fn with_files_at(file: &StudyFile, copied: &BTreeMap<PathBuf, PathBuf>) -> [String; 2] {
+    // A study has been written with whole paths.
     let folder = file.base_path.parent().unwrap_or(Path::new(""));
-    copied.iter().fold(file.base_text.clone(), |text, (from, to)| {
-        let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
-        let literal = |path: &Path| format!("'{}'", path.display());
-        // A case is the text of its user; a web has been written with whole paths.
-        let written = [from, from.strip_prefix(folder).unwrap_or(from)];
-        written.into_iter().fold(text, |text, from| {
-            text.replace(&quoted(from), &quoted(to)).replace(&literal(from), &quoted(to))
+    let replaced = |text: String, folder: &Path| {
+        copied.iter().fold(text, |text, (from, to)| {
+            let quoted = |path: &Path| format!("{:?}", path.to_string_lossy());
+            let literal = |path: &Path| format!("'{}'", path.display());
+            // A case is the text of its user; a web has been written with whole paths.
+            let written = [from, from.strip_prefix(folder).unwrap_or(from)];
+            written.into_iter().fold(text, |text, from| {
+                text.replace(&quoted(from), &quoted(to)).replace(&literal(from), &quoted(to))
+            })
         })
-    })
+    };
+    [replaced(file.text.clone(), Path::new("")), replaced(file.base_text.clone(), folder)]
 }
 
 /// Largest number of lost fibres that are listed.

@@ -90,7 +90,7 @@ fn parameter(key: &str, start: f64, range: [f64; 2]) -> Parameter {
 }
 
 fn whole(of: Parameter) -> Parameter {
-    Parameter { key: VariedKey { kind: Kind::Whole(0, u64::MAX), ..of.key }, ..of }
+    Parameter { key: VariedKey::new(&of.key.name, Kind::Whole(0, u64::MAX)), ..of }
 }
 
 /// How many intervals of so many loops lie below the truth, hold it, lie above it; by key.

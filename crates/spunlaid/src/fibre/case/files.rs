@@ -11,26 +11,48 @@ impl Case {
     /// The files that the case was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
         let of_spinline = self.spinline.iter().flat_map(|spinline| spinline.files());
-        self.air.files().into_iter().chain(of_spinline).collect()
+        self.air.files().into_iter().chain(of_spinline).chain(self.drag.files()).collect()
     }
 
     /// The same case with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
         let spinline = self.spinline.as_ref().map(|spinline| Box::new(spinline.with_files_at(&place)));
-        Self { air: self.air.with_files_at(place), spinline, ..self.clone() }
+        let drag = self.drag.with_files_at(&place);
+        Self { air: self.air.with_files_at(place), spinline, drag, ..self.clone() }
     }
 }
 
 impl SpinSpec {
     /// The files that it was read from, each with the parts that it names, relative to its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        self.air.iter().flat_map(|air| air.files()).chain(self.spinline.files()).collect()
+        let of_air = self.air.iter().flat_map(|air| air.files());
+        of_air.chain(self.spinline.files()).chain(self.drag.files()).collect()
     }
 
     /// The same spinline with its files at other paths.
     pub fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
         let air = self.air.as_ref().map(|air| Box::new(air.with_files_at(&place)));
-        Self { spinline: self.spinline.with_files_at(&place), drag: self.drag, air }
+        Self { spinline: self.spinline.with_files_at(&place), drag: self.drag.with_files_at(&place), air }
+    }
+}
+
+impl Drag {
+    /// The files of its laws, which name no parts.
+    fn files(&self) -> Vec<(&Path, &[PathBuf])> {
+        let laws = self.tables().into_iter().flatten();
+        laws.map(|law| (law.file().path(), law.file().parts())).collect()
+    }
+
+    /// The same laws with their files at other paths.
+    fn with_files_at(&self, place: impl Fn(&Path) -> PathBuf) -> Self {
+        let mut moved = *self;
+        if let FrictionLaw::Table(law) = &mut moved.along {
+            *law = law.at(&place);
+        }
+        if let NormalLaw::Table(law) = &mut moved.across {
+            *law = law.at(&place);
+        }
+        moved
     }
 }
 

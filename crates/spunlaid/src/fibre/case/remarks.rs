@@ -4,7 +4,7 @@ use super::Case;
 use super::keys::finding;
 use super::note::{Note, Remark};
 use crate::air::{Flow, Hint, PlacedField, SpectrumShape};
-use crate::fibre::drag::NormalLaw;
+use crate::fibre::drag::{NormalLaw, TableLaw};
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Vec3};
 
@@ -41,6 +41,7 @@ impl Case {
             note("fibre.diameter", fibre.diameter, Remark::warning(text));
         }
         if let Some(fitted) = across.fitted_reynolds()
+            && !matches!(across, NormalLaw::Table(_))
             && there_is_air
             && !fitted.contains(&self.reynolds_across())
         {
@@ -120,10 +121,30 @@ impl Case {
                 note("air.cutoff_frequency", air.cutoff_frequency, Remark::warning(text));
             }
         }
+        notes.extend(self.beyond_tables());
         notes.extend(self.slips());
         notes.extend(root_outside);
         notes.extend(self.field_notes());
         notes
+    }
+
+    /// Tables of drag laws that end before the Reynolds numbers that are to be expected.
+    fn beyond_tables(&self) -> Vec<Note> {
+        if self.air.density <= 0.0 {
+            return Vec::new();
+        }
+        let feed = self.line.map_or(0.0, |line| line.feed_speed);
+        let (passing, rms) = ((self.air.fastest(self.along()) - feed).abs(), self.air.rms());
+        let along = [rms.max(passing), 3.0 * rms + passing]
+            .map(|speed| speed * self.fibre.diameter / self.air.kinematic_viscosity);
+        let across = [self.usual_reynolds_across(), self.reynolds_across()];
+        let of_tables = self.drag.tables().into_iter().zip([("drag.along", along), ("drag.across", across)]);
+        let note = |(law, (key, expected)): (Option<TableLaw>, (&str, [f64; 2]))| {
+            let (name, beyond) = law.and_then(|law| Some((law.name(), law.beyond(expected)?)))?;
+            let what = Remark::warning(beyond);
+            Some(Note { place: Place::Code, key: key.to_owned(), value: Some(format!("\"{name}\"")), what })
+        };
+        of_tables.filter_map(note).collect()
     }
 
     /// A written intensity of more than the mean velocity.

@@ -1,9 +1,9 @@
 //! Tables for the kernel of the drag laws that are not a power of the velocity.
 
 use super::boundary_layer::BoundaryLayer;
+use super::cubics::{CUBICS, Table};
 use super::normal::{Form, NormalLaw};
-use crate::ground::lanes::{exp2, indices};
-use crate::ground::{Register, WIDTH, Wide};
+use super::table::TableLaw;
 use std::sync::{LazyLock, OnceLock};
 
 /// A law as a positive function `g(s)` of one positive number [-]: the drag by the velocity.
@@ -15,6 +15,8 @@ pub enum Curve {
     Held,
     /// `½ s C_n(s)` over the Reynolds number `s` of a law across the fibre.   theory.md (45)
     Across(NormalLaw),
+    /// `½ s C(s)` over the Reynolds number `s` of a law of a file, along or across the fibre.
+    Table(TableLaw),
 }
 
 impl Curve {
@@ -23,7 +25,7 @@ impl Curve {
         matches!(self, Self::Moving | Self::Held)
     }
 
-    /// `g(s)` itself, which the table follows to 1e-6.
+    /// `g(s)` itself, which the table of a named law follows to 1e-6.
     pub(crate) fn exact(self, s: f64) -> f64 {
         match self {
             Self::Moving => 1.0 / BoundaryLayer::Moving.thickness(1.0 / s),
@@ -31,98 +33,54 @@ impl Curve {
             Self::Across(law) => match law.form() {
                 Form::Curve { resistance, .. } => resistance(s),
                 Form::Power { coefficient, .. } => 0.5 * s * coefficient(s, 1.0),
+                Form::Table(table) => 0.5 * s * table.coefficient(s),
             },
+            Self::Table(table) => 0.5 * s * table.coefficient(s),
         }
     }
 
     pub(super) fn table(self) -> &'static Table {
-        static MOVING: LazyLock<Table> = LazyLock::new(|| Table::new(Curve::Moving));
-        static HELD: LazyLock<Table> = LazyLock::new(|| Table::new(Curve::Held));
+        static MOVING: LazyLock<Table> = LazyLock::new(|| table_of(Curve::Moving));
+        static HELD: LazyLock<Table> = LazyLock::new(|| table_of(Curve::Held));
         static ACROSS: [OnceLock<Table>; NormalLaw::ALL.len()] =
             [const { OnceLock::new() }; NormalLaw::ALL.len()];
         match self {
             Self::Moving => &MOVING,
             Self::Held => &HELD,
-            Self::Across(law) => ACROSS[law as usize].get_or_init(|| Table::new(self)),
+            Self::Table(law) | Self::Across(NormalLaw::Table(law)) => law.kernel(),
+            Self::Across(law) => ACROSS[law.index()].get_or_init(|| table_of(self)),
         }
     }
 }
 
-/// `log2 g` as a function of `q = log2 s²`: cubics of about a unit of `q` each from values and slopes at their
-/// ends, and a straight line, a power of the velocity, beyond.
-#[derive(Clone, Debug)]
-pub(super) struct Table {
-    /// By powers of the distance from the cubic's lower end, in cubics.
-    cubics: [[f64; 4]; CUBICS + 2],
-    /// Cubics to a unit of `q`.
-    per_unit: f64,
-    /// Index of the cubic that begins where `q = 0`, a fraction if need be.
-    zero: f64,
-}
-
-/// Number of cubics: `s` from 2^-32 to 2^32.
-const CUBICS: usize = 128;
-/// `q` is taken no further than this: its power stays finite.
-const FURTHEST: f64 = 1000.0;
-
-impl Table {
-    fn new(curve: Curve) -> Self {
-        let middle = CUBICS as f64 / 2.0 + 1.0;
-        let joins = match curve {
-            Curve::Across(law) => match law.form() {
-                Form::Curve { joins, .. } => joins,
-                Form::Power { .. } => None,
-            },
-            Curve::Moving | Curve::Held => None,
-        };
-        let (per_unit, zero) = joins.map_or((1.0, middle), |(from, to)| {
-            // Cubics end where the pieces of the law do.
-            let [from, to] = [from, to].map(|s| 2.0 * libm::log2(s));
-            let per_unit = (to - from).round() / (to - from);
-            (per_unit, (middle + per_unit * from).round() - per_unit * from)
-        });
-        let log_g = |place: f64| libm::log2(curve.exact(libm::exp2(0.5 * (place - zero) / per_unit)));
-        let end = |place: f64| {
-            const STEP: f64 = 1.0 / 4096.0;
-            (log_g(place), (log_g(place + STEP) - log_g(place - STEP)) / (2.0 * STEP))
-        };
-        let mut lower = end(1.0);
-        let mut cubics = [[lower.0 - lower.1, lower.1, 0.0, 0.0]; CUBICS + 2];
-        for (i, cubic) in cubics.iter_mut().enumerate().skip(1) {
-            let upper = end(i as f64 + 1.0);
-            let (curved, twisted) = (upper.0 - lower.0 - lower.1, upper.1 - lower.1);
-            *cubic = [lower.0, lower.1, 3.0 * curved - twisted, twisted - 2.0 * curved];
-            lower = upper;
-        }
-        cubics[CUBICS + 1][2..].fill(0.0);
-        Self { cubics, per_unit, zero }
-    }
-
-    /// `g` of eight fibres from `q`; NaN gives some finite number.
-    #[inline(always)]
-    pub(super) fn at<S: Register>(&self, q: Wide<S>) -> Wide<S> {
-        let q = q.max(Wide::splat(-FURTHEST));
-        let q = Wide::select_less(q, Wide::splat(FURTHEST), q, Wide::splat(FURTHEST));
-        let place = q.mul_add(Wide::splat(self.per_unit), Wide::splat(self.zero));
-        let last = Wide::splat((CUBICS + 1) as f64);
-        let start = place.max(Wide::zero()).floor();
-        let start = Wide::select_less(start, last, start, last);
-        // No closures here: they would not be compiled for the instruction set.
-        let mut rows = [&self.cubics[0]; WIDTH];
-        for (row, index) in rows.iter_mut().zip(indices(start)) {
-            *row = &self.cubics[index.min(CUBICS + 1)];
-        }
-        let [c0, c1, c2, c3] = S::load_rows(rows);
-        let t = place - start;
-        let log_g = Wide(c3).mul_add(t, Wide(c2)).mul_add(t, Wide(c1)).mul_add(t, Wide(c0));
-        exp2(log_g)
-    }
+/// The cubics of a law with a name.
+fn table_of(curve: Curve) -> Table {
+    let middle = CUBICS as f64 / 2.0 + 1.0;
+    let joins = match curve {
+        Curve::Across(law) => match law.form() {
+            Form::Curve { joins, .. } => joins,
+            Form::Power { .. } | Form::Table(_) => None,
+        },
+        Curve::Moving | Curve::Held | Curve::Table(_) => None,
+    };
+    let (per_unit, zero) = joins.map_or((1.0, middle), |(from, to)| {
+        // Cubics end where the pieces of the law do.
+        let [from, to] = [from, to].map(|s| 2.0 * libm::log2(s));
+        let per_unit = (to - from).round() / (to - from);
+        (per_unit, (middle + per_unit * from).round() - per_unit * from)
+    });
+    Table::of((per_unit, zero), 1.0 / 4096.0, |q| libm::log2(curve.exact(libm::exp2(0.5 * q))))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Curve, FURTHEST, Form, NormalLaw};
+    use super::super::cubics::FURTHEST;
+    use super::super::friction::FrictionLaw;
+    use super::super::table::{DragTable, TableLaw};
+    use super::{Curve, Form, NormalLaw};
+    use crate::air::FileContent;
     use crate::ground::{Lanes, Plain, Register, Wide};
+    use std::sync::Arc;
 
     /// Ends of the tables.
     const REACH: f64 = 63.0;
@@ -182,6 +140,39 @@ mod tests {
             let q = Lanes::from_fn(|i| 7.3 * i as f64 - 30.0);
             let all = Register::store(curve.table().at::<Plain>(Wide::load(&q)).0);
             assert_eq!(all, Lanes::from_fn(|i| at(curve, q.0[i])));
+        }
+    }
+
+    #[test]
+    fn analytic_a_named_law_as_a_table_is_that_law() {
+        let laws: [(&str, &dyn Fn(f64) -> f64); 3] = [
+            ("matsui", &|re| FrictionLaw::ALL[0].coefficient(re, 1.0)),
+            ("ju-shambaugh", &|re| NormalLaw::JuShambaugh.coefficient(re, 20e-6)),
+            ("marheineke-wegener", &|re| NormalLaw::MarheinekeWegener.coefficient(re, 20e-6)),
+        ];
+        for (name, law) in laws {
+            // So many rows to a decade, and the largest error that is asked for.
+            for (per_decade, most) in [(2, 2e-2f64), (5, 1e-3), (20, 1e-4)] {
+                let re: Vec<f64> = (0..=7 * per_decade)
+                    .map(|i| libm::exp10(f64::from(i) / f64::from(per_decade) - 3.0))
+                    .collect();
+                let rows = DragTable::new(&re, &re.iter().map(|re| law(*re)).collect::<Vec<_>>());
+                let told = rows.change_without_every_second_row().unwrap() / 3.0;
+                let table = Arc::new(rows);
+                let curve = Curve::Table(TableLaw::new(FileContent::new(name.into(), 1, Arc::clone(&table))));
+                for i in 0..7000 {
+                    let re = libm::exp10(f64::from(i) / 1000.0 - 3.0);
+                    let [error, in_kernel] =
+                        [table.coefficient(re), 2.0 / re * at(curve, 2.0 * libm::log2(re))]
+                            .map(|found| (found / law(re) - 1.0).abs());
+                    assert!(
+                        error <= most.min(told + 1e-13),
+                        "{name}, {per_decade} at {re}: {error}, told {told}"
+                    );
+                    // That of the cubics, of a fourteenth of a decade, on top of it.
+                    assert!(in_kernel < most + 5e-5, "{name}, {per_decade} at {re}: {in_kernel}");
+                }
+            }
         }
     }
 }

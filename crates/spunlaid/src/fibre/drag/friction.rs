@@ -3,6 +3,7 @@
 use super::Source;
 use super::boundary_layer::BoundaryLayer;
 use super::curve::Curve;
+use super::table::TableLaw;
 
 /// Drag law along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,6 +19,8 @@ pub enum FrictionLaw {
     Sakiadis,
     /// Laminar boundary layer of a fibre that is held in a stream (Glauert & Lighthill 1955).
     GlauertLighthill,
+    /// Coefficients over the Reynolds number from a file.
+    Table(TableLaw),
 }
 
 /// Exponent of the Reynolds number in Matsui's form.
@@ -45,14 +48,16 @@ pub(super) enum Form {
     },
     /// From the table of a boundary layer.
     Layer(BoundaryLayer, Curve),
+    /// From the table of a file.
+    Table(TableLaw),
 }
 
 impl FrictionLaw {
-    /// Every law, Matsui's with the factor that the paper takes.
+    /// Every law with a name, Matsui's with the factor that the paper takes.
     pub const ALL: [Self; 4] =
         [Self::Matsui { factor: 0.9 }, Self::MajumdarShambaugh, Self::Sakiadis, Self::GlauertLighthill];
 
-    const fn law(self) -> Law {
+    fn law(self) -> Law {
         match self {
             Self::Matsui { factor } => Law {
                 name: "matsui",
@@ -95,25 +100,28 @@ impl FrictionLaw {
                 input: None,
                 form: Form::Layer(BoundaryLayer::Held, Curve::Held),
             },
+            Self::Table(table) => {
+                Law { name: table.name(), source: table.source(), input: None, form: Form::Table(table) }
+            }
         }
     }
 
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    /// Name in the case file; of a table the name of its file.
+    pub fn name(self) -> &'static str {
         self.law().name
     }
 
     /// Where it was published.
-    pub const fn source(self) -> Source {
+    pub fn source(self) -> Source {
         self.law().source
     }
 
     /// `β` [-] of the law, if it is an input.
-    pub const fn factor(self) -> Option<f64> {
+    pub fn factor(self) -> Option<f64> {
         self.law().input
     }
 
-    pub(super) const fn form(self) -> Form {
+    pub(super) fn form(self) -> Form {
         self.law().form
     }
 
@@ -131,6 +139,7 @@ impl FrictionLaw {
     pub fn coefficient(self, re: f64, distance: f64) -> f64 {
         match self.form() {
             Form::Power { exponent, factor } => factor * libm::pow(re, -exponent),
+            Form::Table(table) => table.coefficient(re),
             Form::Layer(layer, _) => 4.0 / (re * layer.thickness(4.0 * distance / re)),
         }
     }

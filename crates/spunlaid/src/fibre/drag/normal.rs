@@ -1,6 +1,7 @@
 //! Laws of the drag across the fibre: each is a file of this folder and a line in the list.
 
 use super::Source;
+use super::table::TableLaw;
 use std::ops::RangeInclusive;
 
 mod ju_shambaugh;
@@ -12,15 +13,33 @@ macro_rules! laws {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum NormalLaw {
             $($(#[$doc])* $law,)+
+            /// Coefficients over the Reynolds number from a file.
+            Table(TableLaw),
         }
 
         impl NormalLaw {
-            /// Every law.
+            /// Every law with a name.
             pub const ALL: [Self; [$($file::LAW.name),+].len()] = [$(Self::$law),+];
 
-            const fn law(self) -> &'static Law {
+            fn law(self) -> Law {
                 match self {
-                    $(Self::$law => &$file::LAW,)+
+                    $(Self::$law => $file::LAW,)+
+                    Self::Table(table) => Law {
+                        name: table.name(),
+                        source: table.source(),
+                        fitted_diameters: None,
+                        fitted_reynolds: Some(table.reynolds()),
+                        form: Form::Table(table),
+                    },
+                }
+            }
+
+            /// Its place among the laws with names; a table comes behind them.
+            pub(super) const fn index(self) -> usize {
+                enum Place { $($law,)+ Table }
+                match self {
+                    $(Self::$law => Place::$law as usize,)+
+                    Self::Table(_) => Place::Table as usize,
                 }
             }
         }
@@ -66,30 +85,32 @@ pub(super) enum Form {
         /// The two Reynolds numbers at which the pieces of the law meet, if it has pieces.
         joins: Option<(f64, f64)>,
     },
+    /// From the table of a file.
+    Table(TableLaw),
 }
 
 impl NormalLaw {
-    /// Name in the case file.
-    pub const fn name(self) -> &'static str {
+    /// Name in the case file; of a table the name of its file.
+    pub fn name(self) -> &'static str {
         self.law().name
     }
 
     /// Where it was published.
-    pub const fn source(self) -> Source {
+    pub fn source(self) -> Source {
         self.law().source
     }
 
     /// The diameters the law was fitted to [m]; none if it depends on the Reynolds number alone.
     pub(crate) fn fitted_diameters(self) -> Option<RangeInclusive<f64>> {
-        self.law().fitted_diameters.clone()
+        self.law().fitted_diameters
     }
 
     /// The Reynolds numbers the law holds for [-], if they are known.
     pub(crate) fn fitted_reynolds(self) -> Option<RangeInclusive<f64>> {
-        self.law().fitted_reynolds.clone()
+        self.law().fitted_reynolds
     }
 
-    pub(super) const fn form(self) -> Form {
+    pub(super) fn form(self) -> Form {
         self.law().form
     }
 
@@ -101,6 +122,7 @@ impl NormalLaw {
         match self.form() {
             Form::Power { coefficient, .. } => coefficient(re, diameter),
             Form::Curve { resistance, .. } => 2.0 * resistance(re) / re,
+            Form::Table(table) => table.coefficient(re),
         }
     }
 }

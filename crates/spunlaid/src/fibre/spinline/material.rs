@@ -97,6 +97,8 @@ named! {
         Pa6 = "pa6",
         /// Polylactide.
         Pla = "pla",
+        /// Linear polyethylene.
+        Pe = "pe",
     }
 }
 
@@ -269,6 +271,41 @@ impl Polymer {
                 unoriented_modulus: 2.5e9,
                 oriented_modulus: 6e9,
                 crystals: CHOSEN,
+            },
+            Self::Pe => Material {
+                // A line within 0.04 % of the Tait equation of Danner and High for high-density polyethylene at 142 to
+                // 199 °C: 759 kg/m³ at 190 °C.
+                specific_volume: 1.1246e-3,
+                specific_volume_slope: 1.012e-6,
+                // Memory. Amorphous polyethylene has 2342 J/(kg K) at 300 K (NIST WebBook after Wunderlich 1962), here
+                // 2157.
+                heat_capacity: 2077.0,
+                heat_capacity_slope: 2.93,
+                // The melt flow rate of the grade gives it.
+                viscosity: f64::NAN,
+                viscosity_temperature: 190.0 + ZERO_CELSIUS,
+                // Memory. Copolymers with butene have 33 to 34 (Macromolecules 34, 6281, 2001, abstract).
+                activation_energy: 27e3,
+                // Memory. It stands for the crystals.
+                freezing_temperature: 110.0 + ZERO_CELSIUS,
+                solid_density: 950.0,
+                surface_tension: 0.0,
+                // Memory, the order of magnitude.
+                modulus: 20e3,
+                mobility: 0.2,
+                extensibility: 0.1,
+                // Memory.
+                stress_optical_coefficient: 2.2e-9,
+                stress_optical_temperature: f64::NAN,
+                full_birefringence: 0.06,
+                unoriented_modulus: 0.8e9,
+                oriented_modulus: 6e9,
+                // Of the ideal crystal (Trans. Faraday Soc. 65, 1764, 1969, abstract). No rate is known here.
+                crystals: Crystals {
+                    melting_temperature: 141.0 + ZERO_CELSIUS,
+                    heat_of_fusion: 307e3,
+                    ..CHOSEN
+                },
             },
         }
     }

@@ -1,5 +1,8 @@
 //! What a solved spinline says.
 
+use crate::air::motion::kinematic_viscosity_at;
+use crate::fibre::drag::FrictionLaw;
+
 /// A solved spinline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
@@ -100,6 +103,19 @@ impl Solution {
     /// The final speed over the speed at the die [-].
     pub fn draw_ratio(&self) -> f64 {
         self.final_speed / self.die_speed
+    }
+
+    /// What is to be said where the Reynolds numbers along the thread lie beyond the rows of a law of a file. The usual
+    /// one is their mean over the friction.
+    pub fn beyond_table(&self, law: FrictionLaw) -> Option<String> {
+        let FrictionLaw::Table(table) = law else { return None };
+        let reynolds = |station: &Station| {
+            (station.air_velocity - station.speed).abs() * station.diameter
+                / kinematic_viscosity_at(station.air_temperature)
+        };
+        let sum = |of: &dyn Fn(&Station) -> f64| self.stations.iter().map(of).sum::<f64>();
+        let usual = sum(&|at| at.friction.abs() * reynolds(at)) / sum(&|at| at.friction.abs());
+        table.beyond([usual, self.stations.iter().map(reynolds).fold(0.0, f64::max)])
     }
 
     /// The thread at the end of the line.

@@ -201,10 +201,15 @@ fn analytic_viscosity_of_a_melt_flow_rate() {
     let pp = Polymer::Pp.material(false);
     close(pp.melt_density(503.15), 739.268, 1e-6);
     close(pp.viscosity_of_flow_rate(35.0), 221.487, 5e-6);
-    let melts = [(Polymer::Pet, 1175.0), (Polymer::Pa6, 968.0), (Polymer::Pla, 1093.0)];
+    let melts = [(Polymer::Pet, 1175.0), (Polymer::Pa6, 968.0), (Polymer::Pla, 1093.0), (Polymer::Pe, 759.4)];
     for (polymer, density) in melts {
         let material = polymer.material(false);
         close(material.melt_density(material.viscosity_temperature), density, 1e-3);
+    }
+    // Danner and High for high-density polyethylene, in m³/kg and °C.
+    for celsius in [142.0, 170.0, 199.0] {
+        let tait = 1.1567e-3 + 6.2888e-7 * celsius + 1.1268e-9 * celsius * celsius;
+        close(Polymer::Pe.material(false).melt_density(celsius + ZERO_CELSIUS), 1.0 / tait, 4e-4);
     }
 }
 

@@ -60,6 +60,11 @@ fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Fo
         DataFile::Polymer => Content::Polymer(table(path, FileKind::Case, |bytes| {
             polymer::read(&text_of(bytes.to_vec())?, &path.display().to_string())
         })?),
+        DataFile::FrictionLaw | DataFile::NormalLaw => {
+            let law = table(path, FileKind::Table, profile::drag_law)?;
+            let remark = profile::interpolation(&law);
+            return Ok((Content::DragLaw(law), vec![remark]));
+        }
         DataFile::Field => {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, field)?;
             let content = Content::Field(from_file(path, checksum, field).with_parts(parts).read_as(way));

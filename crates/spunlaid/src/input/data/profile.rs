@@ -3,7 +3,7 @@
 use crate::air::{Profile, SpectrumTable};
 use crate::fibre::case::keys::Kind;
 use crate::fibre::case::keys::Sign::{self, Any, NotNegative, Positive};
-use crate::fibre::{AirTable, ZERO_CELSIUS};
+use crate::fibre::{AirTable, DragTable, Remark, ZERO_CELSIUS};
 use crate::ground::Dimension::{Frequency, Length, Ratio, Temperature, Velocity};
 use crate::ground::error::listed;
 use crate::ground::table::scale;
@@ -75,6 +75,17 @@ const SPECTRUM: [ColumnRule; 2] = [
 /// Only the shape of a spectrum counts, so that its energies may have any unit.
 const ENERGY: &str = "energy";
 
+const DRAG_LAW: [ColumnRule; 2] = [
+    column("of Reynolds numbers", "reynolds re reynolds_number", Ratio, "reynolds", Positive),
+    column(
+        "of drag coefficients",
+        "coefficient drag_coefficient c cd c_d cn c_n cf c_f",
+        Ratio,
+        "coefficient",
+        Positive,
+    ),
+];
+
 const POINTS: [ColumnRule; 3] = [
     column("of the coordinate x", "x", Length, "x [m]", Any),
     column("of the coordinate y", "y", Length, "y [m]", Any),
@@ -110,6 +121,32 @@ pub(super) fn spectrum(text: &[u8]) -> Result<SpectrumTable, FileError> {
     }
     refuse_mean(&frequency, &energy)?;
     Ok(SpectrumTable { frequency, energy })
+}
+
+/// Reads a drag law: `reynolds, coefficient`.
+pub(super) fn drag_law(text: &[u8]) -> Result<DragTable, FileError> {
+    let [reynolds, coefficients] = read(text, &DRAG_LAW, "reynolds,coefficient")?;
+    Ok(DragTable::new(&reynolds, &coefficients))
+}
+
+/// What is said of the interpolation between the rows of a drag law.
+pub(super) fn interpolation(law: &DragTable) -> Remark {
+    /// Change without every second row from which on more rows are asked for [-].
+    const LARGE: f64 = 0.05;
+    let rows = law.rows().len();
+    let Some(change) = law.change_without_every_second_row() else {
+        return Remark::note("has two rows, between which the drag is a power of the Reynolds number");
+    };
+    let [error, shown] = [change / 3.0, change].map(|share| Ratio.pretty_to(100.0 * share, 2));
+    let text = format!(
+        "is interpolated between its {rows} rows to about {error} %: without every second row its coefficients \
+         change by up to {shown} %"
+    );
+    if change > LARGE {
+        Remark::warning(format!("{text}; add rows, or smooth them"))
+    } else {
+        Remark::note(text)
+    }
 }
 
 /// Refuses a spectrum with the mean of the velocity in its row of 0 Hz, from which windows spread it to the next ones.
@@ -356,6 +393,25 @@ mod tests {
         assert!(mean.contains("% of its energy at 0 Hz, which is the mean velocity"), "{mean}");
         assert!(spectrum(long([0.0, 0.0]).as_bytes()).is_ok());
         assert!(spectrum(text("psd_m2_s", &|i| energies[i]).as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn rejects_a_drag_law_that_is_no_law() {
+        for (text, said) in [
+            ("re,c\n1,2\n", "has 1 row of numbers"),
+            ("re,c\n1,2\n1,3\n", "must"),
+            ("re,c\n0,2\n1,3\n", "is not positive"),
+            ("re,c\n1,2\n2,-3\n", "is not positive"),
+            ("re,c\n1,2\n2,nan\n", "is not a finite number"),
+            ("re,velocity\n1,2\n2,3\n", "has no column of drag coefficients (it has"),
+            ("1,2\n2,3\n", "reynolds,coefficient"),
+        ] {
+            let error = drag_law(text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(said), "{text}: {error}");
+        }
+        let law = drag_law("Reynolds; Coefficient\n1; 8\n10; 2\n100; 1\n".as_bytes()).unwrap();
+        assert_eq!(law.rows().collect::<Vec<_>>(), [(1.0, 8.0), (10.0, 2.0), (100.0, 1.0)]);
+        assert!(interpolation(&law).is_warning() && interpolation(&law).to_string().contains("add rows"));
     }
 
     #[test]

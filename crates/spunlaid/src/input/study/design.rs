@@ -8,9 +8,10 @@ use crate::experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
     Way,
 };
-use crate::fibre::case::keys::{Value, VariedKey};
+use crate::fibre::case::keys::{Kind, Value, VariedKey};
 use crate::ground::error::nearest_word;
 use crate::ground::{Fault, Finding};
+use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 impl<'a> Reader<'a> {
@@ -58,12 +59,21 @@ impl<'a> Reader<'a> {
         for named in self.named("vary") {
             let keys: Vec<&str> = factors.iter().map(|factor| &*factor.key.name).collect();
             let Some(varied) = self.varied(base, &named, &keys) else { continue };
+            let varied = self.with_files(varied, &named.entry);
             let before = base.value(&varied);
             if let Some(levels) = self.levels(&varied, before, named, design) {
                 factors.push(Factor { key: varied, levels });
             }
         }
         factors
+    }
+
+    /// The same key, which also takes the files in the list of its values.
+    fn with_files(&self, varied: VariedKey, entry: &Entry<'a>) -> VariedKey {
+        let (Kind::File(kind), DeValue::Array(list)) = (varied.kind, &entry.value) else { return varied };
+        let texts = list.iter().filter_map(|one| one.get_ref().as_str());
+        let files = texts.filter(|text| !text.is_empty() && !kind.is_word(text));
+        files.fold(varied, |varied, text| varied.or_file(&self.beside(&entry.place, text)))
     }
 
     /// Checks the factors together.
@@ -173,7 +183,11 @@ impl<'a> Reader<'a> {
     /// A value of a key that varies as a number, which may be given by its change.
     fn level(&mut self, varied: &VariedKey, before: f64, name: &str, entry: &Entry<'_>) -> Option<f64> {
         let words = varied.words();
-        let word = entry.value.as_str().and_then(|word| words.iter().position(|one| *one == word));
+        let is_it = |text: &str| {
+            let path = self.beside(&entry.place, text);
+            words.iter().position(|one| *one == text || Path::new(one) == path)
+        };
+        let word = entry.value.as_str().and_then(is_it);
         let read = match (word, entry.value.as_str()) {
             (Some(place), _) => Ok(place as f64),
             (None, Some(other)) if !words.is_empty() => {

@@ -6,6 +6,7 @@ pub(crate) mod measured;
 mod motion;
 mod spectra;
 
+use crate::figures::drag_laws;
 use spunlaid::fibre::Case;
 use spunlaid::simulation::{Results, SpectrumPoint};
 use spunlaid_charts::Figure;
@@ -26,6 +27,9 @@ pub fn run_figures(case: &Case, results: &Results, turbulence: &[SpectrumPoint])
     }
     if !turbulence.is_empty() {
         figures.push(spectra::turbulence(case, turbulence));
+    }
+    if case.air.density > 0.0 {
+        figures.extend(drag_laws::of_files(&case.drag, case.fibre.diameter));
     }
     figures
 }

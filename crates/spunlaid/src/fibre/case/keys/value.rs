@@ -1,6 +1,7 @@
 //! The kinds of values that keys take, and what each kind allows.
 
 use crate::air::{Field, FileContent, Measured, Profile, SpectrumTable};
+use crate::fibre::drag::{DragTable, FrictionLaw, NormalLaw};
 use crate::fibre::spinline::{AirTable, Polymer, PolymerFile};
 use crate::ground::error::{nearest_word, one_of};
 use crate::ground::units::shortest;
@@ -43,6 +44,8 @@ pub enum Content {
     SpinlineAir(FileContent<AirTable>),
     /// The constants of a polymer.
     Polymer(FileContent<PolymerFile>),
+    /// Drag coefficients over the Reynolds number.
+    DragLaw(FileContent<DragTable>),
 }
 
 impl Content {
@@ -62,6 +65,7 @@ impl Content {
             Self::Spectrum(file) => vec![of(file)],
             Self::SpinlineAir(file) => vec![of(file)],
             Self::Polymer(file) => vec![of(file)],
+            Self::DragLaw(file) => vec![of(file)],
             Self::Records(files) => files.iter().map(of).collect(),
         }
     }
@@ -174,6 +178,10 @@ pub enum DataFile {
     SpinlineAir,
     /// The constants of a polymer. The key also takes the name of a polymer.
     Polymer,
+    /// Coefficients of the friction along the fibre. The key also takes the name of a law.
+    FrictionLaw,
+    /// Coefficients of the drag across the fibre. The key also takes the name of a law.
+    NormalLaw,
 }
 
 impl DataFile {
@@ -182,6 +190,8 @@ impl DataFile {
         match self {
             Self::Spectrum => (SPECTRA.to_vec(), "spectrum.csv"),
             Self::Polymer => (Polymer::ALL.map(Polymer::name).to_vec(), "polymer.toml"),
+            Self::FrictionLaw => (FrictionLaw::ALL.map(FrictionLaw::name).to_vec(), "coefficients.csv"),
+            Self::NormalLaw => (NormalLaw::ALL.map(NormalLaw::name).to_vec(), "coefficients.csv"),
             Self::Profile | Self::Field | Self::Records | Self::SpinlineAir => (Vec::new(), ""),
         }
     }
@@ -320,6 +330,7 @@ impl Kind {
             Self::Whole(..) => "a whole number without quotes, like 10".to_owned(),
             Self::Switch => "true or false, without quotes".to_owned(),
             Self::Choice(_) => one_of(&self.names()),
+            Self::File(kind) if !kind.words().0.is_empty() => one_of(&self.names()),
             Self::Text(example) => format!("a text like \"{example}\""),
             Self::Direction => "three plain numbers, like [1.0, 0.0, 0.0]".to_owned(),
             Self::Point => "three lengths, like [\"0 m\", \"50 mm\", \"0 m\"]".to_owned(),

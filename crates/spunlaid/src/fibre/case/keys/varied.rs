@@ -2,15 +2,18 @@
 
 use super::{Kind, Value};
 use crate::ground::{Dimension, Fault};
+use std::path::Path;
 
 /// A key that has several values, of a case or of a web. They are numbers in SI units, or the places of words
-/// among those of the key.
+/// among those of the key, or of files behind them.
 #[derive(Clone, Debug)]
 pub struct VariedKey {
     /// Full name, `air.velocity`; of a layer of a web with its number, `layer.2.line.filaments_per_metre`.
     pub name: String,
     /// Which values it takes.
     pub kind: Kind,
+    /// Paths of the files that it takes besides the words; kept as long as the program runs, like the words.
+    files: Vec<&'static str>,
 }
 
 impl PartialEq for VariedKey {
@@ -22,7 +25,16 @@ impl PartialEq for VariedKey {
 impl VariedKey {
     /// A key by its full name.
     pub fn new(name: impl Into<String>, kind: Kind) -> Self {
-        Self { name: name.into(), kind }
+        Self { name: name.into(), kind, files: Vec::new() }
+    }
+
+    /// The same key, which also takes this file; a word is none.
+    pub(crate) fn or_file(mut self, path: &Path) -> Self {
+        let text = path.display().to_string();
+        if !self.files.contains(&&*text) {
+            self.files.push(Box::leak(text.into_boxed_str()));
+        }
+        self
     }
 
     /// Whether its values are whole numbers.
@@ -30,9 +42,9 @@ impl VariedKey {
         matches!(self.kind, Kind::Whole(..))
     }
 
-    /// The words that it takes; none if its values are numbers.
+    /// The words and the files that it takes; none if its values are numbers.
     pub fn words(&self) -> Vec<&'static str> {
-        self.kind.words()
+        [self.kind.words(), self.files.clone()].concat()
     }
 
     /// Physical dimension of its values.
@@ -89,6 +101,10 @@ impl VariedKey {
     pub(crate) fn number(&self, value: &Value) -> Option<f64> {
         match value {
             Value::Text(word) => self.words().iter().position(|one| one == word).map(|i| i as f64),
+            Value::Content(content) => {
+                let is_it = |word: &&str| content.paths() == [Path::new(word)];
+                self.words().iter().position(is_it).map(|i| i as f64)
+            }
             value => value.number(),
         }
     }
@@ -98,6 +114,10 @@ impl VariedKey {
     /// # Errors
     /// If the key does not take it.
     pub(crate) fn value(&self, number: f64) -> Result<Value, Fault> {
-        self.word(number).map_or_else(|| self.kind.accept(Value::Number(number)), |word| Ok(word.into()))
+        match self.word(number) {
+            Some(path) if self.files.contains(&path) => Ok(Value::Paths(vec![path.into()])),
+            Some(word) => Ok(word.into()),
+            None => self.kind.accept(Value::Number(number)),
+        }
     }
 }

@@ -1,28 +1,58 @@
 //! The drag laws.
 
 use super::super::Key;
-use super::super::row::{Access, choose, quantity};
+use super::super::row::{Access, KeyField, change, file, quantity};
 use super::super::value::Sign::NotNegative;
-use crate::fibre::drag::{FrictionLaw, NormalLaw};
+use super::super::value::{Content, DataFile, Value};
+use crate::fibre::drag::{FrictionLaw, NormalLaw, TableLaw};
 use crate::ground::{Dimension, Fault};
 
-named_fields!(FrictionLaw, NormalLaw);
+/// Laws that have a name or come from a file.
+macro_rules! laws {
+    ($($Law:ident),+) => {
+        $(impl KeyField for $Law {
+            fn tell(&self) -> Option<Value> {
+                Some(match self {
+                    Self::Table(law) => Content::DragLaw(law.file().clone()).into(),
+                    law => law.name().into(),
+                })
+            }
+
+            fn take(&mut self, value: &Value) -> Result<(), Fault> {
+                if let Value::Content(Content::DragLaw(file)) = value {
+                    *self = Self::Table(TableLaw::new(file.clone()));
+                    return Ok(());
+                }
+                change(self, value, &Self::ALL, Self::name)
+            }
+        })+
+    };
+}
+
+laws!(FrictionLaw, NormalLaw);
 
 pub(super) const KEYS: &[Key] = &[
-    choose("drag.along", || FrictionLaw::ALL.map(FrictionLaw::name).to_vec())
+    file("drag.along", DataFile::FrictionLaw)
         .access(at!(drag.along))
         .value("matsui")
-        .meaning("Law of the friction along the fibre. Sources and ranges: docs/theory.md.")
+        .gives("drag.friction_coefficient")
+        .meaning(
+            "Law of the friction along the fibre: a name, or a CSV file with the columns `reynolds` and \
+             `coefficient`. Sources and ranges: docs/theory.md.",
+        )
         .label("Law of the friction along the fibre")
+        .varies()
         .in_flight(),
-    choose("drag.across", || NormalLaw::ALL.map(NormalLaw::name).to_vec())
+    file("drag.across", DataFile::NormalLaw)
         .access(at!(drag.across))
         .value("ju-shambaugh")
         .meaning(
             "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from \
-             fine fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Sources and ranges: \
-             docs/theory.md.",
+             fine fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Or a CSV file with the columns \
+             `reynolds` and `coefficient`. Sources and ranges: docs/theory.md.",
         )
+        .gives("drag.across")
+        .varies()
         .synonyms(&["drag law", "drag coefficient"])
         .label("Law of the drag across the fibre")
         .in_flight(),
