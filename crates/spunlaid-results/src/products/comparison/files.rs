@@ -1,5 +1,6 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
+use super::streaks::Cause;
 use crate::effects::difference_text;
 use crate::files::measured::{known, mean};
 use crate::numbers::plus_minus;
@@ -21,6 +22,8 @@ pub struct Comparison {
     pub errors: &'static str,
     /// Measure by measure.
     pub measures: Vec<ComparedMeasure>,
+    /// Where the streaks of a scan may come from, if the other one is a line.
+    pub causes: Vec<Cause>,
 }
 
 /// A measure of two runs.
@@ -74,14 +77,19 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
         (compared.column.clone(), told)
     };
     let comparison = |comparison: &Comparison| {
-        json!({
+        let causes: Vec<&Json> = comparison.causes.iter().map(|cause| &cause.json).collect();
+        let mut told = json!({
             "run": comparison.run,
             "against": comparison.against,
             "paired": comparison.pairs.is_some(),
             "pairs": comparison.pairs,
             "reason": comparison.reason,
             "measures": comparison.measures.iter().map(measure).collect::<Json>(),
-        })
+        });
+        if !causes.is_empty() {
+            told["streaks"] = json!(causes);
+        }
+        told
     };
     let comparisons: Json = comparisons.iter().map(comparison).collect();
     let notes = (!notes.is_empty()).then_some(notes);
