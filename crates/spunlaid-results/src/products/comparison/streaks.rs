@@ -34,12 +34,12 @@ struct Layer {
 }
 
 impl Layer {
-    /// Amplitude of the dip that one blocked hole leaves, over the basis weight.             theory.md (126)
+    /// Amplitude of the dip that one blocked hole leaves, over the basis weight.             theory.md (115c)
     fn dip(&self) -> f64 {
         1.0 / (self.holes * (2.0 * PI).sqrt() * self.sigma)
     }
 
-    /// Share of a wave across the web that is left when filaments are laid.                  theory.md (127)
+    /// Share of a wave across the web that is left when filaments are laid.                  theory.md (115d)
     fn left(&self, period: f64) -> f64 {
         let ratio = PI * self.sigma / period;
         libm::exp(-2.0 * ratio * ratio)
@@ -234,9 +234,8 @@ fn of_defect(defect: &Json, streaks: &[Streak]) -> Option<Cause> {
 fn of_layer(layer: &Layer, scan: &Web) -> Vec<Cause> {
     let (of, dip) = (&layer.of, layer.dip());
     let far = |limit: &(f64, f64)| (limit.0 / layer.sigma).ln().abs();
-    let limits = list(&scan.scan["streak_limits"]).filter_map(|limit| {
-        Some((limit["width_m"].as_f64()? / WIDTH, limit["amplitude"]["value"].as_f64()?))
-    });
+    let limits = list(&scan.scan["streak_limits"])
+        .filter_map(|limit| Some((limit["width_m"].as_f64()? / WIDTH, limit["amplitude"].as_f64()?)));
     let least = limits.min_by(|a, b| far(a).total_cmp(&far(b))).filter(|limit| far(limit) < SQRT_2.ln());
     let words = match least {
         None => "too wide or too narrow for this scan to show".to_owned(),

@@ -64,7 +64,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     told.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
     told.extend(doubt.map(|(_, fault)| fault));
     let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
-    let streaks = search(map);
+    let streaks = search(map, shading.is_some());
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
     Ok(Findings {
         map,

@@ -1,5 +1,5 @@
 //! Streaks along the machine: where the basis weight across a scan differs from its surroundings, in the same way along
-//! the whole scan, by more than clouds make it.                                             theory.md (124), (125)
+//! the whole scan, by more than clouds make it.                                             theory.md (115a), (115b)
 
 use crate::ground::Known;
 use crate::ground::random::{stream, uniform};
@@ -14,8 +14,9 @@ const WIDEST: f64 = 1.0 / 14.0;
 const WIDER: f64 = 1.4;
 /// A streak reaches so many σ to both sides.
 const REACH: f64 = 3.0;
-/// Degree of the polynomial across the whole web that is no streak, be it the lamp or the web.
-const DEGREE: usize = 4;
+/// Degree of the polynomial across the whole web that is no streak, be it the lamp or the web; where the lamp is a
+/// guess, too.
+const DEGREES: [u16; 2] = [4, 6];
 /// A streak is looked for where the polynomial leaves at least this share of its squares.
 const LEFT: f64 = 0.15;
 /// Numbers of blocks along the machine, the finest first, and the correlation of neighbouring blocks up to which one
@@ -38,13 +39,16 @@ const LEVEL: f64 = 0.025;
 const MOST: usize = 20;
 const MOST_PERIODS: usize = 6;
 /// Near a streak, what is smaller by this factor is the rest of its form.
-const REST: f64 = 0.35;
+const REST: f64 = 0.5;
 /// Fewest periods on the width, and fewest bins of a period.
 const FEWEST_PERIODS: usize = 5;
 const BINS_OF_PERIOD: usize = 4;
 /// Waves to both sides that tell the strength of chance, and those between which a period stands out.
 const SMOOTHED: usize = 3;
 const BESIDE: [usize; 2] = [3, 8];
+/// A period is in each of so many parts of the width by at least a share; a single streak is not.
+const PARTS: usize = 3;
+const LEAST_PART: f64 = 1.0 / 3.0;
 
 /// Width of a normal profile at half of its height, over its standard deviation.
 pub const WIDTH: f64 = 2.354_82;
@@ -125,7 +129,9 @@ impl ScanPeriod {
 }
 
 /// Searches the streaks of a map; none if it is too small, or too short for its clouds.
-pub(super) fn search(map: &Map) -> Option<StreakSearch> {
+///
+/// * `is_guess` – whether nothing is known of the shading of the lamp
+pub(super) fn search(map: &Map, is_guess: bool) -> Option<StreakSearch> {
     let each = map.columns.div_ceil(BINS[1]);
     let bins = map.columns / each;
     if bins < BINS[0] {
@@ -133,7 +139,7 @@ pub(super) fn search(map: &Map) -> Option<StreakSearch> {
     }
     let most = WIDEST * bins as f64;
     let sigmas = std::iter::successors(Some(1.0), |sigma| Some(WIDER * sigma));
-    let smooth = Smooth::new(bins);
+    let smooth = Smooth::new(bins, DEGREES[usize::from(is_guess)]);
     let scales = sigmas.take_while(|sigma| *sigma <= most).map(|sigma| Scale::new(sigma, &smooth));
     let scales: Vec<Scale> = scales.filter(|scale| !scale.norms.is_empty()).collect();
     let noise = Noise::new(map, each, (&scales, &smooth))?;
@@ -175,11 +181,11 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
 struct Smooth(Vec<Vec<f64>>);
 
 impl Smooth {
-    fn new(bins: usize) -> Self {
+    fn new(bins: usize, most: u16) -> Self {
         let mut all = Self(Vec::new());
-        for degree in 0..=DEGREE {
+        for degree in 0..=most {
             let place = |bin: usize| (2.0 * bin as f64 + 1.0) / bins as f64 - 1.0;
-            let mut own: Vec<f64> = (0..bins).map(|bin| place(bin).powi(degree as i32)).collect();
+            let mut own: Vec<f64> = (0..bins).map(|bin| place(bin).powi(i32::from(degree))).collect();
             // Twice, for rounding.
             (0..2).for_each(|_| all.take_out(&mut own));
             let length = product(&own, &own).sqrt();
@@ -248,6 +254,12 @@ impl Scale {
             product(&profile[from..], normal) / norm.sqrt()
         };
         self.norms.iter().enumerate().map(height).collect()
+    }
+
+    /// The number of the place that is looked at nearest to one [bins].
+    fn nearest(&self, place: f64) -> usize {
+        let number = (place - 0.5 - self.first as f64) / self.stride as f64;
+        (number.round().max(0.0) as usize).min(self.norms.len() - 1)
     }
 
     /// A place that is looked at [bins].
@@ -360,6 +372,24 @@ impl Noise {
         (Self { mean, blocks, heights, independent: independents, raised, errors }, largest)
     }
 
+    /// The scales at which 95 % of the fits lie if the chance of some place and block is added to a streak.
+    ///
+    /// * `heights` – of the streak at each scale
+    fn range_of_fits(&self, scales: &[Scale], heights: &[f64]) -> [f64; 2] {
+        let (bins, mut fits) = (self.mean.len(), Vec::new());
+        for block in 0..self.blocks.len() {
+            for place in (0..bins).step_by((bins / 40).max(1)) {
+                let noisy = |i: usize| {
+                    let own = &self.heights[i];
+                    heights[i] + self.errors[i] / own.1.sqrt() * own.0[block][scales[i].nearest(place as f64)]
+                };
+                let noisy: Vec<f64> = (0..scales.len()).map(noisy).collect();
+                fits.push(best_fit(&noisy).0);
+            }
+        }
+        [0.025, 0.975].map(|share| quantile(&fits, share))
+    }
+
     /// Largest heights over their standard error of profiles without streaks, in ascending order: the blocks are
     /// shifted against each other across the web and turned round at random.
     fn draws(&self) -> Vec<f64> {
@@ -423,25 +453,42 @@ fn clearest(
             }
         }
     }
-    let (most, mut streak) = best?;
-    // Scales whose squared distance from zero is less by no more than the square of two standard errors.
-    let fits = |at: &usize| {
-        let near = all[*at].iter().enumerate().filter(|(number, height)| {
-            (scales[*at].place(*number) * bin - streak.place).abs() <= streak.sigma
-                && height.signum() == streak.amplitude.signum()
-        });
-        let times = near.map(|(_, height)| height.abs() / noise.errors[*at]).fold(0.0, f64::max);
-        times * times >= most * most - 4.0
+    let (_, streak) = best?;
+    let own: Vec<f64> =
+        scales.iter().zip(&all).map(|(scale, heights)| heights[scale.nearest(streak.place / bin)]).collect();
+    let (at, height) = best_fit(&own);
+    let near = |values: &dyn Fn(usize) -> f64| {
+        let first = (at as usize).min(scales.len() - 1);
+        let part = at - first as f64;
+        libm::pow(values(first), 1.0 - part) * libm::pow(values((first + 1).min(scales.len() - 1)), part)
     };
-    let fitting: Vec<usize> = (0..scales.len()).filter(fits).collect();
-    let [first, last] = [fitting.first().copied()?, fitting.last().copied()?];
-    let end = |at: usize, factor: f64| scales[at].sigma * bin * factor;
-    let half = WIDER.sqrt();
-    streak.sigma_range = [
-        if first == 0 { 0.0 } else { end(first, 1.0 / half) },
-        if last + 1 == scales.len() { f64::INFINITY } else { end(last, half) },
-    ];
-    Some(streak)
+    let norm = near(&|i| scales[i].norms[scales[i].nearest(streak.place / bin)]);
+    let sigma = |at: f64| bin * libm::pow(WIDER, at);
+    let amplitude = height / norm.sqrt();
+    let range = noise.range_of_fits(scales, &own);
+    Some(ScanStreak {
+        sigma: sigma(at),
+        sigma_range: [
+            if range[0] <= 0.0 { 0.0 } else { sigma(range[0]) },
+            if range[1] >= (scales.len() - 1) as f64 { f64::INFINITY } else { sigma(range[1]) },
+        ],
+        amplitude,
+        standard_error: near(&|i| noise.errors[i]) / norm.sqrt(),
+        ..streak
+    })
+}
+
+/// The scale at which a normal profile leaves the least squares, between the scales, and its height.
+fn best_fit(heights: &[f64]) -> (f64, f64) {
+    let size = |i: usize| heights[i].abs();
+    let best = (0..heights.len()).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(0);
+    if best == 0 || best + 1 >= heights.len() {
+        return (best as f64, heights[best]);
+    }
+    let [before, own, behind] = [size(best - 1), size(best), size(best + 1)];
+    let (slope, bend) = (0.5 * (behind - before), before - 2.0 * own + behind);
+    let by = if bend < 0.0 { (-slope / bend).clamp(-0.5, 0.5) } else { 0.0 };
+    (best as f64 + by, heights[best].signum() * (own + slope * by + 0.5 * bend * by * by))
 }
 
 /// A wave of a profile below a Hann window: its real and imaginary part, over half of the sum of the window.
@@ -462,6 +509,13 @@ fn wave_of(profile: &[f64], wave: f64) -> [f64; 2] {
 /// Squared amplitude of a wave.
 fn power(profile: &[f64], wave: f64) -> f64 {
     wave_of(profile, wave).iter().map(|part| part * part).sum()
+}
+
+/// The share of a wave that a profile holds in the same phase, both from their means.
+fn share_of(wave: &[f64], profile: &[f64]) -> f64 {
+    let mean = wave.iter().sum::<f64>() / wave.len() as f64;
+    let own: Vec<f64> = wave.iter().map(|value| value - mean).collect();
+    product(&own, profile) / product(&own, &own)
 }
 
 /// The periods of the profile, which are taken off it.
@@ -504,10 +558,19 @@ fn periods(noise: &Noise, scales: &[Scale], bin: f64, profile: &mut [f64]) -> Ve
         let exact =
             fine.max_by(|a, b| power(profile, *a).total_cmp(&power(profile, *b))).unwrap_or(wave as f64);
         let [cosine, sine] = wave_of(profile, exact);
-        for (i, value) in profile.iter_mut().enumerate() {
+        let fitted = |i: usize| {
             let (s, c) = libm::sincos(exact * TAU * (i as f64 + 0.5) / bins as f64);
-            *value -= cosine * c + sine * s;
+            cosine * c + sine * s
+        };
+        let fitted: Vec<f64> = (0..bins).map(fitted).collect();
+        let in_part = |part: usize| {
+            let part = part * bins / PARTS..(part + 1) * bins / PARTS;
+            share_of(&fitted[part.clone()], &profile[part])
+        };
+        if (0..PARTS).any(|part| in_part(part) < LEAST_PART) {
+            break;
         }
+        profile.iter_mut().zip(&fitted).for_each(|(value, wave)| *value -= wave);
         found.push(ScanPeriod {
             period: bins as f64 * bin / exact,
             amplitude: cosine.hypot(sine),
@@ -569,7 +632,7 @@ mod tests {
         let (mut found, mut all) = (0, 0);
         for seed in 0..160 {
             let map = clouds((110, 160), textures[seed as usize % 4], |_| 1.0, seed);
-            let Some(search) = search(&map) else { continue };
+            let Some(search) = search(&map, false) else { continue };
             all += 1;
             found += usize::from(!search.streaks.is_empty() || !search.periods.is_empty());
         }
@@ -584,7 +647,7 @@ mod tests {
         let (mut squares, mut inside) = (0.0, 0);
         for seed in 0..24 {
             let streak = |x: f64| 1.0 - 0.12 * libm::exp(-0.5 * ((x - middle) * 0.15 / sigma).powi(2));
-            let search = search(&clouds((150, 400), ([3, 3], 0.2, 0.1), streak, 900 + seed)).unwrap();
+            let search = search(&clouds((150, 400), ([3, 3], 0.2, 0.1), streak, 900 + seed), false).unwrap();
             let found = search.streaks[0];
             assert!((found.place - middle * 0.15).abs() < 4e-3, "{found:?}");
             // The mean is lower by the streak.
@@ -599,7 +662,7 @@ mod tests {
     fn stat_a_wave_across_is_found_with_its_period_and_is_no_streak() {
         for seed in 0..6 {
             let wave = |x: f64| 1.0 + 0.05 * libm::cos(TAU * x * 0.15 / 8.7e-3 + seed as f64);
-            let search = search(&clouds((150, 400), ([3, 3], 0.2, 0.1), wave, 400 + seed)).unwrap();
+            let search = search(&clouds((150, 400), ([3, 3], 0.2, 0.1), wave, 400 + seed), false).unwrap();
             let [found] = search.periods[..] else { panic!("{:?}", search.periods) };
             assert!((found.period / 8.7e-3 - 1.0).abs() < 0.01, "{found:?}");
             assert!((found.amplitude - 0.05).abs() < 4.0 * found.standard_error, "{found:?}");
@@ -610,7 +673,7 @@ mod tests {
     /// A scan that holds few clouds, and one that is all the same, tell nothing.
     #[test]
     fn a_scan_that_is_too_short_for_its_clouds_has_no_streaks() {
-        assert_eq!(search(&clouds((110, 60), ([40, 40], 0.2, 0.0), |_| 1.0, 1)), None);
-        assert_eq!(search(&clouds((110, 160), ([3, 3], 0.0, 0.0), |_| 1.0, 1)), None);
+        assert_eq!(search(&clouds((110, 60), ([40, 40], 0.2, 0.0), |_| 1.0, 1), false), None);
+        assert_eq!(search(&clouds((110, 160), ([3, 3], 0.0, 0.0), |_| 1.0, 1), false), None);
     }
 }
