@@ -20,6 +20,10 @@ pub struct Cause {
     pub(super) json: Json,
 }
 
+/// σ of the normal profile that fits a rectangle best, over the width of that, and its mass over that of it.
+const OF_PACK: f64 = 0.357;
+const MASS_OF_PACK: f64 = 1.06;
+
 /// The holes of a layer, and how they lay.
 struct Layer {
     /// In words, behind a noun; empty of a line of one layer.
@@ -77,8 +81,9 @@ fn list(json: &Json) -> impl Iterator<Item = &Json> {
 }
 
 fn layers(web: &Web) -> Vec<Layer> {
-    let Some((width, weight)) = web.width.zip(web.weight) else { return Vec::new() };
+    let Some(width) = web.width else { return Vec::new() };
     let all: Vec<&Json> = list(&web.layers).collect();
+    let weight: f64 = all.iter().filter_map(|json| json["basis_weight_kg_m2"].as_f64()).sum();
     let layer = |json: &&Json| {
         let number = |name: &str| json[name].as_f64();
         let name = json["name"].as_str()?.to_owned();
@@ -135,8 +140,8 @@ fn of_streak(streak: &Streak, layers: &[Layer]) -> Cause {
             );
             (None, words)
         } else if range[0] > layer.sigma {
-            let pack = (12.0 * (sigma * sigma - layer.sigma * layer.sigma)).sqrt();
-            let change = mass / (layer.holes * layer.share * pack);
+            let pack = (sigma * sigma - layer.sigma * layer.sigma).sqrt() / OF_PACK;
+            let change = mass / (MASS_OF_PACK * layer.holes * layer.share * pack);
             let verb = if amplitude < 0.0 { "thinner" } else { "thicker" };
             let words = format!(
                 "wider than one filament{of} is laid, {laid}: a pack about {} wide whose filaments are {} {verb}",
