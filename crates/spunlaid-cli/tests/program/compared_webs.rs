@@ -182,7 +182,8 @@ fn the_line_says_where_the_streaks_of_a_scan_come_from() {
     let desk = desk();
     let web = fs::read_to_string(desk.path("web.toml")).unwrap();
     let rows = "rows = [{ pitch = \"2.5 mm\", filaments = 160 }]\n";
-    let web = web.replace("filaments_per_metre = 5000\n", rows).replace("0.5 mm", "2 mm").replace("\"2 mm\", ", "");
+    let web =
+        web.replace("filaments_per_metre = 5000\n", rows).replace("0.5 mm", "2 mm").replace("\"2 mm\", ", "");
     let web = web.replace("\"100 mm\"", "\"400 mm\"").replace("\"150 mm\"", "\"1.2 m\"");
     for (defect, cause) in [
         ("defects = [{ from = \"150 mm\" }]", Some("blocked_hole")),
@@ -200,7 +201,8 @@ fn the_line_says_where_the_streaks_of_a_scan_come_from() {
             "{said}"
         );
         assert!(desk.path("gauge/figures/web_streaks.csv").is_file());
-        for order in [&["laid gauge"][..], &["gauge laid", "laid gauge"]][usize::from(cause == Some("pack"))] {
+        for order in [&["laid gauge"][..], &["gauge laid", "laid gauge"]][usize::from(cause == Some("pack"))]
+        {
             let found = compared(&desk, order)["comparisons"][0]["streaks"].take();
             let of = |key: &str| found.as_array().unwrap().iter().find(|one| one.get(key).is_some());
             // One hole of 400 in a metre, over the width of a filament.

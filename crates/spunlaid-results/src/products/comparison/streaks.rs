@@ -93,7 +93,7 @@ fn layers(web: &Web) -> Vec<Layer> {
             name,
             holes: number("filaments")? / width / share,
             share,
-            sigma: number("sigma_cd_m")?,
+            sigma: number("laid_sigma_cd_m")?,
             pitches: list(&json["hole_pitch_m"]).filter_map(Json::as_f64).collect(),
         })
     };

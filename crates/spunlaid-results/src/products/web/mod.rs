@@ -179,7 +179,8 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
             filaments: drawn.count(&web.sheet),
             basis_weight_kg_m2: drawn.basis_weight(&web.sheet),
             sigma_md_m: surrogate.map(|drawn| drawn.sigma_md),
-            sigma_cd_m: surrogate.map_or_else(|| drawn.fibres.sigma_cd(), |drawn| drawn.sigma_cd),
+            sigma_cd_m: surrogate.map(|drawn| drawn.sigma_cd),
+            laid_sigma_cd_m: drawn.fibres.sigma_cd(),
             hole_pitch_m: match &drawn.filaments {
                 Filaments::AtRandom { .. } => Vec::new(),
                 Filaments::Slot { per_metre, .. } => vec![1.0 / per_metre],

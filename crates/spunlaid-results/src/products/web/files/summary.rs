@@ -38,7 +38,9 @@ pub struct Layer {
     /// Of the surrogate, if the filaments were laid by one.
     pub sigma_md_m: Option<f64>,
     /// Spread in cross direction [m].
-    pub sigma_cd_m: f64,
+    pub sigma_cd_m: Option<f64>,
+    /// The same of what was laid, whatever laid it [m].
+    pub laid_sigma_cd_m: f64,
     /// Distance of the holes in each row, or in the slot; none of holes at random [m].
     pub hole_pitch_m: Vec<f64>,
     /// Noise of the surrogate [m^-½].

@@ -323,7 +323,7 @@ fn layer(layer: &Layer) -> Row {
         layer.filaments.to_string(),
         grams(layer.basis_weight_kg_m2),
         spread(layer.sigma_md_m),
-        spread(Some(layer.sigma_cd_m)),
+        spread(layer.sigma_cd_m),
         layer
             .noise_per_sqrt_m
             .map_or("–".to_owned(), |noise| format!("{}{THIN}m^-½", significant(noise, 3))),
