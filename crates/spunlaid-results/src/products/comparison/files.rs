@@ -1,6 +1,5 @@
 //! `comparison.json` and its table: what differs between two runs, and whether it is beyond chance.
 
-use super::streaks::Cause;
 use crate::effects::difference_text;
 use crate::files::measured::{known, mean};
 use crate::numbers::plus_minus;
@@ -24,6 +23,14 @@ pub struct Comparison {
     pub measures: Vec<ComparedMeasure>,
     /// Where the streaks of a scan may come from, if the other one is a line.
     pub causes: Vec<Cause>,
+}
+
+/// A streak or a period, or what the line would make: its name, what the line says of it, and the same for files.
+#[derive(Clone, Debug)]
+pub struct Cause {
+    pub(super) what: String,
+    pub(super) words: String,
+    pub(super) json: Json,
 }
 
 /// A measure of two runs.

@@ -1,9 +1,8 @@
 //! The report of a comparison: a table for each pair of results, their curves in one picture each, and webs
 //! beside each other.
 
-use super::files::{ComparedMeasure, Comparison};
+use super::files::{Cause, ComparedMeasure, Comparison};
 use super::maps::{Beside, ComparedPictures, caption};
-use super::streaks::Cause;
 use crate::page::document::{Report, Section, View};
 use crate::page::methods::methods;
 use crate::page::table::{Cell, Row, Table, Tone};

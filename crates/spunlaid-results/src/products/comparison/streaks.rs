@@ -1,5 +1,6 @@
 //! Where the streaks of a scan may come from: what one hole, several holes, or a pack of the line beside it would lay.
 
+use super::files::Cause;
 use super::web::Web;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use serde_json::{Value as Json, json};
@@ -11,14 +12,6 @@ use std::f64::consts::{PI, SQRT_2};
 const SAME: f64 = 0.03;
 /// A wave that is laid weaker than this cannot be seen in any scan.
 const UNSEEN: f64 = 1e-4;
-
-/// A streak or a period, or what the line would make: its name, what the line says of it, and the same for files.
-#[derive(Clone, Debug)]
-pub struct Cause {
-    pub(super) what: String,
-    pub(super) words: String,
-    pub(super) json: Json,
-}
 
 /// σ of the normal profile that fits a rectangle best, over the width of that, and its mass over that of it.
 const OF_PACK: f64 = 0.357;
