@@ -174,3 +174,59 @@ fn my_scan_is_compared_with_my_line_in_one_step() {
     let quiet = success(&mut desk.spunlaid("compare scan.png web.toml --json"));
     assert!(serde_json::from_str::<Value>(&quiet).is_ok(), "{quiet}");
 }
+
+/// A line whose holes stand in rows, with a hole that is blocked, with a pack a tenth thicker and with neither: its map
+/// is analysed as a scan, and the line says which of its parts makes such a streak.
+#[test]
+fn the_line_says_where_the_streaks_of_a_scan_come_from() {
+    let desk = desk();
+    let web = fs::read_to_string(desk.path("web.toml")).unwrap();
+    let rows = "rows = [{ pitch = \"2.5 mm\", filaments = 160 }]\n";
+    let web =
+        web.replace("filaments_per_metre = 5000\n", rows).replace("0.5 mm", "2 mm").replace("\"2 mm\", ", "");
+    let web = web.replace("\"100 mm\"", "\"400 mm\"").replace("\"150 mm\"", "\"1.2 m\"");
+    for (defect, cause) in [
+        ("defects = [{ from = \"150 mm\" }]", Some("blocked_hole")),
+        ("defects = [{ from = \"200 mm\", to = \"240 mm\", titre = 1.1 }]", Some("pack")),
+        ("", None),
+    ] {
+        fs::write(desk.path("line.toml"), web.replace(rows, &format!("{rows}{defect}\n"))).unwrap();
+        success(&mut desk.spunlaid("web line.toml --no-advice --out laid --force --quiet"));
+        let said = success(&mut desk.spunlaid("analyse laid/map.png --patches 4mm,10mm --out gauge --force"));
+        let scan = desk.summary("gauge")["scan"].take();
+        let streaks = scan["streaks"].as_array().unwrap();
+        assert_eq!(streaks.is_empty(), cause.is_none(), "{scan}");
+        assert!(
+            said.contains(if cause.is_some() { "streak is significant" } else { "no streak is" }),
+            "{said}"
+        );
+        assert!(desk.path("gauge/figures/web_streaks.csv").is_file());
+        for order in [&["laid gauge"][..], &["gauge laid", "laid gauge"]][usize::from(cause == Some("pack"))]
+        {
+            let found = compared(&desk, order)["comparisons"][0]["streaks"].take();
+            let of = |key: &str| found.as_array().unwrap().iter().find(|one| one.get(key).is_some());
+            // One hole of 400 in a metre, over the width of a filament.
+            let hole = of("dip_of_one_hole").unwrap();
+            let dip = number(&hole["dip_of_one_hole"]);
+            assert!((dip * 400.0 * (2.0 * std::f64::consts::PI).sqrt() * 5e-3 - 1.0).abs() < 1e-9);
+            assert!(number(&of("pitch_m").unwrap()["left"]) < 1e-30, "{found}");
+            let Some(cause) = cause else {
+                assert!(of("streak_at_m").is_none(), "{found}");
+                continue;
+            };
+            let streak = &of("streak_at_m").unwrap()["layers"][0];
+            assert_eq!(streak["cause"], cause, "{found}");
+            assert_eq!(of("defect_at_m").unwrap()["like_streaks"], 1, "{found}");
+            if cause == "pack" {
+                // 17 holes that feed a tenth more each.
+                let holes = number(&streak["holes"]);
+                assert!((holes - 1.7).abs() < 0.4, "{found}");
+            }
+            if cause == "blocked_hole" {
+                let [holes, off] = ["holes", "holes_standard_error"].map(|key| number(&streak[key]));
+                assert!((holes + 1.0).abs() < 3.0 * off && off < 0.5, "{found}");
+            }
+            assert!(page(&desk).contains("Where the streaks may come from"));
+        }
+    }
+}

@@ -21,8 +21,8 @@ use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{
-    FewDoubt, FewFilamentsCv, Format, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS,
-    Picture, scan,
+    FewDoubt, FewFilamentsCv, Format, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS,
+    OF_STREAK_LIMITS, OF_WEBS, Picture, scan,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -190,6 +190,12 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());
         let is_told = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
         assert!(!is_told || report.contains(declared.label), "{}", declared.entry());
+    }
+    let search = findings.streaks.as_ref().unwrap();
+    let limits = summary["scan"]["streak_limits"].as_array().unwrap();
+    assert_eq!(limits.len(), search.limits.len());
+    for declared in OF_STREAK_LIMITS {
+        assert_eq!(limits[0][declared.entry()].as_f64(), Some(declared.number(&search.limits[0])));
     }
     for declared in OF_SCANNED_PATCHES {
         let json = summary["web"]["patches"][0][declared.entry()].as_f64();

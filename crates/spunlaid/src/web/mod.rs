@@ -35,7 +35,7 @@ pub use map::{
     OneFibre, Row, Sheet, Strand, TimeSpent, Web, Window,
 };
 pub use scan::{
-    CELL, FEWEST, Format, Light, LightKind, OF_SCANNED_PATCHES, OF_SCANS, Picture, ScanRequest, Settings,
-    WEIGHT_OF_BLACK,
+    CELL, FEWEST, Format, Light, LightKind, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS,
+    OF_STREAK_LIMITS, Picture, ScanRequest, Settings, WEIGHT_OF_BLACK,
 };
 pub use surrogate::{PathKey, Paths, Residual, Surrogate};

@@ -26,5 +26,6 @@ mod scan_lamps;
 mod scan_maps;
 mod scan_refusals;
 mod scan_scales;
+mod scan_streaks;
 mod scan_tags;
 mod scan_transparency;

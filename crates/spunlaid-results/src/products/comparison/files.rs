@@ -21,6 +21,16 @@ pub struct Comparison {
     pub errors: &'static str,
     /// Measure by measure.
     pub measures: Vec<ComparedMeasure>,
+    /// Where the streaks of a scan may come from, if the other one is a line.
+    pub causes: Vec<Cause>,
+}
+
+/// A streak or a period, or what the line would make: its name, what the line says of it, and the same for files.
+#[derive(Clone, Debug)]
+pub struct Cause {
+    pub(super) what: String,
+    pub(super) words: String,
+    pub(super) json: Json,
 }
 
 /// A measure of two runs.
@@ -74,14 +84,19 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
         (compared.column.clone(), told)
     };
     let comparison = |comparison: &Comparison| {
-        json!({
+        let causes: Vec<&Json> = comparison.causes.iter().map(|cause| &cause.json).collect();
+        let mut told = json!({
             "run": comparison.run,
             "against": comparison.against,
             "paired": comparison.pairs.is_some(),
             "pairs": comparison.pairs,
             "reason": comparison.reason,
             "measures": comparison.measures.iter().map(measure).collect::<Json>(),
-        })
+        });
+        if !causes.is_empty() {
+            told["streaks"] = json!(causes);
+        }
+        told
     };
     let comparisons: Json = comparisons.iter().map(comparison).collect();
     let notes = (!notes.is_empty()).then_some(notes);

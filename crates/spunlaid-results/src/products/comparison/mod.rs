@@ -6,6 +6,7 @@ mod files;
 mod maps;
 mod report;
 mod runs;
+mod streaks;
 mod web;
 mod webs;
 

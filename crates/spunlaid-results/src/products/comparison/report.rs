@@ -1,7 +1,7 @@
 //! The report of a comparison: a table for each pair of results, their curves in one picture each, and webs
 //! beside each other.
 
-use super::files::{ComparedMeasure, Comparison};
+use super::files::{Cause, ComparedMeasure, Comparison};
 use super::maps::{Beside, ComparedPictures, caption};
 use crate::page::document::{Report, Section, View};
 use crate::page::methods::methods;
@@ -38,14 +38,30 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let Comparison { run, against, reason, errors, measures, .. } = comparison;
     let (beyond, all) = comparison.beyond_chance();
     let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
-    Section::new(format!("pair-{number}"), format!("{run} against {against}"))
+    let section = Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
             "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of \
             the difference leaves out zero); of twenty without any difference, one would by chance."
         ))
         .table(table.rows(measures.iter().map(row)))
-        .caption(format!("{errors} The difference has its standard error, towards the other value."))
+        .caption(format!("{errors} The difference has its standard error, towards the other value."));
+    if comparison.causes.is_empty() {
+        return section;
+    }
+    let row = |cause: &Cause| Row::new(&cause.what, [Cell::from(cause.words.clone())]);
+    section
+        .heading("Where the streaks may come from")
+        .table(
+            Table::new(["Streak"])
+                .sentences(["What the line says of it"])
+                .rows(comparison.causes.iter().map(row)),
+        )
+        .caption(CAUSES)
 }
+
+/// What is said below causes.
+const CAUSES: &str = "A streak that lacks as much mass as one hole feeds, and is as wide as one filament is laid, is a \
+    blocked hole. Widths are at half of the amplitude. To see one in a web, lay the line with it: line.defects.";
 
 fn row(compared: &ComparedMeasure) -> Row {
     let is_sure = compared.difference.is_some_and(|difference| difference.is_beyond_chance());

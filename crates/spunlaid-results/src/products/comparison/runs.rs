@@ -63,6 +63,7 @@ fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
         reason,
         errors,
         measures,
+        causes: Vec::new(),
     }
 }
 

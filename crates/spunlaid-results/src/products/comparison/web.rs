@@ -29,6 +29,11 @@ pub(super) struct Web {
     pub(super) cell: Option<f64>,
     /// What is told of its fabric; nothing in an older folder.
     pub(super) fabric: Json,
+    /// What is said of the scan, and of the layers of the line.
+    pub(super) scan: Json,
+    pub(super) layers: Json,
+    /// Its width, if it is known [m].
+    pub(super) width: Option<f64>,
     /// Its map, or why there is none.
     pub(super) map: Result<MapFile, String>,
 }
@@ -95,6 +100,9 @@ impl Web {
             has_camera: all.iter().any(|patch| patch["blur_of_a_pixel"].is_number()),
             cell: web["cell_m"].as_f64(),
             fabric: summary["fabric"].clone(),
+            scan: summary["scan"].clone(),
+            layers: summary["layers"].clone(),
+            width: web["cells"][1].as_f64().zip(web["cell_m"].as_f64()).map(|(cells, cell)| cells * cell),
             map: MapFile::new(folder, web),
         })
     }

@@ -5,6 +5,7 @@ use super::fabric::in_common;
 use super::figures::{ComparedPatch, overlaid_webs};
 use super::files::{ComparedMeasure, Comparison};
 use super::maps::maps;
+use super::streaks::causes;
 use super::web::{Patch, Web, WebNumber, are_alike, measure};
 use crate::Failure;
 use crate::numbers::significant;
@@ -106,6 +107,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
         errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of \
             web, and, where a few filaments were flown for all, from their small number.",
         measures,
+        causes: causes([first, other]),
     })
 }
 

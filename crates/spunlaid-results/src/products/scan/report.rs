@@ -13,15 +13,17 @@ use crate::products::web::files::picture::Pictures;
 use crate::products::web::report::below;
 use crate::products::web::report::cards;
 use crate::products::web::report::cards::scale_card;
-use crate::products::web::report::fabric::fabric_section;
+use crate::products::web::report::fabric::{compare, fabric_section, shown as of_fabric};
 use crate::products::web::report::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use crate::products::web::report::scale::Judged;
 use crate::products::web::report::unevenness::{CV_OF_PATCHES, headline, largest_clouds, per_cent};
 use spunlaid::ground::{Measure, Measured, measure};
 use spunlaid::web::map::nearest_to_seen;
 use spunlaid::web::map::uniformity::Unevenness;
-use spunlaid::web::scan::{Doubt, Findings, PatchFindings};
-use spunlaid::web::{Fabric, Map, OF_SCANNED_PATCHES, OF_SCANS};
+use spunlaid::web::scan::{Doubt, Findings, PatchFindings, StreakLimit};
+use spunlaid::web::{
+    Fabric, Map, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS,
+};
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
@@ -71,6 +73,7 @@ pub fn scan_report<'a>(
         .with(web)
         .with_all(scale)
         .with(uneven(findings).told())
+        .with(streaks(findings).told())
         .with(fabric_section(fabric))
         .with(cards::fabric(fabric).into())
         .with(Section::of_figures(figures))
@@ -133,6 +136,45 @@ fn uneven(findings: &Findings) -> Section<'static> {
                 " Where one more pixel of blur changes little, the camera’s own blur has changed little as well."
             }
         ))
+}
+
+/// What is said below streaks.
+const ABOUT_STREAKS: &str = "Fits of normal profiles to the mean along the machine, less a polynomial of fourth degree \
+    over the whole width, so that no shading counts and no streak is wider than a sixth of the scan. One scan of twenty \
+    without streaks has one or a period. What the lamp or the scanner makes stays in its place when the web is moved: \
+    move it, and scan again.";
+
+/// The streaks along the machine.
+fn streaks(findings: &Findings) -> Section<'static> {
+    let section = Section::new("streaks", "Streaks along the machine");
+    let Some(search) = &findings.streaks else {
+        return section.paragraph(
+            "No streaks were looked for: the scan is too small, or it holds too few clouds along the machine to tell \
+             streaks from them. Scan a longer piece.",
+        );
+    };
+    let least = |limit: &StreakLimit| {
+        let [width, amplitude] = OF_STREAK_LIMITS else { return String::new() };
+        format!("{} if they are {} wide", of_fabric(amplitude, limit), of_fabric(width, limit))
+    };
+    let ends = [search.limits.first(), search.limits.last()].into_iter().flatten().map(least);
+    let count = |number: usize, what: &str| match number {
+        0 => format!("no {what} is"),
+        1 => format!("one {what} is"),
+        number => format!("{number} {what}s are"),
+    };
+    let section = section.paragraph(format!(
+        "At 95{THIN}%, {} significant, and {} significant. This scan shows streaks from {} on.",
+        count(search.streaks.len(), "streak"),
+        count(search.periods.len(), "period across the web"),
+        ends.collect::<Vec<_>>().join(", ")
+    ));
+    let [place, told @ ..] = OF_SCAN_STREAKS else { return section };
+    let rows: Vec<_> = search.streaks.iter().map(|streak| (of_fabric(place, streak), streak)).collect();
+    let section = compare(section, ("Streaks", place.label), told, &rows);
+    let [period, told @ ..] = OF_SCAN_PERIODS else { return section };
+    let rows: Vec<_> = search.periods.iter().map(|wave| (of_fabric(period, wave), wave)).collect();
+    compare(section, ("Periods", period.label), told, &rows).caption(ABOUT_STREAKS)
 }
 
 /// Whether basis weights were read, which no camera has blurred.

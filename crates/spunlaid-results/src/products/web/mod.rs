@@ -31,7 +31,7 @@ use spunlaid::fibre::{Case, Load, Remark, Solution};
 use spunlaid::ground::{Control, Isa};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::FlownWeb;
-use spunlaid::web::map::{Findings, strands};
+use spunlaid::web::map::{Filaments, Findings, strands};
 use spunlaid::web::{Fabric, FlownFibres, Web};
 use spunlaid_charts::Figure;
 use std::sync::atomic::AtomicU64;
@@ -188,6 +188,12 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
             basis_weight_kg_m2: drawn.basis_weight(&web.sheet),
             sigma_md_m: surrogate.map(|drawn| drawn.sigma_md),
             sigma_cd_m: surrogate.map(|drawn| drawn.sigma_cd),
+            laid_sigma_cd_m: drawn.fibres.sigma_cd(),
+            hole_pitch_m: match &drawn.filaments {
+                Filaments::AtRandom { .. } => Vec::new(),
+                Filaments::Slot { per_metre, .. } => vec![1.0 / per_metre],
+                Filaments::Rows(rows) => rows.iter().map(|row| row.pitch).collect(),
+            },
             noise_per_sqrt_m: surrogate.map(|drawn| drawn.noise),
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),

@@ -5,8 +5,8 @@ use crate::air::{OF_COMPONENTS, OF_RECORDS};
 use crate::fibre::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
 use crate::ground::{Formula, KELVIN, Unit, measure};
 use crate::web::{
-    OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAKS, OF_STRIPS,
-    OF_THINNEST, OF_WEBS,
+    OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES,
+    OF_SCANS, OF_STREAK_LIMITS, OF_STREAKS, OF_STRIPS, OF_THINNEST, OF_WEBS,
 };
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -75,6 +75,9 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check_list(OF_WEBS);
     check_list(OF_SCANS);
     check_list(OF_SCANNED_PATCHES);
+    check_list(OF_SCAN_STREAKS);
+    check_list(OF_SCAN_PERIODS);
+    check_list(OF_STREAK_LIMITS);
     check_list(OF_RECORDS);
     check_list(OF_COMPONENTS);
     check_list(OF_SPINLINES);
@@ -148,6 +151,9 @@ fn every_measure_stands_in_the_docs() {
     list(&mut text, "Streaks of a fabric, of the defects of its line", measure::with_errors(OF_STREAKS));
     list(&mut text, "A scan", measure::with_errors(OF_SCANS));
     list(&mut text, "The patches of a scan", measure::with_errors(OF_SCANNED_PATCHES));
+    list(&mut text, "The streaks of a scan", measure::with_errors(OF_SCAN_STREAKS));
+    list(&mut text, "The periods of a scan", measure::with_errors(OF_SCAN_PERIODS));
+    list(&mut text, "The least streaks that a scan would show", measure::with_errors(OF_STREAK_LIMITS));
     list(&mut text, "A velocity record", measure::with_errors(OF_RECORDS));
     list(&mut text, "A component of a velocity record", measure::with_errors(OF_COMPONENTS));
     list(&mut text, "A spinline", measure::with_errors(OF_SPINLINES));

@@ -281,7 +281,7 @@ impl Fibres {
     }
 
     /// Spread about the straight trace in cross direction [m].
-    pub(crate) fn sigma_cd(&self) -> f64 {
+    pub fn sigma_cd(&self) -> f64 {
         match self {
             Self::Surrogate(surrogate) => surrogate.sigma_cd,
             Self::Flown(flown) => flown.curves.sigma_cd(),

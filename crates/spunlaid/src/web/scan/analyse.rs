@@ -9,6 +9,7 @@ use super::note::notes;
 use super::optics::{blurred, noise_at_most};
 use super::picture::Picture;
 use super::spots::{ForeignParts, Spots};
+use super::streaks::search;
 use super::weigh::{Correction, Light, WeighedPicture, beside, weigh};
 use super::{Doubt, FEWEST};
 use crate::ground::units::shortest;
@@ -63,6 +64,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     told.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
     told.extend(doubt.map(|(_, fault)| fault));
     let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
+    let streaks = search(map, shading.is_some());
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
     Ok(Findings {
         map,
@@ -78,6 +80,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         patches,
         clouds,
         autocorrelation,
+        streaks,
         notes: told,
     })
 }

@@ -3,6 +3,7 @@
 use super::Doubt;
 use super::picture::Picture;
 use super::spots::ForeignParts;
+use super::streaks::StreakSearch;
 use super::weigh::{Light, Pixels};
 use crate::ground::Fault;
 use crate::web::map::uniformity::Unevenness;
@@ -78,6 +79,8 @@ pub struct Findings {
     /// Autocorrelation coefficients of the basis weight in cross and in machine direction, pixel by pixel
     /// from lag zero.
     pub autocorrelation: [Vec<f64>; 2],
+    /// Streaks along the machine; none if the scan is too small, or too short for its clouds.
+    pub streaks: Option<StreakSearch>,
     /// What was assumed, corrected or left out, and what to do about it.
     pub notes: Vec<Fault>,
 }

@@ -1,11 +1,15 @@
 //! What is measured of a scanned web. `summary.json`, the report, the terminal and Python follow from it.
 
-use super::{Findings, PatchFindings};
-use crate::ground::{ErrorRole, Formula, Measure, PERCENT, RATIO, Unit};
-use Formula::{Count, Known, Number};
+use super::streaks::WIDTH;
+use super::{Findings, PatchFindings, ScanPeriod, ScanStreak, StreakLimit};
+use crate::ground::{ErrorRole, Formula, Known as What, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
+use Formula::{Count, Known, Number, Told};
 
 type OfScan = Measure<Findings>;
 type OfPatch = Measure<PatchFindings>;
+type OfStreak = Measure<ScanStreak>;
+type OfPeriod = Measure<ScanPeriod>;
+type OfLimit = Measure<StreakLimit>;
 
 /// The measures of a scan, in the order of `summary.json`; what has no label stands there alone.
 pub const OF_SCANS: &[Measure<Findings>] = &[
@@ -67,6 +71,50 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
         .meaning("share by which one more pixel of blur lowers the CV")
         .short("lost by blur")
         .digits(2),
+];
+
+/// The measures of a streak of a scan.
+pub const OF_SCAN_STREAKS: &[Measure<ScanStreak>] = &[
+    OfStreak::new("place_m", "Position", MILLIMETRES, Told(|streak| Some(What::Exact(streak.place))))
+        .meaning("middle of the streak, from the left edge of the web"),
+    OfStreak::new("amplitude", "Amplitude", PERCENT, Told(|streak| Some(streak.height())))
+        .meaning("how much heavier the web is there than beside it; below zero where it is lighter"),
+    OfStreak::new("width_m", "Width", MILLIMETRES, Told(|streak| Some(What::Exact(WIDTH * streak.sigma))))
+        .meaning("width at half of the amplitude of the normal profile that fits best"),
+    OfStreak::new(
+        "width_range_m",
+        "95 % interval of the width",
+        MILLIMETRES,
+        Told(|streak| Some(streak.widths())),
+    )
+    .meaning("widths of normal profiles that fit hardly worse"),
+    OfStreak::new(
+        "chance",
+        "Probability by chance",
+        PERCENT,
+        Told(|streak| Some(What::AtMost(streak.chance))),
+    )
+    .meaning("probability that clouds alone make a streak as clear, of any width at any place")
+    .digits(2),
+];
+
+/// The measures of a period of a scan across the machine direction.
+pub const OF_SCAN_PERIODS: &[Measure<ScanPeriod>] = &[
+    OfPeriod::new("period_m", "Period", MILLIMETRES, Told(|wave| Some(What::Exact(wave.period))))
+        .meaning("distance of streaks that repeat"),
+    OfPeriod::new("amplitude", "Amplitude", PERCENT, Told(|wave| Some(wave.height())))
+        .meaning("half of the way from the lightest to the heaviest place of the wave"),
+    OfPeriod::new("chance", "Probability by chance", PERCENT, Told(|wave| Some(What::AtMost(wave.chance))))
+        .meaning("probability that clouds alone make a wave as strong, of any length")
+        .digits(2),
+];
+
+/// The least streaks that a scan can show.
+pub const OF_STREAK_LIMITS: &[Measure<StreakLimit>] = &[
+    OfLimit::new("width_m", "Width", MILLIMETRES, Told(|limit| Some(What::Exact(WIDTH * limit.sigma))))
+        .meaning("width of a streak at half of its amplitude"),
+    OfLimit::new("amplitude", "Least amplitude", PERCENT, Told(|limit| Some(What::Exact(limit.amplitude))))
+        .meaning("amplitude from which on such a streak is significant at 95 %"),
 ];
 
 const SQUARE_MILLIMETRES: Unit = Unit { shown: "mm²", per_si: 1e6 };

@@ -72,18 +72,20 @@ mod picture;
 mod read;
 mod request;
 mod spots;
+mod streaks;
 mod weigh;
 
 pub use analyse::analyse;
 pub use findings::{Findings, PatchFindings, Settings};
 pub(crate) use levels::flattened;
-pub use measures::{OF_SCANNED_PATCHES, OF_SCANS};
+pub use measures::{OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, WEIGHT_OF_BLACK, parse, read};
 pub use request::{LightKind, ScanRequest, columns_of_map, is_picture_file};
 pub use spots::{ForeignParts, Spot};
 use std::fmt;
+pub use streaks::{ScanPeriod, ScanStreak, StreakLimit, StreakSearch, WIDTH};
 pub use weigh::{Light, Pixels};
 
 /// A sheet that is less than so many patches wide or long tells nothing about the web.

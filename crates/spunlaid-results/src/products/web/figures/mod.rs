@@ -52,6 +52,7 @@ pub fn scan_figures(findings: &scan::Findings) -> Vec<Figure> {
         unevenness::histogram(map, weights),
         profiles::scanned(map, weights),
     ];
+    figures.extend(findings.streaks.as_ref().map(profiles::streaks));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures
 }

@@ -3,6 +3,7 @@
 use super::{GRAMS, MM, PER_CENT, Weights};
 use crate::numbers::significant;
 use spunlaid::web::map::Findings;
+use spunlaid::web::scan::{StreakSearch, WIDTH};
 use spunlaid::web::{Edges, Map, Web};
 use spunlaid_charts::palette::{BLUE, GREY, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
@@ -60,6 +61,36 @@ pub(super) fn scanned(map: &Map, weights: Weights) -> Figure {
         words: "The dashed lines are the edges of the scan.".to_owned(),
     };
     profiles(map, weights, "These are streaks, as far as the lamp was even.", &across)
+}
+
+/// The streaks of a scan, with the band that chance fills.
+pub(super) fn streaks(search: &StreakSearch) -> Figure {
+    let StreakSearch { bin, profile, limits, streaks, periods } = search;
+    let width = profile.len() as f64 * bin * MM;
+    let x = Axis::linear("Cross direction (mm)").including(0.0).including(width);
+    let mut chart = Chart::new("web_streaks", "", x, Axis::linear("Basis weight from the mean (%)"));
+    let chance = limits.first().map_or(0.0, |limit| limit.amplitude * PER_CENT);
+    let band = [(0.0, -chance, chance), (width, -chance, chance)];
+    chart = chart.band(Series::new("within chance, of the narrowest streaks", GREY), band);
+    for (i, streak) in streaks.iter().enumerate() {
+        let series = Series::new("streak", VERMILION);
+        let half = WIDTH / 2.0 * streak.sigma;
+        let series = if i == 0 { series } else { series.unlabelled() };
+        chart = chart.stretch(series, (streak.place - half) * MM, (streak.place + half) * MM);
+    }
+    let points = profile.iter().enumerate().map(|(i, value)| ((i as f64 + 0.5) * bin * MM, value * PER_CENT));
+    let chart = chart.line(Series::new("mean along the machine", BLUE).unlabelled().width(1.4), points);
+    let waves: Vec<String> = periods.iter().map(|wave| significant(wave.period * MM, 3)).collect();
+    let waves = match waves.is_empty() {
+        true => String::new(),
+        false => format!(" Periods: {} mm.", waves.join(", ")),
+    };
+    let caption = format!(
+        "Basis weight at a position across the web, averaged along the machine, over the mean. A narrow streak that \
+         leaves the grey band is significant at 95 %; a wider one is so from a smaller amplitude on. Red: streaks, as \
+         wide as at half of their amplitude.{waves}"
+    );
+    Figure::new(&chart, caption)
 }
 
 /// Basis weight across the web and along it.

@@ -27,7 +27,7 @@ fn entries<T>(measures: &'static [Measure<T>], of: &T) -> Json {
     known.collect()
 }
 
-fn all<T>(measures: &'static [Measure<T>], of: &[T]) -> Json {
+pub(super) fn all<T>(measures: &'static [Measure<T>], of: &[T]) -> Json {
     of.iter().map(|part| entries(measures, part)).collect()
 }
 

@@ -1,5 +1,6 @@
 //! `summary.json`: all results of a web.
 
+use super::fabric::all;
 use super::{effects, fabric};
 use crate::files::measured::{joined, json, known, mean, values, with_errors};
 use crate::files::origin::Performance;
@@ -15,8 +16,8 @@ use spunlaid::ground::{Estimate, Measure};
 use spunlaid::web::map::Findings;
 use spunlaid::web::scan::Doubt;
 use spunlaid::web::{
-    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, OF_PATCHES,
-    OF_SCANNED_PATCHES, OF_SCANS, OF_WEBS, Web, scan,
+    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, OF_PATCHES, OF_SCAN_PERIODS,
+    OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS, OF_WEBS, Web, scan,
 };
 
 /// What a layer was laid from.
@@ -44,6 +45,10 @@ pub struct Layer {
     pub sigma_md_m: Option<f64>,
     /// Spread in cross direction [m].
     pub sigma_cd_m: Option<f64>,
+    /// The same of what was laid, whatever laid it [m].
+    pub laid_sigma_cd_m: f64,
+    /// Distance of the holes in each row, or in the slot; none of holes at random [m].
+    pub hole_pitch_m: Vec<f64>,
     /// Noise of the surrogate [m^-½].
     pub noise_per_sqrt_m: Option<f64>,
     /// Rms difference between the autocorrelations of the flown fibres and those of the surrogate.
@@ -162,11 +167,21 @@ pub fn summary_of_scan(
     let parts = json!({
         "web": web,
         "fabric": fabric::summary(fabric),
-        "scan": joined([about, values(OF_SCANS, findings)]),
+        "scan": joined([about, values(OF_SCANS, findings), streaks(findings)]),
         "performance": performance,
         "notes": notes,
     });
     versioned_json(3, parts)
+}
+
+/// The streaks of a scan, its periods, and what it would show; null if they were not looked for.
+fn streaks(findings: &scan::Findings) -> Json {
+    let search = findings.streaks.as_ref();
+    json!({
+        "streaks": search.map(|search| all(OF_SCAN_STREAKS, &search.streaks)),
+        "periods": search.map(|search| all(OF_SCAN_PERIODS, &search.periods)),
+        "streak_limits": search.map(|search| all(OF_STREAK_LIMITS, &search.limits)),
+    })
 }
 
 /// What any map says.

@@ -50,7 +50,7 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
 /// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.
 ///
 /// * `heads` – above the table, and above the names of its rows
-fn compare<T>(
+pub(crate) fn compare<T>(
     section: Section<'static>,
     (heading, head): (&str, &'static str),
     measures: &'static [Measure<T>],
@@ -72,6 +72,6 @@ fn compare<T>(
 }
 
 /// A dash where there is no such number.
-fn shown<T>(measure: &'static Measure<T>, of: &T) -> String {
+pub(crate) fn shown<T>(measure: &'static Measure<T>, of: &T) -> String {
     known_text(&measure.of(of)).unwrap_or_else(|| "–".to_owned())
 }
