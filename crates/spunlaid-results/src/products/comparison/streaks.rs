@@ -165,7 +165,7 @@ fn of_streak(streak: &Streak, layers: &[Layer]) -> Cause {
             millimetres(WIDTH * sigma)
         ),
         words: words.join("; "),
-        json: json!({"streak_at_m": place, "amplitude": amplitude, "layers": json}),
+        json: json!({"streak_at_m": place, "amplitude": amplitude, "standard_error": error, "layers": json}),
     }
 }
 
@@ -199,7 +199,7 @@ fn of_period(wave: &Json, layers: &[Layer]) -> Option<Cause> {
     Some(Cause {
         what: format!("Period of {}: ± {height}{THIN}%", millimetres(period)),
         words: words.join("; "),
-        json: json!({"period_m": period, "amplitude": amplitude, "layers": json}),
+        json: json!({"period_m": period, "amplitude": amplitude, "standard_error": error, "layers": json}),
     })
 }
 

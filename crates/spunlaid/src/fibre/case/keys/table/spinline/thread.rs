@@ -67,8 +67,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("1.0")
         .meaning(
             "Factor on the drag of the air along the filament. It is not known of any line: the laws of \
-             `drag.along` alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` finds the one with which \
-             the filament has the measured titre.",
+             `drag.along` alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` finds the one with \
+             which the filament has the measured titre.",
         )
         .synonyms(&["calibration", "titre"])
         .label("Factor on the drag of the spinline")
