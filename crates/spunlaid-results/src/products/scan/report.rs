@@ -139,10 +139,10 @@ fn uneven(findings: &Findings) -> Section<'static> {
 }
 
 /// What is said below streaks.
-const ABOUT_STREAKS: &str = "Fits of normal profiles to the mean along the machine, less a polynomial of fourth degree \
-    over the whole width, so that no shading counts and no streak is wider than a sixth of the scan. One scan of \
-    twenty without streaks has one or a period. What the lamp or the scanner makes stays in its place when the web is moved: \
-    move it, and scan again.";
+const ABOUT_STREAKS: &str = "Fits of normal profiles to the mean along the machine, less a polynomial of fourth \
+    degree over the whole width, so that no shading counts and no streak is wider than a sixth of the scan. One scan \
+    of twenty without streaks has one or a period. What the lamp or the scanner makes stays at its position when the \
+    web is moved: move it, and scan again.";
 
 /// The streaks along the machine.
 fn streaks(findings: &Findings) -> Section<'static> {
