@@ -161,7 +161,7 @@ mod tests {
         for text in ["PP, MFR 35 g/10min", "pp (MFI 35)", "PP 35 g/10 min", "MFR 35 pp"] {
             let given = polymer(text).expect(text);
             assert_eq!(given.value.name(), "pp");
-            assert!(given.remark.is_some_and(|remark| remark.contains("spinline.melt_flow_rate")), "{text}");
+            assert!(given.remark.is_some_and(|remark| remark.contains("--melt-flow-rate")), "{text}");
         }
         assert_eq!(polymer("PA 6, melt flow rate 3").expect("two words").value.name(), "pa6");
         assert!(polymer(" Pa-6 ").is_ok_and(|given| given.value.name() == "pa6" && given.remark.is_none()));
