@@ -176,7 +176,8 @@ mod tests {
                 "spinline.velocity",
                 "spinline.cross_velocity",
                 "spinline.temperature",
-                "spinline.nusselt_factor"
+                "spinline.nusselt_factor",
+                "spinline.drag_factor"
             ]
         );
         // What the spinline gives has none.
