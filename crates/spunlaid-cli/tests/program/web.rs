@@ -213,7 +213,7 @@ fn read_between(page: &str, from: &str, to: &str) -> String {
     words.join(" ").replace(['\u{202f}', '\u{a0}'], " ")
 }
 
-/// Equal beams are told of once, and a change says what becomes of titre, mass and belt, as `summary.json` does. The
+/// Equal beams are shown once, and a change says what becomes of titre, mass and belt, as `summary.json` does. The
 /// picture for a slide has the web and what chance makes of it.
 #[test]
 fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
@@ -242,13 +242,13 @@ fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
         let before = first.rsplit_once(unit).map_or(first, |(before, _)| before);
         before.split_whitespace().last().unwrap().parse().unwrap()
     };
-    let told = [last("dtex") * 1e-7, last("kg/h"), last("no other unit") / 60.0];
+    let shown = [last("dtex") * 1e-7, last("kg/h"), last("no other unit") / 60.0];
     let summary = desk.summary("w");
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     let is_told = |one: &&serde_json::Value| {
         let of_change =
             [&one["linear_density_kg_m"][0], &one["throughput_kg_h_m"], &one["belt_speed_m_s"]].map(number);
-        told.iter().zip(of_change).all(|(told, number)| (told / number - 1.0).abs() < 1e-3)
+        shown.iter().zip(of_change).all(|(shown, number)| (shown / number - 1.0).abs() < 1e-3)
     };
     assert!(summary["advice"]["changes"].as_array().unwrap().iter().any(|one| is_told(&one)), "{change}");
     let picture = desk.read("w/figures/web_picture.png");

@@ -174,20 +174,20 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
-    let untold = "How uneven the web is, is not known: too few filaments were flown.";
+    let unknown = "The CV of the web is not known: too few filaments were flown.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
     let remedy = "Leave web.flown out: then as many fly as it takes, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
-        assert!(text.contains(untold) && text.contains(remedy), "{text}");
+        assert!(text.contains(unknown) && text.contains(remedy), "{text}");
         assert!(!text.contains("The weight varies by") && !text.contains("times less"), "{text}");
     }
     let summary = desk.summary("w");
     let layer = &summary["layers"][0];
     let slot = format!("{:.1}", layer["air_at_slot_m_s"].as_f64().unwrap());
     assert_eq!(layer["cabin_pressure_pa"], 1500.0);
-    let told = format!("1.5\u{202f}kPa, {slot}\u{202f}m/s at the slot");
-    assert!(page.contains("Cabin pressure") && page.contains(&told), "no {told}");
+    let pressure = format!("1.5\u{202f}kPa, {slot}\u{202f}m/s at the slot");
+    assert!(page.contains("Cabin pressure") && page.contains(&pressure), "no {pressure}");
     for patch in summary["web"]["patches"].as_array().unwrap() {
         assert!(patch.get("cv").is_some_and(serde_json::Value::is_null), "{patch}");
         assert_eq!(patch["no_interval"], "too few filaments were flown");

@@ -56,7 +56,7 @@ fn analytic_a_pack_that_is_a_tenth_thicker_is_a_wide_streak() {
     assert!(streak.sigma > 1.4 * SIGMA, "{streak:?}");
 }
 
-/// Neither the web itself nor a lamp that is taken out by a guess is a streak.
+/// Neither the web itself nor a lamp that is taken out by an assumed shading is a streak.
 #[test]
 fn a_web_without_defects_has_no_streak_whatever_the_lamp() {
     let map = web(&[], 3);

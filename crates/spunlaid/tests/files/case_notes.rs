@@ -97,8 +97,8 @@ fn a_drag_law_of_a_file_says_how_it_is_interpolated_and_where_it_ends() {
     let (case, said) = across(&[]);
     assert_eq!(case.files().len(), 1);
     let [interpolated] = &said[..] else { panic!("{said:?}") };
-    let told = "cylinders.csv\" is interpolated between its 15 rows to about ";
-    assert!(interpolated.contains(told) && interpolated.contains("without every second row"), "{said:?}");
+    let words = "cylinders.csv\" is interpolated between its 15 rows to about ";
+    assert!(interpolated.contains(words) && interpolated.contains("without every second row"), "{said:?}");
     // Three times 10 % of 10 m/s over 1 µm have a Reynolds number of 0.2, one time 0.066.
     let fine = across(&[("fibre.diameter", "1 µm"), ("run.time_step", "auto")]).1;
     let ends = "drag.across = \"../spunlaid-results/assets/published/cylinders.csv\" has rows for Reynolds numbers \

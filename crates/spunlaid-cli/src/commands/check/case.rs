@@ -38,8 +38,8 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let changes = [Changes::OfGuesses, Changes::OfLine]
         .map(|which| looked_at(|resources| read_changes(&check.source.case, set.with(resources), which)));
-    let [guesses, of_line] = changes;
-    let expected = expected_of_web(&file.spec, Threads::default().number(), [&guesses?, &of_line?])?;
+    let [assumed, of_line] = changes;
+    let expected = expected_of_web(&file.spec, Threads::default().number(), [&assumed?, &of_line?])?;
     show("web", (&file.text, &file.notes), &[about_web(&file.spec), expected].concat(), "web", &check.source);
     Ok(())
 }

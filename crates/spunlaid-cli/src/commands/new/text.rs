@@ -65,7 +65,7 @@ fn filament(line: &NewLine<'_>) -> String {
     format!(
         "{size}\n\
          density = \"{}\"   # of solid {}\n\
-         youngs_modulus = \"{modulus}\"   # half as much again as without orientation, a guess: the lay-down hardly \
+         youngs_modulus = \"{modulus}\"   # half as much again as without orientation, assumed: the laydown hardly \
          depends on it\n",
         Dimension::Density.pretty(material.solid_density),
         line.polymer.name(),

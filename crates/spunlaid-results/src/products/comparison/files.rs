@@ -85,7 +85,7 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
     };
     let comparison = |comparison: &Comparison| {
         let causes: Vec<&Json> = comparison.causes.iter().map(|cause| &cause.json).collect();
-        let mut told = json!({
+        let mut json = json!({
             "run": comparison.run,
             "against": comparison.against,
             "paired": comparison.pairs.is_some(),
@@ -94,9 +94,9 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
             "measures": comparison.measures.iter().map(measure).collect::<Json>(),
         });
         if !causes.is_empty() {
-            told["streaks"] = json!(causes);
+            json["streaks"] = json!(causes);
         }
-        told
+        json
     };
     let comparisons: Json = comparisons.iter().map(comparison).collect();
     let notes = (!notes.is_empty()).then_some(notes);

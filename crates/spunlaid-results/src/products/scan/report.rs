@@ -102,7 +102,7 @@ fn title(findings: &Findings) -> String {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
         Doubt::White => varies("at least"),
         Doubt::Shading => varies("about"),
-        _ => format!("How uneven the web is, is not known: {guess}."),
+        _ => format!("The CV of the web is not known: {guess}."),
     }
 }
 
@@ -149,8 +149,8 @@ fn streaks(findings: &Findings) -> Section<'static> {
     let section = Section::new("streaks", "Streaks along the machine");
     let Some(search) = &findings.streaks else {
         return section.paragraph(
-            "No streaks were looked for: the scan is too small, or it holds too few clouds along the machine to tell \
-             streaks from them. Scan a longer piece.",
+            "No streaks were looked for: the scan is too small, or it holds too few clouds along the machine, from \
+             which streaks differ. Scan a longer piece.",
         );
     };
     let least = |limit: &StreakLimit| {
@@ -169,12 +169,12 @@ fn streaks(findings: &Findings) -> Section<'static> {
         count(search.periods.len(), "period across the web"),
         ends.collect::<Vec<_>>().join(", ")
     ));
-    let [place, told @ ..] = OF_SCAN_STREAKS else { return section };
+    let [place, measures @ ..] = OF_SCAN_STREAKS else { return section };
     let rows: Vec<_> = search.streaks.iter().map(|streak| (of_fabric(place, streak), streak)).collect();
-    let section = compare(section, ("Streaks", place.label), told, &rows);
-    let [period, told @ ..] = OF_SCAN_PERIODS else { return section };
+    let section = compare(section, ("Streaks", place.label), measures, &rows);
+    let [period, measures @ ..] = OF_SCAN_PERIODS else { return section };
     let rows: Vec<_> = search.periods.iter().map(|wave| (of_fabric(period, wave), wave)).collect();
-    compare(section, ("Periods", period.label), told, &rows).caption(ABOUT_STREAKS)
+    compare(section, ("Periods", period.label), measures, &rows).caption(ABOUT_STREAKS)
 }
 
 /// Whether basis weights were read, which no camera has blurred.

@@ -256,7 +256,7 @@ fn load(spec: &WebSpec) -> Vec<String> {
     if lines.len() > 1 { lines } else { Vec::new() }
 }
 
-/// What the web, other values of its guesses and changes of its line are expected to take, in lines.
+/// What the web, other values of its assumed numbers and changes of its line are expected to take, in lines.
 ///
 /// * `threads` – on which they would fly
 /// * `changes` – the values and the changes
@@ -266,7 +266,7 @@ fn load(spec: &WebSpec) -> Vec<String> {
 pub fn expected_of_web(
     spec: &WebSpec,
     threads: usize,
-    [guesses, of_line]: [&[Change]; 2],
+    [assumed, of_line]: [&[Change]; 2],
 ) -> Result<Vec<String>, Error> {
     let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
     let mut each = Vec::new();
@@ -292,7 +292,7 @@ pub fn expected_of_web(
         (!changes.is_empty()).then(|| format!("  {words}, {count}: {}{asked}", duration(seconds)))
     };
     let trials =
-        [trial(guesses, "other value", "assumptions (web.guessed)"), trial(of_line, "change", "advice")];
+        [trial(assumed, "other value", "assumptions (web.guessed)"), trial(of_line, "change", "advice")];
     let head = format!("expected, on {}", counted(threads as u64, "thread"));
     Ok([head, web].into_iter().chain(trials.into_iter().flatten()).collect())
 }

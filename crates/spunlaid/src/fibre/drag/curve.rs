@@ -157,7 +157,7 @@ mod tests {
                     .map(|i| libm::exp10(f64::from(i) / f64::from(per_decade) - 3.0))
                     .collect();
                 let rows = DragTable::new(&re, &re.iter().map(|re| law(*re)).collect::<Vec<_>>());
-                let told = rows.change_without_every_second_row().unwrap() / 3.0;
+                let stated = rows.change_without_every_second_row().unwrap() / 3.0;
                 let table = Arc::new(rows);
                 let curve = Curve::Table(TableLaw::new(FileContent::new(name.into(), 1, Arc::clone(&table))));
                 for i in 0..7000 {
@@ -166,8 +166,8 @@ mod tests {
                         [table.coefficient(re), 2.0 / re * at(curve, 2.0 * libm::log2(re))]
                             .map(|found| (found / law(re) - 1.0).abs());
                     assert!(
-                        error <= most.min(told + 1e-13),
-                        "{name}, {per_decade} at {re}: {error}, told {told}"
+                        error <= most.min(stated + 1e-13),
+                        "{name}, {per_decade} at {re}: {error}, stated {stated}"
                     );
                     // That of the cubics, of a fourteenth of a decade, on top of it.
                     assert!(in_kernel < most + 5e-5, "{name}, {per_decade} at {re}: {in_kernel}");

@@ -88,14 +88,9 @@ pub const OF_SCAN_STREAKS: &[Measure<ScanStreak>] = &[
         Told(|streak| Some(streak.widths())),
     )
     .meaning("widths of normal profiles that fit hardly worse"),
-    OfStreak::new(
-        "chance",
-        "Probability by chance",
-        PERCENT,
-        Told(|streak| Some(What::AtMost(streak.chance))),
-    )
-    .meaning("probability that clouds alone make a streak as clear, of any width at any place")
-    .digits(2),
+    OfStreak::new("chance", "p-value", PERCENT, Told(|streak| Some(What::AtMost(streak.chance))))
+        .meaning("probability that clouds alone make a streak as clear, of any width at any place")
+        .digits(2),
 ];
 
 /// The measures of a period of a scan across the machine direction.
@@ -104,7 +99,7 @@ pub const OF_SCAN_PERIODS: &[Measure<ScanPeriod>] = &[
         .meaning("distance of streaks that repeat"),
     OfPeriod::new("amplitude", "Amplitude", PERCENT, Told(|wave| Some(wave.height())))
         .meaning("half of the way from the lightest to the heaviest place of the wave"),
-    OfPeriod::new("chance", "Probability by chance", PERCENT, Told(|wave| Some(What::AtMost(wave.chance))))
+    OfPeriod::new("chance", "p-value", PERCENT, Told(|wave| Some(What::AtMost(wave.chance))))
         .meaning("probability that clouds alone make a wave as strong, of any length")
         .digits(2),
 ];

@@ -14,7 +14,7 @@ use std::io::Cursor;
 const PIXELS: usize = 3_000_000;
 /// Side of the piece that is seen first [m].
 pub(crate) const PIECE: f64 = 0.5;
-/// Sides of the piece by chance [m], its fewest and its most pixels, and most pixels through which its fibres go.
+/// Sides of the random piece [m], its fewest and its most pixels, and most pixels through which its fibres go.
 const BESIDE: [f64; 2] = [0.2, 0.5];
 const FEWEST: usize = 64;
 const MOST: usize = 1000;

@@ -53,7 +53,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
     ];
     let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
     let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
-    // Equal layers are told of once.
+    // Equal layers are shown once.
     let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
     let is_one_kind = kinds.clone().count() == 1;
     if is_one_kind && all.len() > 1 {

@@ -200,7 +200,7 @@ fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Strin
         true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
         false => "Fly all of them, web.flown = \"all\"".to_owned(),
     };
-    format!("How uneven the web is, is not known: too few filaments were flown. {remedy}.")
+    format!("The CV of the web is not known: too few filaments were flown. {remedy}.")
 }
 
 /// What half and twice of the assumed values make of the CV, for a headline.

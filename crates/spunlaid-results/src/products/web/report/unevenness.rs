@@ -20,7 +20,7 @@ pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis we
 /// * `assumed` – what is to be said of assumed values, because the error is that of sampling alone
 pub(crate) fn headline(patch: Option<&Unevenness>, is_bound: bool, assumed: Option<String>) -> String {
     let Some(Unevenness { cv, standard_error, patch, .. }) = patch else {
-        return "How uneven the web is, is not known: it is smaller than the patches.".to_owned();
+        return "The CV of the web is not known: the web is smaller than the patches.".to_owned();
     };
     let (cv, error) = rounded(PER_CENT * cv, standard_error.map(|error| PER_CENT * error));
     let at_least = if is_bound { "at least " } else { "" };
