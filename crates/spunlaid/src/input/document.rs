@@ -333,7 +333,13 @@ impl<'a, T> Document<'a, T> {
         };
         let read = match (value.as_str(), change) {
             (Some(word), _) if key.words.contains(&word) => Ok(word.into()),
-            (_, Ok(Some(change))) => change.of(self.number_before(full, key), &key.kind, &key.example()),
+            (_, Ok(Some(change))) => {
+                let remedy = match (key.omission, key.relations.needed_if) {
+                    (Omission::Follows(from), None) => format!("write the value itself; without one, {from}"),
+                    _ => format!("write the value itself, like {}", key.example()),
+                };
+                change.of(self.number_before(full, key), &key.kind, remedy)
+            }
             (_, Ok(None)) => read_value(&key.kind, &value, |named| self.beside(&place, named)),
             (_, Err(fault)) => Err(fault),
         };

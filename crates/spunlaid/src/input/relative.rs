@@ -37,13 +37,12 @@ impl Relative {
 
     /// The changed value.
     ///
-    /// * `example` – how the key is written
+    /// * `remedy` – what to write in its place
     ///
     /// # Errors
     /// If there is no number before, or if the key does not take the new one.
-    pub(super) fn of(self, before: Option<f64>, kind: &Kind, example: &str) -> Result<Value, Fault> {
+    pub(super) fn of(self, before: Option<f64>, kind: &Kind, remedy: String) -> Result<Value, Fault> {
         let Some(before) = before.filter(|before| before.is_finite()) else {
-            let remedy = format!("write the value itself, like {example}");
             return Err(Fault::new("is a change of a value that is not given", remedy));
         };
         let after = match self {

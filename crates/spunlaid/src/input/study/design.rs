@@ -209,7 +209,7 @@ impl<'a> Reader<'a> {
         text: Option<&str>,
     ) -> Result<Value, Fault> {
         match Relative::read(&varied.kind, text.unwrap_or_default())? {
-            Some(change) => change.of(Some(before), &varied.kind, &format!("\"{}\"", varied.name)),
+            Some(change) => change.of(Some(before), &varied.kind, "write the values themselves".to_owned()),
             None => self.as_kind(&varied.kind, entry),
         }
     }
