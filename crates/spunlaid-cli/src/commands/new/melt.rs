@@ -3,7 +3,9 @@
 use super::line::{GIVEN, NewLine, length};
 use crate::args::{MeltNumbers, value};
 use crate::failure::Failure;
+use crate::say;
 use spunlaid::fibre::Polymer;
+use spunlaid::fibre::case::keys;
 use spunlaid::ground::Dimension;
 use spunlaid::input::read_spinline;
 use spunlaid_results::numbers::significant;
@@ -71,6 +73,14 @@ impl<'a> NewMelt<'a> {
         let text = file(&self.text(line, &air, 1.0));
         let spinline = read_spinline((text.as_str(), name.as_str()), &[])?;
         let factor = spinline.drag_factor_of_titre(line.titre)?;
+        let [least, most] = usual_drag();
+        if !(least..=most).contains(&factor) {
+            say::warning(&format!(
+                "the drag of the air would have to be {} times that of its law, where {least} to {most} are usual: \
+                check titre, throughput, melt and air",
+                significant(factor, 2)
+            ));
+        }
         Ok(file(&self.text(line, &air, factor)))
     }
 
@@ -112,6 +122,14 @@ impl<'a> NewMelt<'a> {
             air = air,
             drag_factor = significant(drag_factor, 6),
             titre = significant(line.titre * 1e7, 4),
+            least = usual_drag()[0],
+            most = usual_drag()[1],
         )
     }
+}
+
+/// The usual range of the factor on the drag.
+fn usual_drag() -> [f64; 2] {
+    let usual = keys::find("spinline.drag_factor").and_then(|key| key.usual);
+    usual.map_or([0.0, f64::INFINITY], |(least, most)| [least, most])
 }
