@@ -1,6 +1,6 @@
 //! What a web means: the numbers of its line, its air, and its load on it.
 
-use crate::numbers::{THIN, signed, significant};
+use crate::numbers::{THIN, in_sentence, signed, significant};
 use crate::products::load::{load_of, load_words};
 use crate::products::run::checked::duration;
 use crate::products::spinline::files::SpinResults;
@@ -9,6 +9,7 @@ use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{are_short, steps};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::error::counted;
+use spunlaid::ground::threads::try_each;
 use spunlaid::ground::{Dimension, Error, Isa, WIDTH};
 use spunlaid::input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
 use spunlaid::simulation::PlannedFlight;
@@ -81,7 +82,7 @@ fn on_titre(influence: &Influence) -> Option<(f64, String)> {
     };
     let words = influence.change.setting.words;
     // Without its symbol.
-    let label = plain(words.split(" *").next().unwrap_or(words)).to_lowercase();
+    let label = in_sentence(&plain(words.split(" *").next().unwrap_or(words)));
     (percent.abs() > 0.005).then(|| (percent, format!("{label}, {more} more: {} %", signed(percent, 2))))
 }
 
@@ -271,8 +272,10 @@ pub fn expected_of_web(
     let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
     let mut each = Vec::new();
     for case in spec.layers.iter().filter_map(|layer| layer.source.case()) {
-        // A thread flies eight filaments at once.
-        each.push(pace(case, Isa::detect())? / (WIDTH as f64 * abreast));
+        // On all threads together, because they may share a core. A thread flies eight filaments at once.
+        let paces = try_each(threads, threads.max(1), |_| pace(case, Isa::detect()))?;
+        let pace = paces.iter().sum::<f64>() / paces.len() as f64;
+        each.push(pace / (WIDTH as f64 * abreast));
     }
     let flying = flights.iter().zip(&each).map(|(flight, each)| flight.steps as f64 * each).sum::<f64>();
     let laid = |layer: &LayerSpec| {
@@ -302,7 +305,7 @@ pub fn expected_of_web(
 const FIGURES: f64 = 4.0;
 const LAYING: f64 = 2.5e-8;
 const KNOWN: f64 = 1.2;
-const FINDING: f64 = 1.25;
+const FINDING: f64 = 2.5;
 const TRIAL: f64 = 1.4;
 
 /// Which numbers are guesses, and what is done about them.
