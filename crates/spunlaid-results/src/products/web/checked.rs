@@ -213,8 +213,15 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         match flight.is_few {
             true => format!(
                 "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} \
-                follows from them (web.flown)",
-                counted(flight.filaments, "filament")
+                follows from them (web.flown){}",
+                counted(flight.filaments, "filament"),
+                match flight.coarse_sheets {
+                    0 => String::new(),
+                    sheets => format!(
+                        "; about {} in other airs, with a coarse mesh, for the wanted error of the CV (web.error)",
+                        counted(sheets, "more sheet")
+                    ),
+                }
             ),
             false => format!(
                 "  all {}{of} fly in one field of eddies, so that neighbours come down together",
@@ -277,7 +284,11 @@ pub fn expected_of_web(
         let pace = paces.iter().sum::<f64>() / paces.len() as f64;
         each.push(pace / (WIDTH as f64 * abreast));
     }
-    let flying = flights.iter().zip(&each).map(|(flight, each)| flight.steps as f64 * each).sum::<f64>();
+    let flying = flights
+        .iter()
+        .zip(&each)
+        .map(|(flight, each)| (flight.steps + flight.coarse_steps) as f64 * each)
+        .sum::<f64>();
     let laid = |layer: &LayerSpec| {
         layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.feed_speed / layer.belt_speed
     };

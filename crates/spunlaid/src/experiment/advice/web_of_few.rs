@@ -2,6 +2,7 @@
 
 use crate::ground::{Difference, Effect};
 use crate::simulation::WebSpec;
+use crate::web::map::Covariance;
 use crate::web::{ExpectedCv, FewDoubt, LayerFew};
 
 /// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
@@ -57,11 +58,11 @@ impl WebOfFew {
                     here.iter().zip(&there).map(|(here, there)| of(*here, *there)).sum()
                 };
                 let parts: Vec<f64> = here.iter().zip(&there).map(|(here, there)| there - here).collect();
-                let [of_mean, of_error] = variance_of_mean(&parts, *across);
+                let of_mean = Covariance::of_means(&parts, &parts, *across);
                 let moments = [sum(&|a, _| a * a), sum(&|_, b| b * b), sum(&|a, b| a * b)];
                 common.iter_mut().zip(moments).for_each(|(all, of_layer)| *all += of_layer);
-                variance += of_mean;
-                degrees = degrees.min(of_error);
+                variance += of_mean.variances[0];
+                degrees = degrees.min(of_mean.degrees);
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);
             let standard_error = ratio * (variance + by_pitch * by_pitch + OF_MESH * OF_MESH).sqrt();
@@ -113,73 +114,5 @@ impl WebOfFew {
         }
         patches.of_halves /= patches.square;
         Some(patches)
-    }
-}
-
-/// Blocks along and across the belt, as far as one still knows of another.
-const ALONG: usize = 3;
-const ACROSS: usize = 2;
-
-/// Variance of the mean of some blocks, and its degrees of freedom. A cloud may reach into the blocks beside
-/// its own, so what these have in common counts too.
-///
-/// * `parts` – deviations from their mean, block after block across
-/// * `across` – number of blocks across; the web goes on at its edges
-fn variance_of_mean(parts: &[f64], across: usize) -> [f64; 2] {
-    let (count, across) = (parts.len() as f64, across.max(1));
-    let along = parts.len() / across;
-    // Weights fall with the distance as those of moving sums of blocks do, so that the variance is never negative.
-    let weight = |steps: usize, reach: usize| 1.0 - steps as f64 / reach as f64;
-    let (mut sum, mut weights, mut squares) = (0.0, 0.0, 0.0);
-    for (number, part) in parts.iter().enumerate() {
-        let [row, column] = [number / across, number % across];
-        for (other, other_part) in parts.iter().enumerate() {
-            let steps = (other % across).abs_diff(column);
-            let steps = [(other / across).abs_diff(row), steps.min(across - steps)];
-            if steps[0] >= ALONG.min(along) || steps[1] >= ACROSS.min(across) {
-                continue;
-            }
-            let weight = weight(steps[0], ALONG) * weight(steps[1], ACROSS);
-            sum += weight * part * other_part;
-            weights += weight / count;
-            squares += weight * weight / count;
-        }
-    }
-    // The mean of all takes a part of the variance away.
-    let left = (1.0 - weights / count).max(0.0);
-    [sum / (count * count) / left, left * count / squares]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rand_xoshiro::SplitMix64;
-    use rand_xoshiro::rand_core::{Rng, SeedableRng};
-
-    /// Blocks that know nothing of each other, and blocks of which each has a half of its clouds in common
-    /// with the next one along.
-    #[test]
-    fn stat_the_variance_of_the_mean_of_blocks_counts_what_they_have_in_common() {
-        const ACROSS: usize = 4;
-        let mut random = SplitMix64::seed_from_u64(1);
-        let mut normal = || (0..12).map(|_| random.next_u64() as f64 / u64::MAX as f64).sum::<f64>() - 6.0;
-        for in_common in [false, true] {
-            let (mut told, mut found, trials) = (0.0, 0.0, 2000.0);
-            for _ in 0..trials as usize {
-                let clouds: Vec<f64> = (0..16 * ACROSS + ACROSS).map(|_| normal()).collect();
-                let next = |i: usize| if in_common { clouds[i + ACROSS] } else { 0.0 };
-                let mut blocks: Vec<f64> = (0..16 * ACROSS).map(|i| clouds[i] + next(i)).collect();
-                let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
-                blocks.iter_mut().for_each(|block| *block -= mean);
-                let [variance, degrees] = variance_of_mean(&blocks, ACROSS);
-                assert!((15.0..21.0).contains(&degrees), "{degrees}");
-                told += variance / trials;
-                found += mean * mean / trials;
-            }
-            println!("{told} {found}");
-            // Two thirds of what a block has in common with the next one count, of five sixths of the whole.
-            let expected = if in_common { 10.0 / 12.0 } else { 1.0 };
-            assert!((told / found / expected - 1.0).abs() < 0.1, "{told} {found}");
-        }
     }
 }

@@ -39,6 +39,10 @@ pub struct WebSpec {
     pub seed: u64,
     /// How many filaments of a web in one air are flown.
     pub flown: Flown,
+    /// How surely a web in one air is told.
+    pub error: WantedError,
+    /// Time after which no more sheets are begun for it [s]; None without a limit.
+    pub time: Option<f64>,
     /// Side of the square in the middle of the sheet whose single fibres are written out [m].
     pub window: f64,
     /// Most memory that the air of a web in one air may take [B].
@@ -63,6 +67,21 @@ pub enum Flown {
     /// So many per metre of width.
     PerMetre(u64),
 }
+
+/// The standard error of the CV over the patches that the eye judges first which is wanted of a web in one air, as a
+/// fraction of the CV.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WantedError {
+    /// That of [`USUAL_ERROR`], and of a web so small that all of it is flown the one of its own clouds.
+    Auto,
+    /// That of one sheet.
+    OfOneSheet,
+    /// This one.
+    Of(f64),
+}
+
+/// The error that is wanted if nothing is said.
+pub const USUAL_ERROR: f64 = 0.03;
 
 /// A layer before its fibres have been flown.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,6 +220,8 @@ impl WebSpec {
             layers: Vec::new(),
             seed: 0,
             flown: Flown::Auto,
+            error: WantedError::Auto,
+            time: None,
             window: nan,
             memory_limit: nan,
             basis_weight: None,

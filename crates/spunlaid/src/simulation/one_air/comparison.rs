@@ -208,13 +208,13 @@ fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
 }
 
 /// What the filaments of a web have laid.
-struct Laid<'a> {
+pub(super) struct Laid<'a> {
     flight: &'a BeamFindings,
     /// How much faster the belt is above which they have flown than that of the web [m/s].
     faster: f64,
     /// The times at which the belt has passed on which all filaments lie as after their start, counted in
     /// what passes of the pattern of the air [s].
-    during: Range<f64>,
+    pub(super) during: Range<f64>,
     /// How far the belt moves in such a time [m/s].
     belt_speed: f64,
 }
@@ -222,7 +222,7 @@ struct Laid<'a> {
 impl<'a> Laid<'a> {
     /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at
     ///   the same time and place above both belts
-    fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
+    pub(super) fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
         let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
         let (start, faster) =
@@ -249,7 +249,7 @@ impl<'a> Laid<'a> {
     ///
     /// # Errors
     /// If hardly anything was laid during it.
-    fn sheet(&self, like: &Sheet, during: &Range<f64>) -> Result<(Sheet, BeamFindings), Error> {
+    pub(super) fn sheet(&self, like: &Sheet, during: &Range<f64>) -> Result<(Sheet, BeamFindings), Error> {
         let [front, behind] = [during.start, during.end].map(|time| -time * self.belt_speed);
         let length = ((front - behind) / like.cell).floor() * like.cell;
         if length < LEAST * like.length {

@@ -8,6 +8,7 @@
 use super::BeamFindings;
 use super::layer_beam::{FilledLayer, LayerBeam, beam_on};
 use super::sampled::FlownSheet;
+use super::two_levels::FineSheet;
 use crate::ground::{Control, Error, Isa};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
 use crate::web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
@@ -48,7 +49,7 @@ pub struct FlownWeb {
 pub struct Flyer<'a> {
     pub(super) threads: usize,
     pub(super) stop: &'a AtomicBool,
-    follow: ProgressDisplay<'a>,
+    pub(super) follow: ProgressDisplay<'a>,
 }
 
 impl std::fmt::Debug for Flyer<'_> {
@@ -120,7 +121,7 @@ impl<'a> Flyer<'a> {
         on: &Brush<'_>,
     ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
-        let mut sheet = spec.flown_sheet(number, None);
+        let mut asked = spec.flown_sheet(number, None);
         loop {
             let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
             spent.whole += flown.layer.spent.whole;
@@ -131,22 +132,29 @@ impl<'a> Flyer<'a> {
             let curves = few.curves(&layer.sheet, &beam, &flown)?;
             let told = few.tell(on, (&beam, &flown), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
-            sheet = sheet.map(FlownSheet::finer);
+            let finer = asked.clone().map(FlownSheet::finer);
             let more = told.doubt().is_some() && spec.flown == Flown::Auto && flights < TRIED.len();
-            let more = more.then(|| beam_on(spec, number, sheet.as_ref())).transpose()?;
+            let more = more.then(|| beam_on(spec, number, finer.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
+                let told = match &asked {
+                    Some(on) if told.doubt().is_none() => {
+                        let first = FineSheet { on, layer: &layer, flown: &flown, told };
+                        self.until_sure(spec, number, first)?
+                    }
+                    _ => told,
+                };
                 // The strands of all filaments are found when they are drawn.
                 (flown.layer.few, flown.layer.strands) = (Some(told), Vec::new());
                 return Ok((layer, flown, Some(curves)));
             };
-            layer = more;
+            (layer, asked) = (more, finer);
         }
     }
 
     /// Flies a layer and shows the progress.
     ///
     /// * `on` – what lays an element of fibre; None if only a few are flown
-    fn fly_layer(
+    pub(super) fn fly_layer(
         &self,
         layer: &LayerBeam<'_>,
         spec: &WebSpec,

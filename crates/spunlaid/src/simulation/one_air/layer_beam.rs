@@ -33,6 +33,9 @@ const FEWEST_WAVES: f64 = 5.0;
 const MESH_OF_COMPARISON: f64 = 2.0;
 /// How many times as rarely the air is looked at there: five times in the shortest period that a filament feels.
 const LOOKS_OF_COMPARISON: f64 = 1.6;
+/// The same of the coarsest flights, and how many times as long their steps are if that is stable.
+const LOOKS_OF_COARSEST: f64 = 3.2;
+const STEPS_OF_COARSEST: [f64; 5] = [3.6, 2.5, 1.8, 1.3, 1.0];
 /// Longest element that still follows the eddies, in their smallest length scale.
 const LONGEST_ELEMENT: f64 = 0.5;
 
@@ -95,6 +98,35 @@ impl LayerBeam<'_> {
         if coarse.check().is_ok() {
             self.case = coarse;
         }
+        self
+    }
+
+    /// The same filaments in elements as long as the eddies allow, in the longest steps that are stable, with rarer looks
+    /// and half the start.
+    pub(super) fn with_coarsest_mesh(mut self) -> Self {
+        self.few.iter_mut().for_each(FewPlan::filled_sparsely);
+        let Some(line) = self.case.line else { return self };
+        let longest = LONGEST_ELEMENT * self.case.smallest_length_scale();
+        let coarse = |longer: f64| {
+            let mut coarse = self.case.clone();
+            coarse.run.rarer_looks = LOOKS_OF_COARSEST;
+            let looks = coarse.steps_between_looks() as f64 * coarse.run.time_step;
+            coarse.fibre.span(line.distance, longest.max(coarse.fibre.rest_length()));
+            coarse.set_time_step((longer * coarse.run.time_step).min(looks));
+            coarse.run.spin_up_steps /= 2;
+            coarse.check().is_ok().then_some(coarse)
+        };
+        if let Some(coarse) = STEPS_OF_COARSEST.into_iter().find_map(coarse) {
+            self.case = coarse;
+        }
+        self
+    }
+
+    /// The same filaments, which lay a longer sheet.
+    ///
+    /// * `length` – by which it is longer at least [m]
+    pub(super) fn longer_by(mut self, length: f64) -> Self {
+        self.sheet.length += (length / self.sheet.cell).ceil() * self.sheet.cell;
         self
     }
 
@@ -253,7 +285,7 @@ impl WebSpec {
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
-            .map(|layer| (layer.beam().memory_of_air(&layer.sheet), layer.case.air.lateral))
+            .map(|layer| (layer.beam().memory_of_air(&layer.sheet, f64::INFINITY), layer.case.air.lateral))
             .max_by(|a, b| a.0.total_cmp(&b.0));
         let (needed, cutoff) = largest.and_then(|(needed, lateral)| Some((needed, lateral.cutoff()?)))?;
         if needed <= self.memory_limit {
@@ -317,7 +349,7 @@ pub(super) fn beam_on<'a>(
 
 /// A seed from those of the case and of the web and the number of a layer, each of which changes about half
 /// of its bits.
-fn key(case: u64, web: u64, layer: u64) -> u64 {
+pub(super) fn key(case: u64, web: u64, layer: u64) -> u64 {
     [case, web, layer]
         .into_iter()
         .fold(0, |sum: u64, part| SplitMix64::seed_from_u64(sum.wrapping_add(part)).next_u64())
@@ -332,6 +364,10 @@ pub struct PlannedFlight {
     pub is_few: bool,
     /// Steps of all of them, about.
     pub steps: u64,
+    /// Coarse sheets in other airs until the wanted error is reached, about.
+    pub coarse_sheets: u64,
+    /// Steps of their flights, about, in steps of the fine elements.
+    pub coarse_steps: u64,
     /// Size of the sheet that they lay, across and along [m].
     pub sheet: [f64; 2],
     /// Memory that the field of eddies takes [B].
@@ -341,13 +377,16 @@ pub struct PlannedFlight {
 impl WebSpec {
     /// What a web in one air will fly, layer by layer; nothing of any other web, and of layers that name no case.
     pub fn planned_flights(&self) -> Vec<PlannedFlight> {
-        let layers = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
-        let plan = layers.map(|layer| PlannedFlight {
+        let layers =
+            (0..self.layers.len()).filter_map(|number| Some((number, beam_on(self, number, None).ok()?)));
+        let plan = layers.map(|(number, layer)| PlannedFlight {
+            coarse_sheets: if layer.few.is_some() { self.expected_sheets(number) } else { 0 },
+            coarse_steps: layer.expected_steps(self, number).unwrap_or(0),
             filaments: layer.places.len() as u64,
             is_few: layer.few.is_some(),
             steps: layer.beam().steps(&layer.sheet),
             sheet: [layer.sheet.width, layer.sheet.length],
-            memory: layer.beam().memory_of_air(&layer.sheet),
+            memory: layer.beam().memory_of_air(&layer.sheet, f64::INFINITY),
         });
         plan.collect()
     }

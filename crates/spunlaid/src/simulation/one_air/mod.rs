@@ -26,6 +26,7 @@ mod layer_beam;
 mod neighbours;
 mod sampled;
 mod shared_air;
+mod two_levels;
 
 use crate::fibre::{Case, LaidPoint, WayPlace};
 use crate::ground::place::Inlet;
@@ -151,7 +152,7 @@ impl Beam<'_> {
         by: Control<'_>,
     ) -> Result<BeamFindings, Error> {
         let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
-        let flown = SharedAir::of_one(self, sheet).fly(vec![sink], by)?;
+        let flown = SharedAir::of_one(self, sheet, f64::INFINITY).fly(vec![sink], by)?;
         flown.into_iter().next().ok_or_else(Error::no_fibre)?
     }
 

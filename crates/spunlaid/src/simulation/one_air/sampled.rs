@@ -4,7 +4,7 @@ use super::{Beam, BeamFindings};
 use crate::fibre::LaidPoint;
 use crate::ground::Error;
 use crate::ground::place::{Inlet, rows};
-use crate::simulation::{Flown, WebSpec};
+use crate::simulation::{Flown, WantedError, WebSpec};
 use crate::web::curtain::lay;
 use crate::web::map::{Filaments, inlets, small_patch};
 use crate::web::{
@@ -15,13 +15,17 @@ use std::sync::atomic::AtomicBool;
 
 /// Distance of the filaments that are flown, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
-/// Area whose clouds tell the CV over patches of 10 mm within some 3 % [m²].
+/// Area whose clouds tell the CV over patches of 10 mm within some 4 % [m²], and the one that is flown where coarse
+/// flights tell the rest.
 const AREA: f64 = 0.2;
+const FINE: f64 = 0.1;
 /// Pairs of neighbours whose own patches are looked at, at most, and of webs that are compared.
 const PAIRS: usize = 64;
 const PAIRS_OF_COMPARED: usize = 12;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
+/// Filaments that are filled in for each flown one on a coarse sheet.
+const SPARSELY: usize = 4;
 /// Filaments that are filled in for each flown one where a row is looked at over small patches.
 const FINER: usize = 8;
 /// A sheet whose area is larger by no more than this is flown as it is.
@@ -51,6 +55,19 @@ impl FlownSheet {
     /// The same sheet with twice as many filaments.
     pub(super) fn finer(self) -> Self {
         Self { pitches: 0.5 * self.pitches, ..self }
+    }
+
+    /// A sheet of the same width and another area, from one cell to the next [m²].
+    pub(super) fn with_area(&self, area: f64) -> Self {
+        let Sheet { width, cell, .. } = self.sheet;
+        // An even number, because coarse flights may look at cells of twice the size.
+        let length = 2.0 * (0.5 * area / width / cell).ceil() * cell;
+        Self { sheet: Sheet { length, ..self.sheet.clone() }, ..*self }
+    }
+
+    /// The same sheet, on which fewer neighbours are looked at.
+    pub(super) fn coarse(&self) -> Self {
+        Self { pairs: PAIRS_OF_COMPARED, ..self.clone() }
     }
 }
 
@@ -136,7 +153,9 @@ impl WebSpec {
     ///
     /// * `compared` – how much of it is flown where the web is compared with others
     pub(super) fn flown_sheet(&self, layer: usize, compared: Option<Compared>) -> Option<FlownSheet> {
-        let Compared { area, pitches } = compared.unwrap_or(Compared { area: AREA, pitches: 1.0 });
+        let area = if self.error == WantedError::OfOneSheet { AREA } else { FINE };
+        let Compared { area, pitches } = compared.unwrap_or(Compared { area, pitches: 1.0 });
+        let whole = if compared.is_some() { area } else { AREA };
         let pairs = if compared.is_some() { PAIRS_OF_COMPARED } else { PAIRS };
         let on = |sheet| Some(FlownSheet { sheet, pitches, pairs });
         let case = self.layers.get(layer)?.source.case()?;
@@ -147,7 +166,7 @@ impl WebSpec {
         // In a narrower one the air repeats itself too soon.
         let least = cells(case.extent_of_air().z);
         let sheet = Sheet { edges: Edges::Periodic, width: width.max(least), ..self.sheet.clone() };
-        if sheet.width * length <= NEARLY * area {
+        if sheet.width * length <= NEARLY * whole {
             return on(sheet);
         }
         let narrow = cells(WIDTH * way).min(width).max(least);
@@ -156,6 +175,13 @@ impl WebSpec {
 }
 
 impl FewPlan {
+    /// With fewer filaments that are filled in: what that does to a coarse sheet it does to the one of the pair.
+    pub(super) fn filled_sparsely(&mut self) {
+        let flown: usize = self.rows.iter().map(Vec::len).sum();
+        let step = (self.slot.len() / (SPARSELY * flown).max(1)).max(1);
+        self.slot = self.slot.iter().copied().step_by(step).collect();
+    }
+
     /// Their curves after the start, from which all others follow.
     ///
     /// # Errors

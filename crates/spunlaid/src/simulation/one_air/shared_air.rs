@@ -8,7 +8,7 @@
 
 use super::flying::{Flying, Sink};
 use super::lane_group::Reach;
-use super::{BLOCK, Beam, BeamFindings};
+use super::{BLOCK, Beam, BeamFindings, two_levels};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
 use crate::ground::{Control, Error, Vec3};
@@ -88,7 +88,7 @@ fn make(groups: &mut [Group], threads: usize) {
 
 /// The room in which the airs of beams have the same pattern as far as they can.
 fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
-    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet, REACH_OF_COMPARED);
+    let air = |beam: &'_ Beam<'_>| beam.extent_of_air(sheet);
     let airs = beams.iter().map(|beam| (&beam.case.air, beam.case.way_of_air(), air(beam)));
     Room::of(&airs.collect::<Vec<_>>())
 }
@@ -101,8 +101,10 @@ pub(super) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
 
 impl<'a> SharedAir<'a> {
     /// The air of one beam alone.
-    pub(super) fn of_one(beam: &'a Beam<'a>, sheet: &'a Sheet) -> Self {
-        Self::new((from_ref(beam), sheet), (&beam.room(sheet), f64::INFINITY), f64::INFINITY)
+    ///
+    /// * `highest` – lateral wave number, times the length scale
+    pub(super) fn of_one(beam: &'a Beam<'a>, sheet: &'a Sheet, highest: f64) -> Self {
+        Self::new((from_ref(beam), sheet), (&beam.room(sheet), highest), f64::INFINITY)
     }
 
     /// The airs of beams in one room, of which those with one pattern share one.
@@ -278,20 +280,22 @@ impl SharedAir<'_> {
     }
 }
 
-/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: eight
-/// standard deviations of a usual filament. One that goes farther meets the eddies of the other side again.
-const REACH: f64 = 0.36;
-/// As far as beams are compared, five of them: hardly two filaments that meet the same eddies again hang so.
-const REACH_OF_COMPARED: f64 = 0.22;
+/// Distance in which the filaments of a slot without depth come down, in ways from inlet to belt: five standard
+/// deviations of a usual filament. Hardly two of them hang so far apart that they meet the same eddies again.
+const REACH: f64 = 0.22;
+
 impl Beam<'_> {
-    /// The room of its air alone.
+    /// The room of its air alone, in which coarse flights have the larger waves too.
     fn room(&self, sheet: &Sheet) -> Room {
-        Room::alone(self.case.way_of_air(), self.extent_of_air(sheet, REACH))
+        let room = Room::alone(self.case.way_of_air(), self.extent_of_air(sheet));
+        room.with_waves_in_common(two_levels::HIGHEST)
     }
 
     /// Most memory that the air of all filaments takes [B].
-    pub(super) fn memory_of_air(&self, sheet: &Sheet) -> f64 {
-        self.memory_in(&self.room(sheet), f64::INFINITY)
+    ///
+    /// * `highest` – lateral wave number, times the length scale
+    pub(super) fn memory_of_air(&self, sheet: &Sheet, highest: f64) -> f64 {
+        self.memory_in(&self.room(sheet), highest)
     }
 
     /// Most memory that its air takes in a room [B].
@@ -303,16 +307,14 @@ impl Beam<'_> {
 
     /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
     /// otherwise no filament meets the air of another one again.
-    ///
-    /// * `reach` – distance in which filaments come down, in ways from inlet to belt
-    fn extent_of_air(&self, sheet: &Sheet, reach: f64) -> Extent {
+    fn extent_of_air(&self, sheet: &Sheet) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
         let width = range(self.places.iter().map(|place| place.z));
-        let y = (self.depth + reach * distance) * widening(air, distance).sqrt();
+        let y = (self.depth + REACH * distance) * widening(air, distance).sqrt();
         let z = match sheet.edges {
             Edges::Periodic => sheet.width,
-            Edges::Cut => width + reach * distance + least,
+            Edges::Cut => width + REACH * distance + least,
         };
         Extent { y: y.max(least), z }
     }

@@ -53,6 +53,15 @@ pub enum Doubt {
         /// Sides of the patches [m].
         sides: Vec<f64>,
     },
+    /// The CV of a layer is not known to the error that was wanted.
+    Unsure {
+        /// The standard error that was wanted, as a fraction of the CV.
+        wanted: f64,
+        /// The one that was reached.
+        reached: f64,
+        /// Area that was flown [m²].
+        area: f64,
+    },
     /// No fibre was flown beside the surrogate.
     NothingFlown,
     /// Fibre lies beyond the edges of the sheet.
@@ -100,6 +109,15 @@ impl Display for Doubt {
                 {}, at edges of metal long before: a line would lose a part of this charge (line.charge)",
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
+            ),
+            Self::Unsure { wanted, reached, area } => write!(
+                f,
+                "the CV is known to {} % of itself after {} m², and {} % were wanted (web.error), which takes some {} \
+                times the area; raise web.time if it ended the flights",
+                per_cent(*reached, 2),
+                Dimension::Ratio.pretty_to(*area, 2),
+                per_cent(*wanted, 2),
+                Dimension::Ratio.pretty_to((reached / wanted).powi(2), 2)
             ),
             Self::FilledIn { missing, sides, apart } => write!(
                 f,

@@ -73,6 +73,12 @@ pub struct LayerFew {
     pub lost: u64,
     /// Size of the sheet that they laid, across and along [m].
     pub sheet: [f64; 2],
+    /// Area that tells the CV: of this sheet, and of others that were flown more coarsely [m²].
+    pub area: f64,
+    /// The part of it that was flown as finely as this sheet [m²].
+    pub fine_area: f64,
+    /// The standard error of the CV that was wanted, as a fraction of it; None if one sheet is enough.
+    pub wanted: Option<f64>,
     /// Distance of neighbours in a row [m].
     pub pitch: f64,
     /// The distance at which few filaments of such an air have been found to tell all [m]; zero where it is
@@ -102,6 +108,11 @@ pub struct LayerFew {
 }
 
 impl LayerFew {
+    /// Whether coarse flights over a larger area say its CV too.
+    pub fn is_of_two_levels(&self) -> bool {
+        self.area > 1.01 * self.sheet[0] * self.sheet[1]
+    }
+
     /// The CV over patches of a side of the sheet with its places and defects.
     pub(crate) fn on_sheet(&self, patch: f64) -> Option<FewFilamentsCv> {
         let number = self.cvs.iter().position(|cv| cv.patch == patch)?;

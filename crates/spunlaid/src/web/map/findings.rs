@@ -284,8 +284,11 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
     let square = sum(&|few| few.cv * few.cv, 1);
     let cv = square.sqrt();
     // The errors of sums of squares, as one of their root. What layers have in common at random is as much as their
-    // waves are alike: at most, their sampling errors add up.
-    let by_chance = sum(&|few| few.cv * few.by_chance.unwrap_or(f64::NAN), 1) / cv;
+    // waves are alike: at most, their sampling errors add up. Over many sheets in airs of their own they do not.
+    let is_of_levels =
+        laid.flown.iter().all(|layer| layer.few.as_ref().is_some_and(LayerFew::is_of_two_levels));
+    let chance = |few: &FewFilamentsCv| few.cv * few.by_chance.unwrap_or(f64::NAN);
+    let by_chance = if is_of_levels { sum(&chance, 2).sqrt() } else { sum(&chance, 1) } / cv;
     let told = FewFilamentsCv {
         patch: map.patch,
         cv,
@@ -296,7 +299,7 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
         few: sum(&|few| few.few * few.few, 1).sqrt(),
         beyond_filling: sum(&|few| few.beyond_filling, 1),
     };
-    if !is_whole {
+    if !is_whole || is_of_levels {
         return Some(told);
     }
     let told = told.with_square(map.cv * map.cv + told.beyond_filling);
@@ -331,6 +334,8 @@ impl WholeError {
 
 /// Part of the variance that filled-in filaments may miss where small patches of the map are to be believed.
 const MISSING: f64 = 0.1;
+/// How much larger an error may be than the wanted one.
+const WITHIN: f64 = 1.001;
 /// A map whose CV is farther from the told one, as a share of it, is another one.
 const OF_MAP: f64 = 0.05;
 
@@ -341,7 +346,7 @@ impl Findings {
         let mut doubts = match laid.evidence() {
             Evidence::Known if self.patches.is_empty() => Vec::new(),
             Evidence::Known => vec![Doubt::NothingFlown],
-            _ => [lost(web, laid), few_filaments(web, self), charged(laid)].concat(),
+            _ => [lost(web, laid), few_filaments(web, self), unsure(laid), charged(laid)].concat(),
         };
         if laid.cut > 0.0 {
             let whole = laid.map.total() as f64 * laid.map.quantum + laid.cut;
@@ -371,6 +376,17 @@ fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
     let of = web.layers.iter().zip(&laid.flown).map(count).sum();
     let lost = Some(laid.flown.iter().map(|layer| layer.lost).sum()).filter(|lost| *lost > 0);
     lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
+}
+
+/// Layers whose CV is not known to the wanted error.
+fn unsure(laid: &LaidWeb) -> Vec<Doubt> {
+    let of_layer = |few: &LayerFew| {
+        let number = nearest_to_seen(few.cvs.iter().map(|cv| cv.patch))?;
+        let (wanted, cv) = (few.wanted?, few.cvs[number]);
+        let reached = cv.by_chance?.hypot(cv.by_pitch) / cv.cv;
+        (reached > WITHIN * wanted).then_some(Doubt::Unsure { wanted, reached, area: few.area })
+    };
+    laid.few().filter_map(of_layer).collect()
 }
 
 /// Whether charged filaments would keep their charge.

@@ -29,6 +29,7 @@ mod findings;
 mod laid_web;
 pub(crate) mod lattice;
 mod lay;
+pub(crate) mod levels;
 mod measures;
 mod one_fibre;
 mod orientation;
@@ -60,6 +61,7 @@ pub use laid_web::{
 };
 pub use lattice::Chance;
 pub use lay::{lay, pieces, strands};
+pub(crate) use levels::Covariance;
 pub use measures::{OF_PATCHES, OF_WEBS};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};

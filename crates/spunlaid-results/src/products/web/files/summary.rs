@@ -217,7 +217,7 @@ fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, texture: Option<Estim
 
 /// The few filaments of a layer from which all others follow: their distance in a row, the correlation of the places
 /// where two at this distance and equal depth come down, the sheet that they laid, and the part of the variance of a
-/// filament between them that they do not tell.
+/// filament between them that they do not tell. The areas are those that tell the CV: flown as finely as the sheet, and in all.
 fn few_flown(few: &LayerFew) -> Json {
     json!({
         "filaments": few.filaments,
@@ -225,6 +225,8 @@ fn few_flown(few: &LayerFew) -> Json {
         "neighbour_correlation": few.correlation,
         "width_m": few.sheet[0],
         "length_m": few.sheet[1],
+        "fine_area_m2": few.fine_area,
+        "area_m2": few.area,
         "missing_variance_md": few.missing[0],
         "missing_variance_cd": few.missing[1],
     })

@@ -31,7 +31,7 @@ use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::uniformity::Unevenness;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{ChargedCurtain, Fabric, Strand, Web};
+use spunlaid::web::{ChargedCurtain, Fabric, LayerFew, Strand, Web};
 use spunlaid_charts::Figure;
 use unevenness::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
 
@@ -310,7 +310,12 @@ fn flown(findings: &Findings) -> String {
     let mut sheets: Vec<String> = findings.laid.few().map(|few| few.sheet.map(metres).join(" × ")).collect();
     sheets.dedup();
     let sheets = sheets.join(" and of ");
-    format!("Of all filaments, {filaments} were flown, evenly across, on a sheet of {sheets}")
+    let area: f64 = findings.laid.few().map(|few| few.area).sum();
+    let coarse = match findings.laid.few().any(LayerFew::is_of_two_levels) {
+        true => format!(", and as many with a coarse mesh in other airs: {} m² in all", significant(area, 2)),
+        false => String::new(),
+    };
+    format!("Of all filaments, {filaments} were flown, evenly across, on a sheet of {sheets}{coarse}")
 }
 
 fn layer(layer: &Layer) -> Row {

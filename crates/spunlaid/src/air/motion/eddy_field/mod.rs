@@ -77,6 +77,9 @@ pub(crate) struct Room {
     /// Steps from one generation to the next that there are at least, and how many times as far apart as usual they
     /// may be.
     steps: (usize, f64),
+    /// Largest wave number across, times the smallest length scale, of the waves that fields of any larger cut-off
+    /// have in common.
+    in_common: f64,
 }
 
 impl Room {
@@ -84,14 +87,25 @@ impl Room {
     pub(crate) fn of(airs: &[(&Air, f64, Extent)]) -> Self {
         let largest = |size: fn(&(&Air, f64, Extent)) -> f64| airs.iter().map(size).fold(0.0, f64::max);
         let extent = Extent { y: largest(|(.., extent)| extent.y), z: largest(|(.., extent)| extent.z) };
-        let room = Self { extent, distance: largest(|(_, distance, _)| *distance), steps: (0, COARSER) };
+        let room = Self {
+            extent,
+            distance: largest(|(_, distance, _)| *distance),
+            steps: (0, COARSER),
+            in_common: f64::INFINITY,
+        };
         let steps = airs.iter().map(|(air, ..)| room.way(air).stages.len() - 1);
         Self { steps: (steps.max().unwrap_or(0), COARSER), ..room }
     }
 
     /// The room of one air alone.
     pub(crate) const fn alone(distance: f64, extent: Extent) -> Self {
-        Self { extent, distance, steps: (0, 1.0) }
+        Self { extent, distance, steps: (0, 1.0), in_common: f64::INFINITY }
+    }
+
+    /// The same room, in which a field of any larger cut-off than this one has the waves of a field of this one, and
+    /// smaller ones.
+    pub(crate) const fn with_waves_in_common(self, cutoff: f64) -> Self {
+        Self { in_common: cutoff, ..self }
     }
 
     fn way(&self, air: &Air) -> EddyPath {
@@ -119,7 +133,7 @@ impl EddyField {
     ///
     /// * `cutoff`, `key` – as of [`EddyField::new`]
     pub(crate) fn in_room(air: &Air, room: &Room, cutoff: f64, key: StreamKey) -> Self {
-        let plan = Plan::new(air, room.way(air), room.extent, cutoff);
+        let plan = Plan::new(air, room.way(air), room.extent, [cutoff, room.in_common.min(cutoff)]);
         let tapes = vec![Tape::default(); plan.generations.len()];
         Self {
             synthesis: Arc::new(Synthesis::new(&plan, Isa::detect())),

@@ -19,6 +19,8 @@ pub(super) const BLOCKS: f64 = 8.0;
 pub(super) struct Plan {
     pub(super) way: EddyPath,
     pub(super) lattice: Lattice,
+    /// Largest wave number across of the modes that fields of a larger one have in common with this [1/m].
+    pub(super) in_common: f64,
     /// Time after which the harmonics repeat with the opposite sign [s].
     pub(super) repeat_time: f64,
     pub(super) generations: Vec<Generation>,
@@ -54,9 +56,11 @@ pub(super) struct Harmonic {
 }
 
 impl Plan {
-    /// * `cutoff` – largest wave number across, times the length scale [-]
-    pub(super) fn new(air: &Air, way: EddyPath, extent: Extent, cutoff: f64) -> Self {
+    /// * `cutoff`, `in_common` – largest wave number across, of all modes and of those that fields of a larger cut-off
+    ///   have in common with this one, times the length scale [-]
+    pub(super) fn new(air: &Air, way: EddyPath, extent: Extent, [cutoff, in_common]: [f64; 2]) -> Self {
         let (lattice, harmonics) = sizes(&way, extent, cutoff);
+        let in_common = lattice.largest * in_common / cutoff;
         let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
         let repeat_time = harmonics as f64 / highest;
         let shapes: Vec<Shape> =
@@ -69,7 +73,7 @@ impl Plan {
             |j: usize| next(j).map_or([1.0; 3], |next| shapes[j].overlap(next).map(|part| part * walk));
         let correlations = (0..shapes.len()).map(correlation).collect();
         let generations = shapes.into_iter().map(|shape| shape.generation).collect();
-        Self { way, lattice, repeat_time, generations, correlations, turn: libm::acos(walk) }
+        Self { way, lattice, in_common, repeat_time, generations, correlations, turn: libm::acos(walk) }
     }
 
     /// The same plan on a way on which its pattern passes faster or slower; None if the way has another pattern.

@@ -23,6 +23,8 @@ use std::f64::consts::TAU;
 const PHASES: usize = 1024;
 /// Marks the keys of fields in space, beside those of winds, paths and places.
 const FIELD: u64 = 1 << 63;
+/// Marks those of the modes with smaller waves than fields have in common.
+const SMALLER: u64 = 1 << 62;
 
 /// Complex numbers of points: real parts and imaginary parts.
 type Complexes = [Vec<f32>; 2];
@@ -71,8 +73,9 @@ impl Synthesis {
     ) -> Vec<T> {
         let shape = &plan.generations[generation];
         let planes = each(threads, shape.harmonics.len(), |n| {
-            let mut random = Random::new(plan, key, pair, generation, n);
-            self.plane(&plan.lattice, &shape.harmonics[n], &mut random)
+            let mut random =
+                [0, SMALLER].map(|part| Random::new(plan, key, pair, generation, n as u64 | part));
+            self.plane(plan, &shape.harmonics[n], &mut random)
         });
         let [lines, points] = plan.lattice.points;
         each(threads, lines, |y| {
@@ -89,11 +92,12 @@ impl Synthesis {
     }
 
     /// The modes of a harmonic as points, of each component `[y][z]`.
-    fn plane(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
+    fn plane(&self, plan: &Plan, harmonic: &Harmonic, random: &mut [Random; 2]) -> [Complexes; 3] {
+        let lattice = &plan.lattice;
         let [points_y, points_z] = lattice.points;
         let waves_y = 2 * lattice.most_waves()[0] as usize + 1;
         let mut scratch = Vec::new();
-        self.modes(lattice, harmonic, random).map(|modes| {
+        self.modes(plan, harmonic, random).map(|modes| {
             // `[waves along y][z]`
             let mut half = [0, 1].map(|_| vec![0.0; waves_y * points_z]);
             for first in (0..waves_y).step_by(ABREAST) {
@@ -129,7 +133,11 @@ impl Synthesis {
 
     /// The random modes of a harmonic, of each component `[waves along z][waves along y]`: along z as the
     /// transform wants them, along y from the most negative number of waves to the largest.    theory.md (79)
-    fn modes(&self, lattice: &Lattice, harmonic: &Harmonic, random: &mut Random) -> [Complexes; 3] {
+    ///
+    /// * `random` – phases of the modes that are in common with other fields, and of those with smaller waves
+    fn modes(&self, plan: &Plan, harmonic: &Harmonic, random: &mut [Random; 2]) -> [Complexes; 3] {
+        let lattice = &plan.lattice;
+        let in_common = Lattice { largest: plan.in_common, ..*lattice };
         let points_z = lattice.points[1];
         let [unit_y, unit_z] = lattice.wave_number_units();
         let [most_y, most_z] = lattice.most_waves();
@@ -137,12 +145,14 @@ impl Synthesis {
         let mut modes = [0, 1, 2].map(|_| [0, 1].map(|_| vec![0.0; points_z * columns]));
         for waves_y in -most_y..=most_y {
             let Some(beside) = lattice.waves_beside(waves_y) else { continue };
+            let larger = in_common.waves_beside(waves_y).unwrap_or(-1);
             let amplitudes = &harmonic.amplitudes[waves_y.unsigned_abs() as usize * (most_z as usize + 1)..];
             for waves_z in -beside..=beside {
                 let k = [harmonic.wave_number, waves_y as f64 * unit_y, waves_z as f64 * unit_z];
                 let projection = projection(k, is_alone);
                 let amplitude = amplitudes[waves_z.unsigned_abs() as usize];
-                let white = random.next(&self.phases, &self.turns);
+                let part = usize::from(waves_z.abs() > larger);
+                let white = random[part].next(&self.phases, &self.turns);
                 let at = place(waves_z, points_z) * columns + (waves_y + most_y) as usize;
                 for (i, modes) in modes.iter_mut().enumerate() {
                     let factors: [f32; 3] = from_fn(|m| projection[i][m] as f32);
@@ -234,10 +244,10 @@ struct Random {
 }
 
 impl Random {
-    fn new(plan: &Plan, key: StreamKey, pair: i64, generation: usize, harmonic: usize) -> Self {
+    fn new(plan: &Plan, key: StreamKey, pair: i64, generation: usize, harmonic: u64) -> Self {
         // Independent eddies have phases of their own, carried ones a walk that goes on.
         let eddy = if plan.way.is_carried() { 0 } else { generation as u64 };
-        let last = FIELD | eddy << 32 | harmonic as u64;
+        let last = FIELD | eddy << 32 | harmonic;
         let carried = plan.way.is_carried() && plan.turn > 0.0;
         let steps = if carried { plan.generations.len() - 1 } else { 0 };
         Self {

@@ -83,7 +83,7 @@ const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
 const PITCHES: f64 = 2.5;
 /// How far smaller patches are off, as a share of the CV, whatever halves say: 0.3 to 2.4 % in four lines of
 /// which all filaments were flown.
-const SMALL: f64 = 0.02;
+pub(super) const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
 
@@ -124,7 +124,17 @@ impl FewFilaments<'_> {
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
-        let mut told = LayerFew { filaments, lost, sheet, pitch, blocks_across, ..LayerFew::default() };
+        let area = sheet[0] * sheet[1];
+        let mut told = LayerFew {
+            filaments,
+            lost,
+            sheet,
+            area,
+            fine_area: area,
+            pitch,
+            blocks_across,
+            ..LayerFew::default()
+        };
         // How far the variance of the filled map may be off over patches of a side, as a part of it.
         let mut of_variance: Vec<(f64, f64)> = Vec::new();
         let clouds = filled.map(|filled| [&filled.of_all, &filled.of_every_second].map(Clouds::measure));
@@ -156,7 +166,6 @@ impl FewFilaments<'_> {
             let halves = [even.cv, odd.cv].map(|cv| root(of_all(cv, 0.5 * count, [second, fourth])));
             let cv = root(whole);
             let off = 0.5 * (halves[0] + halves[1]) - cv;
-            told.blocks.push(blocks);
             let small = if *patch < small_patch(pitch) { SMALL * cv } else { 0.0 };
             // One half differs from the other as the places of its filaments do. The depths of a slot are
             // known better from all filaments than from two halves, which may agree by chance.
@@ -170,7 +179,8 @@ impl FewFilaments<'_> {
                 filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
             let of_filled = filled.and_then(|filled| unevenness(&filled.of_all, self.side(*patch)));
             let of_places = if self.arrangement == Arrangement::AtRandom { whole[1] } else { 0.0 };
-            if let Some(mut by_filling) = by_filling {
+            if let Some((mut by_filling, of_filled)) = by_filling {
+                told.blocks.push(of_filled);
                 // Filled maps of all and of every second one may agree and both be wrong. In a slot the few
                 // say the CV without them too: what is between the two beyond its error is one of the filling.
                 if self.arrangement == Arrangement::Slot {
@@ -181,6 +191,7 @@ impl FewFilaments<'_> {
                 told.cvs.push(by_filling);
                 continue;
             }
+            told.blocks.push(blocks);
             let beyond_filling = of_filled.map_or(0.0, |filled| whole[0] - of_places - filled.cv * filled.cv);
             if let Some(filled) = of_filled {
                 of_variance
@@ -205,8 +216,8 @@ impl FewFilaments<'_> {
         Ok(told)
     }
 
-    /// The CV of the map in which the filaments between the flown ones are filled in; None over patches that it does
-    /// not tell.
+    /// The CV of the map in which the filaments between the flown ones are filled in, and its blocks; None over patches
+    /// that it does not tell.
     ///
     /// * `few` – CV of the flown ones alone
     /// * `slot` – part of CV² that filaments of a slot make each for itself
@@ -216,7 +227,7 @@ impl FewFilaments<'_> {
         filled: &FilledMaps,
         (patch, few, slot): (f64, f64, f64),
         at_random: &dyn Fn(f64) -> f64,
-    ) -> Option<FewFilamentsCv> {
+    ) -> Option<(FewFilamentsCv, Vec<f64>)> {
         if !filled.patches.contains(&patch) {
             return None;
         }
@@ -236,7 +247,7 @@ impl FewFilaments<'_> {
         // Filled-in filaments lie more alike than they do, and lack what is missing. Over small patches the two
         // errors may cancel in the halves, which then say too little.
         let small = if patch < small_patch(self.pitch()) { SMALL * cv } else { 0.0 };
-        Some(FewFilamentsCv {
+        let told = FewFilamentsCv {
             patch,
             cv,
             by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
@@ -245,7 +256,8 @@ impl FewFilaments<'_> {
             own: if self.arrangement == Arrangement::Slot { slot } else { own(filled.cv) },
             few,
             beyond_filling: 0.0,
-        })
+        };
+        Some((told, of_blocks))
     }
 
     /// Distance of neighbours in the row that has most of them [m].

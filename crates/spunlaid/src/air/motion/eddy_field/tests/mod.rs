@@ -283,3 +283,29 @@ fn analytic_faster_air_of_one_pattern_is_the_same_field_earlier() {
     let forgetful = Air { eddies: EddyModel::Convected { decay_time }, ..fast.clone() };
     assert!(of_slow.at_pace_of([&slow, &forgetful], &room).is_none());
 }
+
+/// A field of a larger cut-off is that of a smaller one and smaller eddies: what it has beside the other one has nothing
+/// in common with it. Without common phases the two would have nothing in common.
+#[test]
+fn analytic_fields_of_two_cut_offs_have_their_larger_waves_in_common() {
+    const LARGER: f64 = 4.0;
+    let air = air(20e-3, SpectrumShape::VonKarman, CUTOFF);
+    let room = Room::alone(0.5, EXTENT).with_waves_in_common(LARGER);
+    let mut fields = [LARGER, LATERAL].map(|cutoff| EddyField::in_room(&air, &room, cutoff, KEY));
+    let block = fields[0].block();
+    fields.iter_mut().for_each(|field| field.make(0.0..block, 1));
+    let (mut squares, mut product) = ([0.0; 2], 0.0);
+    for i in 0..4000 {
+        let (time, place) = spread(i, 0.01 * block, 0.98 * block, 0.5);
+        let [larger, all] = [0, 1].map(|number| at(&fields[number], time, place)[1]);
+        squares[0] += larger * larger;
+        squares[1] += all * all;
+        product += larger * all;
+    }
+    let correlation = product / (squares[0] * squares[1]).sqrt();
+    assert!((0.85..0.999).contains(&correlation), "{correlation}");
+    // A field of that cut-off alone has the same bits as in a room with others.
+    let mut alone = EddyField::new(&air, 0.5, EXTENT, LARGER, KEY);
+    alone.make(0.0..block, 1);
+    assert_eq!(at(&alone, 0.4 * block, [0.2, 0.01, 0.02]), at(&fields[0], 0.4 * block, [0.2, 0.01, 0.02]));
+}

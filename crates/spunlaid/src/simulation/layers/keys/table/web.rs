@@ -2,10 +2,10 @@
 
 use super::super::access::{Access, WebKey};
 use super::{MOST_FILAMENTS, positive};
-use crate::fibre::case::keys::row::{at, choose, key, named, quantity, text, whole};
+use crate::fibre::case::keys::row::{at, choose, key, named, number, quantity, text, whole};
 use crate::fibre::case::keys::{Kind, Sign, Value};
 use crate::ground::Dimension;
-use crate::simulation::layers::Flown;
+use crate::simulation::layers::{Flown, WantedError};
 use crate::web::Edges;
 
 /// How many filaments are flown: as many as it takes, or all.
@@ -95,6 +95,48 @@ pub(super) const KEYS: &[WebKey] = &[
              length scale of the air asks for, and up to four times as many if these are not enough.",
         )
         .label("Filaments per metre that are flown"),
+    quantity("web.error", Dimension::Ratio, Sign::Share, (1e-3, 1.0))
+        .access(Access {
+            get: |web| match web.error {
+                WantedError::Auto => None,
+                WantedError::OfOneSheet => Some(NONE.into()),
+                WantedError::Of(error) => Some(error.into()),
+            },
+            set: |web, value| {
+                web.error = match value {
+                    Value::Text(word) if word == NONE => WantedError::OfOneSheet,
+                    Value::Text(_) => WantedError::Auto,
+                    value => WantedError::Of(number(value)?),
+                };
+                Ok(())
+            },
+        })
+        .or_words(&[AUTO, NONE])
+        .follows("3 %; of a web so small that all of it is flown, what its own clouds give")
+        .meaning(
+            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in other airs are flown \
+             coarsely until it is reached. `none` flies one sheet only.",
+        )
+        .synonyms(&["precision", "uncertainty"])
+        .label("Wanted error of the CV"),
+    positive("web.time", Dimension::Time, (1e-3, 1e6))
+        .access(Access {
+            get: |web| web.time.map(Into::into),
+            set: |web, value| {
+                web.time = match value {
+                    Value::Text(_) => None,
+                    value => Some(number(value)?),
+                };
+                Ok(())
+            },
+        })
+        .or_words(&[NONE])
+        .follows("`none`: no limit")
+        .meaning(
+            "Time by the clock after which no more sheets are begun to reach web.error. The result then depends on the \
+             speed of the machine.",
+        )
+        .label("Time limit of the wanted error"),
     positive("web.memory_limit", Dimension::Memory, (1e7, 1e13))
         .access(at!(memory_limit))
         .value("4 GB")

@@ -1,0 +1,274 @@
+//! Coarse flights in other airs, until the CV of a layer is known to the error that is wanted.
+//!
+//! ```text
+//! the fine sheet → the same sheet and air, flown coarsely → a pair
+//!                → coarse sheets in other airs → CV of all → error → more sheets, or told
+//! ```
+
+use super::comparison::Laid;
+use super::flying::Sink;
+use super::layer_beam::{LayerBeam, beam_on, key};
+use super::sampled::FlownSheet;
+use super::shared_air::SharedAir;
+use super::{BeamFindings, Flights, Flyer};
+use crate::ground::threads::try_each;
+use crate::ground::{Control, Error, Isa};
+use crate::simulation::layers::USUAL_ERROR;
+use crate::simulation::{WantedError, WebSpec};
+use crate::web::map::blocks_on;
+use crate::web::map::levels::{Levels, Pair};
+use crate::web::{LayerFew, Sheet, Window};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::time::Instant;
+
+/// Area of a coarse sheet [m²]: long enough that the start of its filaments takes little of the time.
+const AREA: f64 = 0.2;
+/// Largest area that is flown for an error [m²].
+const MOST_AREA: f64 = 30.0;
+/// Largest lateral wave number of the air of coarse flights, times its smallest length scale.
+pub(super) const HIGHEST: f64 = 5.5;
+/// How much farther the coarse filaments of a pair lay, in ways from inlet to belt, so that the fine sheet lies within.
+const FARTHER: f64 = 0.15;
+/// Part of the wanted variance that may come from the pairs before another pair is flown.
+const BY_PAIRS: f64 = 0.5;
+/// Marks the seeds of other airs.
+const OTHER_AIR: u64 = 0x6c65_7665_6c73;
+/// What is expected before anything is flown: relative variance of CV² that an area of 1 m² leaves open, and the part
+/// of it that coarse filaments do not tell.
+const EXPECTED: f64 = 2.5e-4;
+const NOT_TOLD: f64 = 0.08;
+
+/// A sheet that was flown finely.
+pub(super) struct FineSheet<'a> {
+    /// The sheet as it was asked for.
+    pub(super) on: &'a FlownSheet,
+    pub(super) layer: &'a LayerBeam<'a>,
+    pub(super) flown: &'a BeamFindings,
+    pub(super) told: LayerFew,
+}
+
+impl WebSpec {
+    /// The standard error that is wanted of a layer's CV, as a part of it; None if one sheet is enough.
+    pub(super) fn wanted_error(&self, layer: usize) -> Option<f64> {
+        let error = match self.error {
+            WantedError::OfOneSheet => return None,
+            WantedError::Of(error) => error,
+            WantedError::Auto => {
+                let FlownSheet { sheet, .. } = self.flown_sheet(layer, None)?;
+                let is_whole = sheet.width >= self.sheet.width && sheet.length >= self.sheet.length;
+                if is_whole {
+                    return None;
+                }
+                USUAL_ERROR
+            }
+        };
+        // The variances of layers add up, each with the square of its share.
+        let shares: Vec<f64> =
+            (0..self.layers.len()).map(|layer| self.alone(layer).mass_flow().powi(2)).collect();
+        let sum = shares.iter().sum::<f64>();
+        let squares = shares.iter().map(|share| share * share).sum::<f64>();
+        Some(error * sum / squares.sqrt())
+    }
+
+    /// The coarse sheets that a layer is expected to need.
+    pub(super) fn expected_sheets(&self, layer: usize) -> u64 {
+        let Some((wanted, fine)) = self.wanted_error(layer).zip(self.flown_sheet(layer, None)) else {
+            return 0;
+        };
+        let fine = fine.sheet.width * fine.sheet.length;
+        let by_area = wanted * wanted - NOT_TOLD * EXPECTED / fine;
+        let area = if by_area > 0.0 { (EXPECTED / by_area).min(MOST_AREA) } else { MOST_AREA };
+        ((area - fine) / AREA).ceil().max(1.0) as u64
+    }
+
+    /// The same web in another air, with its filaments at other places.
+    fn in_air(&self, number: u64) -> Self {
+        let seed = if number == 0 { self.seed } else { key(self.seed, OTHER_AIR, number) };
+        Self { seed, ..self.clone() }
+    }
+}
+
+impl LayerBeam<'_> {
+    /// Steps of the coarse flights that are expected for the wanted error, in steps of fine elements.
+    pub(super) fn expected_steps(&self, spec: &WebSpec, number: usize) -> Result<u64, Error> {
+        let sheets = spec.expected_sheets(number);
+        let on = spec.flown_sheet(number, None).filter(|_| sheets > 0 && self.few.is_some());
+        let Some(on) = on else { return Ok(0) };
+        let coarse = beam_on(spec, number, Some(&on.coarse().with_area(AREA)))?.with_coarsest_mesh();
+        let share = self.beam().case.fibre.rest_length() / coarse.beam().case.fibre.rest_length();
+        Ok((share * (sheets * coarse.beam().steps(&coarse.sheet)) as f64) as u64)
+    }
+}
+
+impl Flyer<'_> {
+    /// What a layer says with sheets that are flown coarsely, until its CV is known to the wanted error.
+    ///
+    /// * `first` – the fine sheet, in the air of the web
+    pub(super) fn until_sure(
+        &self,
+        spec: &WebSpec,
+        number: usize,
+        first: FineSheet<'_>,
+    ) -> Result<LayerFew, Error> {
+        let begun = Instant::now();
+        let Some(wanted) = spec.wanted_error(number) else { return Ok(first.told) };
+        let on = first.on;
+        let alone = first.told.clone();
+        let Some(pair) = self.pair((spec, number), first)? else { return Ok(alone) };
+        let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
+        // Numbers of the airs in which coarse sheets and pairs fly.
+        let (mut airs, mut pairs) = (1, 1);
+        let mut more = 1;
+        loop {
+            let coarse = self.coarse_sheets((spec, number), on, airs..airs + more)?;
+            levels.coarse.extend(coarse);
+            airs += more;
+            let Some(variances) = levels.variances() else { return Ok(alone) };
+            let (limit, area) = (wanted * wanted, AREA * airs as f64);
+            if std::env::var("SPUN_DEBUG").is_ok() {
+                eprintln!(
+                    "{:.2} s airs {airs} pairs {pairs} {variances:?} wanted {limit} whole {}",
+                    begun.elapsed().as_secs_f64(),
+                    variances.whole().sqrt()
+                );
+            }
+            let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
+            if variances.whole() <= limit || area >= MOST_AREA || is_late {
+                if std::env::var("SPUN_DEBUG").is_ok() {
+                    levels.debug();
+                }
+                let told = levels.tell().unwrap_or(alone);
+                return Ok(LayerFew { wanted: Some(wanted), ..told });
+            }
+            if variances.by_pairs > BY_PAIRS * limit {
+                let other = spec.in_air(PAIRS | pairs);
+                pairs += 1;
+                let pair = self.fine_sheet((&other, number), on)?;
+                levels.pairs.extend(pair);
+            }
+            let left = (limit - variances.by_pairs).max(0.5 * BY_PAIRS * limit);
+            // No more than as many again, because the variance is not known well yet.
+            let needed = airs as f64 * ((variances.by_area + variances.by_pitch) / left - 1.0);
+            more = (needed.ceil().max(0.0) as u64).min(airs);
+        }
+    }
+
+    /// Flies another sheet both ways.
+    fn fine_sheet(&self, (spec, number): (&WebSpec, usize), on: &FlownSheet) -> Result<Option<Pair>, Error> {
+        let layer = beam_on(spec, number, Some(on))?;
+        let Some(few) = &layer.few else { return Ok(None) };
+        let flown = self.fly_layer(&layer, spec, None)?;
+        let (beam, sheet) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
+        let curves = few.curves(&layer.sheet, &beam, &flown)?;
+        let told = few.tell(sheet, (&beam, &flown), Some(&curves), (self.threads, self.stop))?;
+        self.pair((spec, number), FineSheet { on, layer: &layer, flown: &flown, told })
+    }
+
+    /// Flies a fine sheet coarsely too; None if the coarse filaments have not laid all of it.
+    fn pair(&self, (spec, number): (&WebSpec, usize), first: FineSheet<'_>) -> Result<Option<Pair>, Error> {
+        let FineSheet { on, layer, flown, told } = first;
+        let Some(line) = layer.beam().case.line else { return Ok(None) };
+        let coarse = beam_on(spec, number, Some(&on.coarse()))?.with_coarsest_mesh();
+        // It begins to lay earlier, because its start is shorter.
+        let earlier = layer.beam().case.run.spin_up() - coarse.beam().case.run.spin_up();
+        let longer = (earlier * line.belt_speed + FARTHER * line.distance).max(0.0);
+        let coarse = coarse.longer_by(longer);
+        let coarse = [coarse];
+        let (threads, stop) = (self.threads, self.stop);
+        let laid = self.watched(&coarse, |done| {
+            coarsely(&coarse[0], Control { threads, isa: Isa::detect(), stop, done })
+        })?;
+        let beam = coarse[0].beam();
+        let [from, to] = [flown.back + layer.sheet.length, flown.back].map(|place| -place / line.belt_speed);
+        let within = Laid::new([&beam, &beam], &laid)?.during;
+        if from < within.start || to > within.end {
+            return Ok(None);
+        }
+        let laid = BeamFindings { back: flown.back, ..laid };
+        let coarse = tell(&coarse[0], (&layer.sheet, &laid), (self.threads, self.stop))?;
+        Ok(coarse.map(|coarse| Pair { fine: told, coarse }))
+    }
+
+    /// Flies coarse sheets in airs of their own, side by side.
+    fn coarse_sheets(
+        &self,
+        (spec, number): (&WebSpec, usize),
+        on: &FlownSheet,
+        airs: std::ops::Range<u64>,
+    ) -> Result<Vec<LayerFew>, Error> {
+        let specs: Vec<WebSpec> = airs.map(|air| spec.in_air(air)).collect();
+        let on = on.coarse().with_area(AREA);
+        let beams = specs.iter().map(|spec| Ok(beam_on(spec, number, Some(&on))?.with_coarsest_mesh()));
+        let beams: Vec<LayerBeam<'_>> = beams.collect::<Result<_, Error>>()?;
+        let Some(first) = beams.first() else { return Ok(Vec::new()) };
+        let fits = (spec.memory_limit / first.beam().memory_of_air(&first.sheet, HIGHEST).max(1.0)) as usize;
+        let abreast = beams.len().min(self.threads).min(fits).max(1);
+        let (threads, stop) = (self.threads.div_ceil(abreast), self.stop);
+        let found = self.watched(&beams, |done| {
+            try_each(abreast, beams.len(), |i| {
+                let by = Control { threads, isa: Isa::detect(), stop, done };
+                let laid = coarsely(&beams[i], by)?;
+                let beam = beams[i].beam();
+                let of_sheet = Laid::new([&beam, &beam], &laid)?;
+                let (sheet, laid) = of_sheet.sheet(&beams[i].sheet, &of_sheet.during)?;
+                tell(&beams[i], (&sheet, &laid), (threads, stop))
+            })
+        })?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Shows the progress of coarse flights while it does the work that it is given.
+    fn watched<T: Send>(
+        &self,
+        beams: &[LayerBeam<'_>],
+        work: impl Fn(&AtomicU64) -> Result<T, Error> + Sync,
+    ) -> Result<T, Error> {
+        let (Some(first), done) = (beams.first(), AtomicU64::new(0)) else { return Err(Error::no_fibre()) };
+        let flights = Flights {
+            path: first.path,
+            fibres: beams.iter().map(|of_beam| of_beam.places.len() as u64).sum(),
+            done: &done,
+            steps: beams.iter().map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum(),
+            time_step: first.beam().case.run.time_step,
+        };
+        let mut found = Err(Error::Interrupted);
+        (self.follow)(flights, &mut || found = work(&done));
+        found
+    }
+}
+
+/// Marks the numbers of the airs of further pairs.
+const PAIRS: u64 = 1 << 32;
+
+/// Flies filaments in the larger eddies of their air.
+fn coarsely(of_beam: &LayerBeam<'_>, by: Control<'_>) -> Result<BeamFindings, Error> {
+    let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+    let sink = Sink { window, on: None, neighbours: None };
+    let beam = of_beam.beam();
+    let flown = SharedAir::of_one(&beam, &of_beam.sheet, HIGHEST).fly(vec![sink], by)?;
+    flown.into_iter().next().ok_or_else(Error::no_fibre)?
+}
+
+/// What coarse filaments say of a sheet; None if there are none.
+fn tell(
+    of_beam: &LayerBeam<'_>,
+    (sheet, laid): (&Sheet, &BeamFindings),
+    by: (usize, &AtomicBool),
+) -> Result<Option<LayerFew>, Error> {
+    let Some(few) = &of_beam.few else { return Ok(None) };
+    let (sheet, beam) = (with_larger_cells(sheet), of_beam.beam());
+    let curves = few.curves(&sheet, &beam, laid)?;
+    few.tell((&sheet, blocks_on(&sheet)), (&beam, laid), Some(&curves), by).map(Some)
+}
+
+/// The same sheet in cells twice as large, if its patches are whole numbers of them.
+fn with_larger_cells(sheet: &Sheet) -> Sheet {
+    let cell = 2.0 * sheet.cell;
+    let is_whole = |size: &f64| ((size / cell).round() * cell / size - 1.0).abs() < 1e-6;
+    let sizes = [sheet.width, sheet.length];
+    if sizes.iter().chain(&sheet.patches).all(is_whole) {
+        Sheet { cell, ..sheet.clone() }
+    } else {
+        sheet.clone()
+    }
+}
