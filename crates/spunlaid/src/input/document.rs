@@ -334,7 +334,7 @@ impl<'a, T> Document<'a, T> {
         let read = match (value.as_str(), change) {
             (Some(word), _) if key.words.contains(&word) => Ok(word.into()),
             (_, Ok(Some(change))) => {
-                let remedy = match (key.omission, key.relations.needed_if) {
+                let remedy = match (key.omission, key.needed_if) {
                     (Omission::Follows(from), None) => format!("write the value itself; without one, {from}"),
                     _ => format!("write the value itself, like {}", key.example()),
                 };

@@ -49,7 +49,7 @@ impl Reading<'_> {
     pub(super) fn unusual(&self) -> Vec<Note> {
         let entry = |(full, written_value): (&str, &WrittenValue)| {
             let key = web_key(full)?;
-            let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
+            let (dimension, usual) = (key.kind.dimension()?, key.usual?);
             let values = match written_value.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
                 Value::Numbers(values) => values.as_slice(),
