@@ -271,7 +271,7 @@ pub fn expected_of_web(
 ) -> Result<Vec<String>, Error> {
     let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
     let mut each = Vec::new();
-    for case in spec.layers.iter().filter_map(|layer| layer.source.case()) {
+    for case in spec.cases() {
         // On all threads together, because they may share a core. A thread flies eight filaments at once.
         let paces = try_each(threads, threads.max(1), |_| pace(case, Isa::detect()))?;
         let pace = paces.iter().sum::<f64>() / paces.len() as f64;

@@ -126,8 +126,7 @@ impl WebToChange<'_> {
             Flow::Profile(profile) => profile.turbulence_intensity.windows(2).all(|pair| pair[0] == pair[1]),
             Flow::Uniform | Flow::Field(_) => true,
         };
-        let mut cases = self.spec().layers.iter().filter_map(|layer| layer.source.case());
-        cases.all(|case| {
+        self.spec().cases().all(|case| {
             !case.air.from_flow.turbulence_intensity || (!case.air.flow.is_field() && is_even(&case.air))
         })
     }

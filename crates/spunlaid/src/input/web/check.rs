@@ -225,14 +225,8 @@ impl Reading<'_> {
 }
 
 impl Reading<'_> {
-    /// Checks the charge of each layer.
-    pub(super) fn check_charge(&mut self, prefixes: &[String], web: &WebSpec) {
-        for (prefix, layer) in prefixes.iter().zip(&web.layers) {
-            self.check_charge_of(prefix, web, layer);
-        }
-    }
-
-    fn check_charge_of(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
+    /// Checks the charge of a layer.
+    pub(super) fn check_charge(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
         let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));
         if layer.charged().is_some() && !web.flies() {
             let fault = Fault::new(

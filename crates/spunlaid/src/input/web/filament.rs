@@ -64,7 +64,13 @@ impl Filament {
     }
 
     /// Sets a number that follows from a key of the web.
-    fn derive(&mut self, name: &'static str, dimension: Dimension, number: f64, from: (&str, &WrittenValue)) {
+    pub(super) fn derive(
+        &mut self,
+        name: &'static str,
+        dimension: Dimension,
+        number: f64,
+        from: (&str, &WrittenValue),
+    ) {
         let shown = format!("{} (from {})", dimension.pretty(number), from.0);
         self.values.set(name, WrittenValue::new(&from.1.place, shown, number.into()));
     }
@@ -95,11 +101,6 @@ impl Filament {
         (layer.diameter, layer.density) = (fibre.diameter, fibre.density);
         layer.feed_speed = self.values.number("feed.speed").unwrap_or(f64::NAN);
         self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN))
-    }
-
-    /// Sets the speed of the belt on which the web has the basis weight that is written.
-    pub(super) fn lay_on(&mut self, belt: f64, from: (&str, &WrittenValue)) {
-        self.derive("belt.speed", Dimension::Velocity, belt, from);
     }
 
     /// Whether another filament has the same values.

@@ -75,9 +75,9 @@ impl OpenWeb<'_> {
         reading.check_sources(&prefixes, &web);
         reading.check_guessed(&web);
         reading.check_turnable(&web);
-        reading.check_charge(&prefixes, &web);
         reading.settle_belt(&mut web, &ways);
-        for (number, prefix) in prefixes.iter().enumerate() {
+        for (number, (prefix, layer)) in prefixes.iter().zip(&web.layers).enumerate() {
+            reading.check_charge(prefix, &web, layer);
             reading.check_layer(prefix, &web.alone(number));
         }
         let unusual = reading.unusual();

@@ -170,7 +170,7 @@ impl Reading<'_> {
             if let (Some(filament), Some(written_value)) = (&mut layer.filament, &written_value)
                 && !belt.is_nan()
             {
-                filament.lay_on(belt, (&key, written_value));
+                filament.derive("belt.speed", Dimension::Velocity, belt, (&key, written_value));
             }
         }
     }

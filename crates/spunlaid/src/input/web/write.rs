@@ -4,10 +4,9 @@ use super::super::FORMAT_VERSION;
 use super::super::write::{in_lines, lines, lines_of_case, own_value};
 use super::super::written_values::WrittenValues;
 use crate::fibre::case::keys;
+use crate::simulation::layers::full_names::{DEFECTS, ROWS, entries};
 use crate::simulation::layers::keys::WEB;
 use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
-use crate::web::Defect;
-use crate::web::map::Filaments;
 
 /// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the
 /// same web to the last bit.
@@ -46,7 +45,7 @@ fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
         .into_iter()
         .partition(|table| flown.clone().all(|other| other.contains(table)));
     text += &written(&common, "");
-    for (number, layer) in spec.layers.iter().enumerate() {
+    for number in 0..spec.layers.len() {
         let before = if layered { "layer." } else { "" };
         let alone = spec.alone(number);
         if layered {
@@ -58,23 +57,13 @@ fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
         tables.push(("laydown", lines_of_web(&alone, "laydown")));
         tables.push(("line", line(spec, number)));
         text += &written(&tables, before);
-        if let Filaments::Rows(rows) = &layer.filaments {
-            let row = |row| {
-                let mut with_row = alone.clone();
-                with_row.layers.iter_mut().for_each(|layer| layer.filaments = Filaments::Rows(vec![row]));
-                format!("{{ {} }}", lines_of_web(&with_row, "line.rows").join(", "))
-            };
-            let rows: Vec<String> = rows.iter().copied().map(row).collect();
-            text += &format!("rows = [\n  {},\n]\n", rows.join(",\n  "));
-        }
-        let defect = |defect: &Defect| {
-            let mut with_defect = alone.clone();
-            with_defect.layers.iter_mut().for_each(|layer| layer.defects = vec![*defect]);
-            format!("{{ {} }}", lines_of_web(&with_defect, "line.defects").join(", "))
-        };
-        let defects: Vec<String> = layer.defects.iter().map(defect).collect();
-        if !defects.is_empty() {
-            text += &format!("defects = [\n  {},\n]\n", defects.join(",\n  "));
+        for list in [ROWS, DEFECTS] {
+            let entry = |web: &WebSpec| format!("{{ {} }}", lines_of_web(web, list).join(", "));
+            let entries: Vec<String> = entries(&alone, list).iter().map(entry).collect();
+            if !entries.is_empty() {
+                let short = list.trim_start_matches("line.");
+                text += &format!("{short} = [\n  {},\n]\n", entries.join(",\n  "));
+            }
         }
     }
     for table in ["web", "fabric"] {
@@ -104,7 +93,7 @@ fn written(tables: &Tables, before: &str) -> String {
 /// written once.
 fn line(spec: &WebSpec, number: usize) -> Vec<String> {
     let mut lines = lines_of_web(&spec.alone(number), "line");
-    let no_belt = number > 0 || spec.layers.iter().any(|layer| layer.source.case().is_some());
+    let no_belt = number > 0 || spec.flies();
     lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
     lines.retain(|line| !(number > 0 && line.starts_with("basis_weight = ")));
     lines

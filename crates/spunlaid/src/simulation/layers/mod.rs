@@ -10,6 +10,7 @@ pub(crate) mod full_names;
 pub(crate) mod keys;
 
 use crate::fibre::Case;
+use crate::fibre::body::linear_density;
 use crate::fibre::case::keys::{self as case_keys, Value};
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Error, Fault, Finding, Problem};
@@ -18,7 +19,6 @@ use crate::web::map::{Filaments, inlets};
 use crate::web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -161,7 +161,7 @@ impl LayerSpec {
 
     /// Mass per length of a filament [kg/m].
     pub fn linear_density(&self) -> f64 {
-        0.25 * PI * self.diameter * self.diameter * self.density
+        linear_density(self.diameter, self.density)
     }
 
     /// Mass flow of a hole [kg/s].
@@ -213,7 +213,12 @@ impl WebSpec {
     /// Whether its filaments are flown: those of cases hang in one air and lay the web as they come down. Those
     /// of known numbers are independent paths of the surrogate.
     pub fn flies(&self) -> bool {
-        self.layers.iter().any(|layer| layer.source.case().is_some())
+        self.cases().next().is_some()
+    }
+
+    /// The cases that it flies, in the order of its layers.
+    pub fn cases(&self) -> impl Iterator<Item = &Case> {
+        self.layers.iter().filter_map(|layer| layer.source.case())
     }
 
     /// What the defects of a layer make of its filaments.
@@ -333,11 +338,7 @@ impl WebSpec {
     /// The files from which the cases that it flies were read, each with the parts that it names, relative to
     /// its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        let flown = self.layers.iter().filter_map(|layer| match &layer.source {
-            LaydownSource::Case { case, .. } => Some(case),
-            _ => None,
-        });
-        flown.flat_map(|case| case.files()).collect()
+        self.cases().flat_map(Case::files).collect()
     }
 
     /// The same web with these files at other paths.

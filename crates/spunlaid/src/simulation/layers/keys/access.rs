@@ -82,8 +82,3 @@ pub(super) fn defect_mut(web: &mut WebSpec) -> Result<&mut Defect, Fault> {
     let defect = layer_mut(web)?.defects.first_mut();
     defect.ok_or_else(|| Fault::needs("line.defects", "write a list of defects"))
 }
-
-/// Diameter of a filament of this linear density [kg/m] and density [kg/m³].
-pub(super) fn diameter(linear_density: f64, density: f64) -> f64 {
-    (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
-}

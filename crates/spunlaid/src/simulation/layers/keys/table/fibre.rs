@@ -1,7 +1,8 @@
 //! The keys of the tables `[layer]`, `[fibre]` and `[laydown]`.
 
-use super::super::access::{Access, WebKey, diameter, flown, is_flown, layer, layer_mut, of_surrogate};
+use super::super::access::{Access, WebKey, flown, is_flown, layer, layer_mut, of_surrogate};
 use super::positive;
+use crate::fibre::body::diameter_of;
 use crate::fibre::case::keys::row::{at, key, number};
 use crate::fibre::case::keys::{Condition, Kind, Value, row_of};
 use crate::ground::Dimension;
@@ -29,7 +30,7 @@ pub(super) const KEYS: &[WebKey] = &[
             get: |web| layer(web)?.titre.map(Value::Number),
             set: |web, value| {
                 let (titre, layer) = (number(value)?, layer_mut(web)?);
-                (layer.diameter, layer.titre) = (diameter(titre, layer.density), Some(titre));
+                (layer.diameter, layer.titre) = (diameter_of(titre, layer.density), Some(titre));
                 Ok(())
             },
         })
