@@ -110,8 +110,8 @@ impl Reading<'_> {
     /// The full names of a key of a layer, or of one of all layers in each of them.
     pub(super) fn places_of(&self, key: &WebKey, prefix: &str) -> Vec<String> {
         match key.relations.of_all_layers {
-            true => self.prefixes.iter().map(|prefix| format!("{prefix}{}", key.name)).collect(),
-            false => vec![format!("{prefix}{}", key.name)],
+            Some(_) => self.prefixes.iter().map(|prefix| format!("{prefix}{}", key.name)).collect(),
+            None => vec![format!("{prefix}{}", key.name)],
         }
     }
 
@@ -128,7 +128,7 @@ impl Reading<'_> {
             };
             let written = self.written(&full).map(|written_value| written_value.value.clone());
             let missing = |_: &WebSpec| Fault::missing(&without_numbers(before), &key.example());
-            let missing = |web: &WebSpec| (!key.relations.of_all_layers).then(|| missing(web));
+            let missing = |web: &WebSpec| key.relations.of_all_layers.is_none().then(|| missing(web));
             if let Err(fault) = WEB.fill((key, &mut *web), written, is_there, missing)
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {

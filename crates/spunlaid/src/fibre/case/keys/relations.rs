@@ -36,8 +36,8 @@ pub struct Relations {
     pub(crate) gives_case: &'static [&'static str],
     /// Another key and its value, without which it cannot be set, and which a web in one air has anyway.
     pub(crate) with_in_one_air: Option<(&'static str, &'static str)>,
-    /// Whether it is one number for all layers of a web, which any of them may give.
-    pub(crate) of_all_layers: bool,
+    /// Why it is one number for all layers of a web, which any of them may give; none of one of each layer.
+    pub(crate) of_all_layers: Option<&'static str>,
 }
 
 impl Relations {
@@ -53,7 +53,7 @@ impl Relations {
         same_in_case: None,
         gives_case: &[],
         with_in_one_air: None,
-        of_all_layers: false,
+        of_all_layers: None,
     };
 }
 
@@ -73,7 +73,7 @@ impl<T> Key<T> {
         same_in_case(key: &'static str) { same_in_case: Some(key) }
         gives_case(keys: &'static [&'static str]) { gives_case: keys }
         with_in_one_air(key: &'static str, value: &'static str) { with_in_one_air: Some((key, value)) }
-        of_all_layers() { of_all_layers: true }
+        of_all_layers(why: &'static str) { of_all_layers: Some(why) }
     }
 
     /// Its value in an input, which may say it in other words.

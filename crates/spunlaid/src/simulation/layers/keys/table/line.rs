@@ -64,7 +64,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .above_zero()
         .derived(is_flown)
         .gives_case(&["belt.speed"])
-        .of_all_layers()
+        .of_all_layers("all layers lie on one belt")
         .required("3 m/s")
         .meaning(
             "Speed of the belt, written in one of the layers. It may stand in place of `belt.speed` \
@@ -84,7 +84,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .alternative_to(&["line.belt_speed"], EITHER)
         .gives_case(&["belt.speed"])
         .read_last()
-        .of_all_layers()
+        .of_all_layers("it is the weight of all layers together")
         .follows("`belt_speed` and the filaments give it")
         .meaning(
             "Mass of the web per area, of all layers together, written in one of them. It stands in \
