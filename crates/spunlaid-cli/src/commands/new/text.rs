@@ -54,8 +54,7 @@ fn filament(line: &NewLine<'_>) -> String {
             format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
         }
         None => {
-            let diameter =
-                Dimension::Length.pretty(diameter_of(line.titre, material.solid_density));
+            let diameter = Dimension::Length.pretty(diameter_of(line.titre, material.solid_density));
             let titre = dtex(GIVEN);
             format!("linear_density = \"{titre} dtex\"   # of {diameter}: √(4 × titre / (π × density))")
         }

@@ -269,10 +269,8 @@ impl WebToChange<'_> {
 
     /// Mass per area of the changed webs [kg/m²].
     fn weight(&self) -> f64 {
-        let spec = self.spec();
-        let belt = spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
-        let found = || rounded(Dimension::BasisWeight, spec.mass_flow() / belt, HELD);
-        spec.basis_weight.unwrap_or_else(found)
+        let found = || rounded(Dimension::BasisWeight, self.spec().weight(), HELD);
+        self.spec().basis_weight.unwrap_or_else(found)
     }
 }
 
@@ -322,9 +320,8 @@ impl WebToChange<'_> {
             Ok(made) => (made.spec, None),
             Err(why) => (self.base.spec().clone(), Some(why.to_string())),
         };
-        let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
         let ends = [self.base.spec(), &spec];
-        let (belt_speed, mass_flow) = (ends.map(belt_speed), ends.map(WebSpec::mass_flow));
+        let (belt_speed, mass_flow) = (ends.map(WebSpec::belt_speed), ends.map(WebSpec::mass_flow));
         let file = self.base.path().to_owned();
         let experiment = ChangedWeb { file, set, spec, belt_speed, mass_flow };
         Change { setting, layers, keys, experiment, refusal }

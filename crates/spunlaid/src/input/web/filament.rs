@@ -78,20 +78,14 @@ impl Filament {
 impl Reading<'_> {
     /// The filament of a layer; none if the file that it names cannot be read, which is noted.
     pub(super) fn filament(&mut self, prefix: &str) -> Option<Filament> {
-        // What all layers have in common stands above them.
-        let levels = if prefix.is_empty() { vec![""] } else { vec!["", prefix] };
-        let part = |level| (level, self.key_values.part(level, |name| keys::find(name).is_some()));
-        let parts: Vec<(&str, WrittenValues)> = levels.into_iter().map(part).collect();
-        let (values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
+        let (mut values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
             let (path, named) = self.named.remove(prefix)?;
             let mut values = named.map_err(|problems| self.key_values.problems.extend(problems)).ok()?;
             self.key_values.problems.append(&mut values.problems);
             for full in &self.key_values.taken_out {
                 values.remove(full.strip_prefix(prefix).unwrap_or(full));
             }
-            // Whoever sets a number knows that the case has another one.
-            let set = parts.iter().flat_map(|(_, part)| part.all()).filter(|(_, value)| value.is_set());
-            (values.with(set.map(|(name, value)| (name.to_owned(), value.clone()))), path)
+            (values, path)
         } else {
             (WrittenValues::new(self.key_values.whole()), self.path.clone())
         };
@@ -99,11 +93,13 @@ impl Reading<'_> {
             Some((name.to_owned(), written.value.as_ref().and_then(Value::number)?))
         };
         let own = values.all().filter_map(number).collect();
-        let mut filament = Filament { values, path, own };
-        for (_, part) in &parts {
-            filament.values = filament.values.with(part.all().map(|(name, value)| (name.to_owned(), value.clone())));
-            filament.values.excuse_as(part);
+        // What all layers have in common stands above them.
+        for level in if prefix.is_empty() { vec![""] } else { vec!["", prefix] } {
+            let part = self.key_values.part(level, |name| keys::find(name).is_some());
+            values = values.with(part.all().map(|(name, value)| (name.to_owned(), value.clone())));
+            values.excuse_as(&part);
         }
+        let mut filament = Filament { values, path, own };
         for key in WEB.rows.iter().filter(|key| !key.relations.gives_case.is_empty()) {
             self.give(&mut filament, prefix, key);
         }
@@ -198,9 +194,10 @@ impl Reading<'_> {
         else {
             return;
         };
-        if (own / used - 1.0).abs() > ROUNDED
-            && !(by.ends_with(name) && self.key_values.get(&by).is_some_and(WrittenValue::is_set))
-        {
+        // Whoever sets a key of the case knows that it has another number.
+        let is_known = keys::find(&layer_and_name(&by).1).is_some()
+            && self.key_values.get(&by).is_some_and(WrittenValue::is_set);
+        if (own / used - 1.0).abs() > ROUNDED && !is_known {
             let [used, own] = [used, own].map(|value| dimension.pretty(value));
             let (case, of_case) = (path.display(), key.name);
             let what =

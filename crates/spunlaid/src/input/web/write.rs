@@ -1,21 +1,17 @@
 //! Writes a web as a file that reads back to the same bits.
 
 use super::super::FORMAT_VERSION;
-use super::super::write::{in_lines, lines, lines_of_case, own_value};
+use super::super::write::{in_lines, lines, own_value, value_to_write};
 use super::super::written_values::WrittenValues;
-use crate::fibre::case::keys;
+use crate::fibre::case::keys::{self, Key, Value};
 use crate::simulation::layers::full_names::{DEFECTS, ROWS, entries};
 use crate::simulation::layers::keys::WEB;
-use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
+use crate::simulation::{WebKey, WebSpec};
 
 /// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the
 /// same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
-    let lines = |layer: &LayerSpec, _, table: &str| match &layer.source {
-        LaydownSource::Case { case, .. } => lines_of_case(case, table),
-        _ => Vec::new(),
-    };
-    write_with(spec, &lines)
+    write_with(spec, &|number, key| value_to_write(spec.layers.get(number)?.source.case()?, key))
 }
 
 /// [`write_web`] with nothing of the filaments but what is written: what follows from it follows anew where a
@@ -23,20 +19,17 @@ pub fn write_web(spec: &WebSpec) -> String {
 ///
 /// * `filaments` – what is written of that of each layer
 pub(in super::super) fn write_web_to_vary(spec: &WebSpec, filaments: &[Option<WrittenValues>]) -> String {
-    let lines_of_case = |_: &LayerSpec, number: usize, table: &str| {
-        lines(&keys::CASE, table, |key| filaments.get(number)?.as_ref()?.get(key.name)?.value.clone())
-    };
-    write_with(spec, &lines_of_case)
+    write_with(spec, &|number, key| filaments.get(number)?.as_ref()?.get(key.name)?.value.clone())
 }
 
-/// The lines of a table of the case that a layer flies, whose number from 0 is given.
-type LinesOfCase<'a> = &'a dyn Fn(&LayerSpec, usize, &str) -> Vec<String>;
+/// The value of a key of the case that a layer flies, whose number from 0 is given.
+type ValueOfCase<'a> = &'a dyn Fn(usize, &Key) -> Option<Value>;
 
-fn write_with(spec: &WebSpec, lines_of_case: LinesOfCase<'_>) -> String {
+fn write_with(spec: &WebSpec, value: ValueOfCase<'_>) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     let layered = spec.layers.len() > 1 || spec.layers.iter().any(|layer| layer.name.is_some());
     let filaments: Vec<Option<Tables>> =
-        (0..spec.layers.len()).map(|number| filament(spec, number, lines_of_case)).collect();
+        (0..spec.layers.len()).map(|number| filament(spec, number, value)).collect();
     let mut flown = filaments.iter().flatten();
     let first = flown.next().filter(|_| layered);
     let (common, _): (Tables, Tables) = first
@@ -89,29 +82,19 @@ fn written(tables: &Tables, before: &str) -> String {
         .collect()
 }
 
-/// The lines of `[line]` of a layer. All layers lie on one belt, whose speed is that of a flown case or is
-/// written once.
+/// The lines of `[line]` of a layer; what all layers have in common is written once.
 fn line(spec: &WebSpec, number: usize) -> Vec<String> {
-    let mut lines = lines_of_web(&spec.alone(number), "line");
-    let no_belt = number > 0 || spec.flies();
-    lines.retain(|line| !(no_belt && line.starts_with("belt_speed = ")));
-    lines.retain(|line| !(number > 0 && line.starts_with("basis_weight = ")));
-    lines
+    let alone = spec.alone(number);
+    let is_here = |key: &WebKey| number == 0 || key.relations.of_all_layers.is_none();
+    lines(&WEB, "line", |key| own_value(key, &alone).filter(|_| is_here(key)))
 }
 
 /// The tables of the case that a layer flies, without what keys of the web give.
-fn filament(spec: &WebSpec, number: usize, lines_of_case: LinesOfCase<'_>) -> Option<Tables> {
-    let layer = spec.layers.get(number).filter(|layer| matches!(layer.source, LaydownSource::Case { .. }))?;
+fn filament(spec: &WebSpec, number: usize, value: ValueOfCase<'_>) -> Option<Tables> {
     let alone = spec.alone(number);
-    let giving = WEB.rows.iter().filter(|key| !key.is_derived(&alone) && key.get(&alone).is_some());
+    let giving = WEB.rows.iter().filter(|key| own_value(key, &alone).is_some());
     let given: Vec<&str> = giving.flat_map(|key| key.relations.gives_case).copied().collect();
-    let lines = |table: &'static str| {
-        let mut lines = lines_of_case(layer, number, table);
-        lines.retain(|line| {
-            let short = line.split(" = ").next().unwrap_or(line);
-            !given.contains(&&*format!("{table}.{short}"))
-        });
-        (table, lines)
-    };
-    Some(keys::TABLES.into_iter().map(lines).collect())
+    let own = |key: &Key| value(number, key).filter(|_| !given.contains(&key.name));
+    let table = |table| (table, lines(&keys::CASE, table, own));
+    alone.flies().then(|| keys::TABLES.into_iter().map(table).collect())
 }

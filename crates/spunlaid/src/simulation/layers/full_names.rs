@@ -20,7 +20,8 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
 /// * `layered` – whether the file has a list of layers
 pub(crate) fn displaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&str) -> bool + 's {
     let names: Vec<(&str, String)> = set.iter().map(|full| layer_and_name(full)).collect();
-    let of_all_layers = |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers.is_some());
+    let of_all_layers =
+        |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers.is_some());
     // Each with the layer in which it is displaced; with none, in all.
     let mut displaced: Vec<(Option<&str>, String)> = Vec::new();
     for (layer, _) in &names {

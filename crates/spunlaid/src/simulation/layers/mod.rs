@@ -236,6 +236,16 @@ impl WebSpec {
         self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
     }
 
+    /// Speed of the belt, on which all layers lie [m/s].
+    pub fn belt_speed(&self) -> f64 {
+        self.layers.first().map_or(f64::NAN, |layer| layer.belt_speed)
+    }
+
+    /// Mass of all layers per area [kg/m²].
+    pub fn weight(&self) -> f64 {
+        self.mass_flow() / self.belt_speed()
+    }
+
     /// The speed of a belt on which all layers together have this mass per area [m/s].
     pub(crate) fn belt_speed_for(&self, basis_weight: f64) -> f64 {
         self.mass_flow() / basis_weight

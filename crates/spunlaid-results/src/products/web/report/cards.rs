@@ -42,13 +42,12 @@ const MOST_LAYERS: usize = 3;
 /// The line itself, and whether it is one.
 pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
     let row = |name: &str, value: String| Row::new(name, [value]);
-    let belt = layers.first().map_or(f64::NAN, |layer| layer.belt_speed_m_s);
-    let made = spec.mass_flow() / belt;
+    let made = spec.weight();
     let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
     let piece = format!("this piece {}; {faster}", grams_with_error(findings.basis_weight()));
     let mut rows = vec![
         row("Per metre of width", shown(HOUR * spec.mass_flow(), "kg/h")),
-        row("Belt", speed(belt)),
+        row("Belt", speed(spec.belt_speed())),
         row("Basis weight", grams(made)).detail(piece),
     ];
     let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);

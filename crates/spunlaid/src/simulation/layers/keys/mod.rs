@@ -21,13 +21,8 @@ use crate::fibre::case::keys::{self, CASE, Key, KeyTable, TableList};
 use std::sync::LazyLock;
 
 /// The keys of a web.
-pub static WEB: KeyTable<WebSpec> = KeyTable {
-    rows: WEB_KEYS,
-    tables: &WEB_TABLES,
-    lists: LISTS,
-    noun: "a web",
-    file: "a web file",
-};
+pub static WEB: KeyTable<WebSpec> =
+    KeyTable { rows: WEB_KEYS, tables: &WEB_TABLES, lists: LISTS, noun: "a web", file: "a web file" };
 
 /// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a
 /// file is read, and have no access to either. A key or a table that both have stands here once, as that of
@@ -38,13 +33,7 @@ pub(crate) static WEB_FILE: LazyLock<KeyTable<()>> = LazyLock::new(|| {
     let rows: Vec<Key<()>> = of_case.chain(own_keys.map(|key| key.of_input(AccessTo::NONE))).collect();
     let own_tables = WEB.tables.iter().filter(|table| !CASE.tables.contains(table));
     let tables: Vec<&str> = CASE.tables.iter().chain(own_tables).copied().collect();
-    KeyTable {
-        rows: rows.leak(),
-        tables: tables.leak(),
-        lists: LISTS,
-        noun: WEB.noun,
-        file: WEB.file,
-    }
+    KeyTable { rows: rows.leak(), tables: tables.leak(), lists: LISTS, noun: WEB.noun, file: WEB.file }
 });
 
 /// The tables of a filament, which all layers may have in common.

@@ -1,11 +1,11 @@
 //! The keys of the tables `[layer]`, `[fibre]` and `[laydown]`.
 
-use super::super::access::{Access, WebKey, flown, is_flown, layer, layer_mut, of_surrogate};
+use super::super::access::{Access, WebKey, is_flown, layer, layer_mut, of_surrogate};
 use super::positive;
 use crate::fibre::body::diameter_of;
 use crate::fibre::case::keys::row::{at, key, number};
 use crate::fibre::case::keys::{Condition, Kind, Value, row_of};
-use crate::ground::Dimension;
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::{LaydownSource, WebSpec};
 
 /// In the order of the file.
@@ -21,10 +21,7 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .derived(is_flown)
         .required("18 µm"),
-    row_of("fibre.density")
-        .of_input(at!(layer, layer_mut, density))
-        .derived(is_flown)
-        .required("910 kg/m³"),
+    row_of("fibre.density").of_input(at!(layer, layer_mut, density)).derived(is_flown).required("910 kg/m³"),
     row_of("fibre.linear_density")
         .of_input(Access {
             get: |web| layer(web)?.titre.map(Value::Number),

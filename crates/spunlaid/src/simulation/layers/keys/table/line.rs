@@ -1,7 +1,7 @@
 //! The keys of the table `[line]`, with the defects of a line, `line.defects`.
 
 use super::super::access::{
-    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut, uncharged,
+    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
 use crate::fibre::case::keys::row::{at, key, number, quantity, whole};
@@ -171,7 +171,8 @@ pub(super) const KEYS: &[WebKey] = &[
             set: |web, value| {
                 let layer = layer_mut(web)?;
                 if layer.charge.is_none() {
-                    return Err(uncharged());
+                    let remedy = "write the charge of the filaments, or leave it out";
+                    return Err(Fault::needs("line.charge", remedy));
                 }
                 layer.walls = Some(number(value)?);
                 Ok(())
