@@ -235,7 +235,7 @@ impl WebToChange<'_> {
         if belt.is_nan() || belt > slowest {
             return None;
         }
-        made.spec.set_belt_speed(belt).ok()?;
+        made.spec.set_belt_speed(belt);
         let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             (*power != 0.0 && from != to).then(|| self.changed_key(key, [*from, *to]))
         };

@@ -207,8 +207,8 @@ impl Reading<'_> {
         }
     }
 
-    /// The key of the file of the web that says a number of the case of a layer, of the layer itself before one of all.
-    fn says(&self, prefix: &str, name: &str) -> Option<String> {
+    /// The key of the file of the web that says a value of the case of a layer, of the layer itself before one of all.
+    pub(super) fn says(&self, prefix: &str, name: &str) -> Option<String> {
         let is_it = |full: &&str| {
             let (layer, said) = layer_and_name(full);
             let Some(key) = WEB_FILE.find(&said) else { return false };

@@ -4,7 +4,7 @@
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use super::filament::Filament;
-use super::read::{CASE, Reading, THROUGHPUT, as_web};
+use super::read::{CASE, Reading, as_web};
 use super::{WrittenWeb, flies_none};
 use crate::fibre::case::keys;
 use crate::fibre::{Note, Remark};
@@ -149,10 +149,6 @@ impl Reading<'_> {
             spec.filaments = Filaments::Rows(rows);
         }
         spec.defects = self.defects(&format!("{prefix}line."));
-        spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
-        if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
-            spec.feed(throughput);
-        }
         let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
         Layer { spec, filament, spun }
     }

@@ -249,8 +249,7 @@ impl Reading<'_> {
                     lie on one belt",
                     first + 1
                 );
-                let [named, own] = [CASE, "belt.speed"].map(|key| format!("{prefix}{key}"));
-                let key = if self.is_written(&named) { named } else { own };
+                let key = self.says(&prefix, "belt.speed").unwrap_or_else(|| format!("{prefix}{CASE}"));
                 self.key_values.reject(&key, Fault::new(message, "give all cases the same belt.speed"));
             }
         }

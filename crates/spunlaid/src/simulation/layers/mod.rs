@@ -11,7 +11,6 @@ pub(crate) mod keys;
 
 use crate::fibre::Case;
 use crate::fibre::body::linear_density;
-use crate::fibre::case::keys::{self as case_keys, Value};
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Error, Fault, Finding, Problem};
 use crate::simulation::ensemble::LineFilaments;
@@ -254,20 +253,16 @@ impl WebSpec {
     /// Puts all layers on a belt of this speed, above which the cases are flown.
     ///
     /// * `belt` – its speed [m/s]
-    ///
-    /// # Errors
-    /// If a case cannot have it.
-    pub(crate) fn set_belt_speed(&mut self, belt: f64) -> Result<(), Fault> {
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) {
         for layer in &mut self.layers {
             if let LaydownSource::Case { case, .. } = &mut layer.source
                 && (layer.belt_speed / belt - 1.0).abs() > SAME
+                && let Some(line) = &mut Arc::make_mut(case).line
             {
-                let speed = case_keys::find("belt.speed");
-                speed.map_or(Ok(()), |speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)))?;
+                line.belt_speed = belt;
             }
             layer.belt_speed = belt;
         }
-        Ok(())
     }
 
     /// The web of one of its layers alone.

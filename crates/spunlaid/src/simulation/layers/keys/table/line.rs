@@ -43,7 +43,6 @@ pub(super) const KEYS: &[WebKey] = &[
         .alternative_to(&["line.feed_speed"], EITHER)
         .in_other_words(|web| layer(web).map(|layer| layer.hole_flow().into()))
         .gives_case(&["feed.speed", "spinline.throughput"])
-        .read_last()
         .follows("`feed_speed` and the filament give it")
         .meaning(
             "Mass flow of a hole, in place of `line.feed_speed`, which is then throughput / linear \
