@@ -106,7 +106,7 @@ impl<'a, T> Document<'a, T> {
 }
 
 /// The fault of a key of an entry that a list, of so many entries, does not have.
-fn no_entry(full: &str, count: u64, list: &TableList) -> Fault {
+pub(super) fn no_entry(full: &str, count: u64, list: &TableList) -> Fault {
     let there = match (count, list.tables) {
         (0, []) => format!("write {}", list.wanted),
         (0, _) => "it has no [[layer]], so write the key without layer".to_owned(),

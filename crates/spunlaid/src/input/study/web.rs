@@ -7,8 +7,8 @@ use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, written_at};
 use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value, VariedKey};
-use crate::ground::Error;
 use crate::ground::error::{Place, nearest_word};
+use crate::ground::{Error, Problem};
 use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
 use crate::simulation::{SAME, WEB_KEYS, WebSpec};
 
@@ -50,7 +50,14 @@ impl WebBase {
             seed.map(|seed| ("web.seed".to_owned(), WrittenValue::new(&at, seed.to_string(), seed.into())));
         let mut changes: Vec<_> = written_at(values, &at)?.into_iter().chain(seed).collect();
         changes.iter_mut().for_each(|(name, _)| *name = self.short_name(name).to_owned());
-        Ok(self.written.with(&changes).read(resources)?.0)
+        let no_layer = |(name, value): &(String, WrittenValue)| {
+            let what = self.written.no_layer(name)?;
+            Some(Problem { place: at.clone(), key: name.clone(), value: value.shown.clone(), what })
+        };
+        match changes.iter().find_map(no_layer) {
+            Some(problem) => Err(vec![problem].into()),
+            None => Ok(self.written.with(&changes).read(resources)?.0),
+        }
     }
 
     /// The web before its keys vary.

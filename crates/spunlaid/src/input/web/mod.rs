@@ -18,6 +18,7 @@ pub(super) use guessed::Guess;
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 
+use super::overrides::no_entry;
 use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, Resources, Source, document, file};
 use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
@@ -127,6 +128,14 @@ impl WrittenWeb {
     /// Whether its file has a list of layers, whose numbers stand in the names of their keys.
     pub(super) fn is_layered(&self) -> bool {
         self.values.get("layer").is_some()
+    }
+
+    /// What is wrong with the full name of a key of a layer that is not there.
+    pub(super) fn no_layer(&self, full: &str) -> Option<Fault> {
+        let (number, _) = full.strip_prefix("layer.")?.split_once('.')?;
+        let count = self.values.number("layer").map_or(0, |count| count as u64);
+        let is_there = number.parse().is_ok_and(|number: u64| (1..=count).contains(&number));
+        WEB.list("layer").filter(|_| !is_there).map(|list| no_entry("layer", count, list))
     }
 
     /// The web; and what is written of the filament of each layer.

@@ -38,14 +38,13 @@ fn write_with(spec: &WebSpec, value: ValueOfCase<'_>) -> String {
         .into_iter()
         .partition(|table| flown.clone().all(|other| other.contains(table)));
     text += &written(&common, "");
-    for number in 0..spec.layers.len() {
+    for (number, filament) in filaments.iter().enumerate() {
         let before = if layered { "layer." } else { "" };
         let alone = spec.alone(number);
         if layered {
             text += &format!("\n[[layer]]\n{}", in_lines(&lines_of_web(&alone, "layer")));
         }
-        let mut tables =
-            filaments[number].clone().unwrap_or_else(|| vec![("fibre", lines_of_web(&alone, "fibre"))]);
+        let mut tables = filament.clone().unwrap_or_else(|| vec![("fibre", lines_of_web(&alone, "fibre"))]);
         tables.retain(|table| !common.contains(table));
         tables.push(("laydown", lines_of_web(&alone, "laydown")));
         tables.push(("line", line(spec, number)));
