@@ -35,7 +35,9 @@ macro_rules! setters {
         })+
     };
     // Of a part: `fn in relations: Relations:`.
-    ($vis:vis fn in $part:ident: $Part:ident: $($(#[$about:meta])* $name:ident($($arg:ident: $Arg:ty),*) { $($fields:tt)+ })+) => {
+    ($vis:vis fn in $part:ident: $Part:ident:
+        $($(#[$about:meta])* $name:ident($($arg:ident: $Arg:ty),*) { $($fields:tt)+ })+
+    ) => {
         $($(#[$about])* $vis const fn $name(self, $($arg: $Arg),*) -> Self {
             Self { $part: $Part { $($fields)+, ..self.$part }, ..self }
         })+
