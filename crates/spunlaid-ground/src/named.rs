@@ -34,4 +34,12 @@ macro_rules! setters {
             Self { $($fields)+, ..self }
         })+
     };
+    // Of a part: `fn in relations: Relations:`.
+    ($vis:vis fn in $part:ident: $Part:ident:
+        $($(#[$about:meta])* $name:ident($($arg:ident: $Arg:ty),*) { $($fields:tt)+ })+
+    ) => {
+        $($(#[$about])* $vis const fn $name(self, $($arg: $Arg),*) -> Self {
+            Self { $part: $Part { $($fields)+, ..self.$part }, ..self }
+        })+
+    };
 }

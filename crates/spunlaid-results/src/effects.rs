@@ -39,7 +39,7 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
     format!("{}{whose}", what.unwrap_or_else(|| change.setting.words.to_owned()))
 }
 
-/// What the key of a guess stands for: `Depth of the slot`.
+/// Label of a key of a case or a web: `Depth of the slot`.
 pub(crate) fn label(key: &str) -> &str {
     let of_case = || keys::find(key).map(|key| key.label);
     web_key(key).map(|key| key.label).or_else(of_case).unwrap_or(key)

@@ -162,7 +162,7 @@ fn varied(text: &str, mut web: WebFile, random: &mut Random<'_>) -> WebFile {
             if key.is_derived(&alone) {
                 continue;
             }
-            let value = drawn(key, key.get(&alone), key.usual_range(), random);
+            let value = drawn(key, key.get(&alone), key.usual, random);
             let before = if of_layers { format!("layer.{}.", layer + 1) } else { String::new() };
             take(&mut web, format!("{before}{}", key.name), value);
         }

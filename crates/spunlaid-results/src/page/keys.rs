@@ -3,7 +3,7 @@
 use spunlaid::experiment::STUDY;
 use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
 use spunlaid::ground::{Dimension, Fault, FileKind, Removed, UnitAdvice};
-use spunlaid::simulation::{WEB, WEB_KEYS, WebKey};
+use spunlaid::simulation::{WEB, WEB_KEYS};
 use spunlaid::web::fabric::about;
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ struct KeyEntry {
     /// What applies if it is left out, with backquotes around values and names of keys.
     left_out: String,
     meaning: &'static str,
-    synonyms: Vec<&'static str>,
+    synonyms: &'static [&'static str],
     /// The file in which it stands, if it is not that of a case.
     file: &'static str,
     /// Outside of these a value is warned of, in SI units.
@@ -31,16 +31,13 @@ struct KeyEntry {
 impl KeyEntry {
     fn new<T>(table: &KeyTable<T>, key: &Key<T>) -> Self {
         let Key { name, kind, meaning, usual, varies, in_flight, .. } = *key;
-        let (left_out, synonyms) = (table.left_out(key), key.synonyms.to_vec());
+        let (left_out, synonyms) = (table.left_out(key), key.synonyms);
         Self { name, kind, left_out, meaning, synonyms, file: "", usual, may_change: [varies, in_flight] }
     }
 
-    fn from_case_key(key: &Key) -> Self {
-        Self::new(&CASE, key)
-    }
-
-    fn from_web_key(key: &WebKey) -> Self {
-        Self { synonyms: key.all_synonyms(), usual: key.usual_range(), ..Self::new(&WEB, key) }
+    /// Those of a table that are found by a word.
+    fn with_word<T>(table: &'static KeyTable<T>, word: &str) -> impl Iterator<Item = Self> {
+        table.rows.iter().filter(move |key| key.has_word(word)).map(|key| Self::new(table, key))
     }
 
     /// Its name within a table, if it belongs there.
@@ -88,9 +85,7 @@ pub fn keys_page(word: &str, of: Option<FileKind>) -> Result<String, Fault> {
 fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> Result<Vec<KeyEntry>, Fault> {
     let word = pattern.trim().to_lowercase();
     let is_plain = |word: &str| {
-        let has =
-            |key: &WebKey| key.has_word(word) || key.key_of_case().is_some_and(|key| key.has_word(word));
-        WEB_KEYS.iter().any(has)
+        WEB_KEYS.iter().any(|key| key.has_word(word))
             || keys::all().iter().any(|key| key.has_word(word))
             || STUDY.rows.iter().any(|key| key.has_word(word))
     };
@@ -99,12 +94,9 @@ fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> R
         Some(singular) if singular.len() > 2 && !is_plain(&word) => singular.to_owned(),
         _ => word,
     };
-    let is_of_web =
-        |key: &&WebKey| key.has_word(&word) || key.key_of_case().is_some_and(|key| key.has_word(&word));
-    let web_keys = || WEB_KEYS.iter().filter(is_of_web).map(KeyEntry::from_web_key);
-    let case_keys = || keys::all().iter().filter(|key| key.has_word(&word)).map(KeyEntry::from_case_key);
-    let of_study = STUDY.rows.iter().filter(|key| key.has_word(&word));
-    let study_keys = of_study.map(|key| KeyEntry::new(&STUDY, key));
+    let web_keys = || KeyEntry::with_word(&WEB, &word);
+    let case_keys = || KeyEntry::with_word(&CASE, &word);
+    let study_keys = KeyEntry::with_word(&STUDY, &word);
     let found: Vec<KeyEntry> = match of {
         Some(FileKind::Web) => web_keys().collect(),
         Some(FileKind::Study) => study_keys.collect(),
@@ -287,7 +279,7 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
         let title = if table.is_empty() { "Above the tables".to_owned() } else { keys.header(table) };
         let _ = writeln!(text, "\n## {title}\n\n| key | takes | if left out | meaning |\n|---|---|---|---|");
         for (key, short) in rows {
-            let also = match &key.synonyms[..] {
+            let also = match key.synonyms {
                 [] => String::new(),
                 words => format!(" Also: {}.", words.join(", ")),
             };

@@ -82,7 +82,7 @@ pub(crate) fn of_case(case: &Case) -> Vec<Reference> {
 /// What a web rests on: the surrogate where it lays the fibres, and the cases that fly.
 pub(crate) fn of_web(spec: &WebSpec) -> Vec<Reference> {
     let surrogate = (!spec.flies()).then_some(SURROGATE);
-    let cases = spec.layers.iter().filter_map(|layer| layer.source.case()).flat_map(of_case);
+    let cases = spec.cases().flat_map(of_case);
     surrogate.into_iter().chain(cases).collect()
 }
 

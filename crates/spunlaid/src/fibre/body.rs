@@ -17,6 +17,20 @@ named! {
     }
 }
 
+/// Mass per length of a round fibre [kg/m].
+///
+/// * `diameter`, `density` – [m], [kg/m³]
+pub fn linear_density(diameter: f64, density: f64) -> f64 {
+    0.25 * PI * diameter * diameter * density
+}
+
+/// Diameter of a round fibre of this mass per length [m].
+///
+/// * `linear_density`, `density` – [kg/m], [kg/m³]
+pub fn diameter_of(linear_density: f64, density: f64) -> f64 {
+    (4.0 * linear_density / (PI * density)).sqrt()
+}
+
 /// A fibre of elements with equal rest length, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {

@@ -14,7 +14,7 @@ use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Fault, Finding, Problem, Removed};
 use crate::simulation::layers::full_names::without_numbers;
-use crate::simulation::layers::keys::WEB;
+use crate::simulation::layers::keys::{WEB, WEB_FILE};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
@@ -131,9 +131,7 @@ pub(super) fn is_of_web(text: &str) -> bool {
 fn is_table_of_other(full: &str) -> bool {
     let in_layer = full.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
     let name = without_numbers(in_layer.map_or(full, |(_, rest)| rest));
-    CASE.tables.contains(&&*name)
-        || WEB.tables.contains(&&*name)
-        || name != "layer" && WEB.list(&name).is_some()
+    WEB_FILE.tables.contains(&&*name) || WEB.list(&name).is_some()
 }
 
 impl<'a, T> Document<'a, T> {
@@ -334,7 +332,7 @@ impl<'a, T> Document<'a, T> {
         let read = match (value.as_str(), change) {
             (Some(word), _) if key.words.contains(&word) => Ok(word.into()),
             (_, Ok(Some(change))) => {
-                let remedy = match (key.omission, key.relations.needed_if) {
+                let remedy = match (key.omission, key.needed_if) {
                     (Omission::Follows(from), None) => format!("write the value itself; without one, {from}"),
                     _ => format!("write the value itself, like {}", key.example()),
                 };

@@ -15,7 +15,7 @@ use std::path::Path;
 pub fn write_case(case: &Case) -> String {
     let mut text = format!("version = {FORMAT_VERSION}\n");
     for table in keys::TABLES {
-        let lines = lines_of_case(case, table);
+        let lines = lines(&keys::CASE, table, |key| value_to_write(case, key));
         if !lines.is_empty() {
             text += &format!("\n[{table}]\n{}", in_lines(&lines));
         }
@@ -23,12 +23,12 @@ pub fn write_case(case: &Case) -> String {
     text
 }
 
-/// The lines of a table of a case.
-pub(super) fn lines_of_case(case: &Case, table: &str) -> Vec<String> {
-    lines(&keys::CASE, table, |key| match own_value(key, case)? {
+/// The value of a key of a case as it is written.
+pub(super) fn value_to_write(case: &Case, key: &Key) -> Option<Value> {
+    match own_value(key, case)? {
         Value::Number(value) if key.read_last => Some(Value::Number(tidy(case, key, value))),
         value => Some(value),
-    })
+    }
 }
 
 /// The value of a key, unless the flow gives it.

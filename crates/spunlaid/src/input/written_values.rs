@@ -58,11 +58,6 @@ impl WrittenValues {
         self.file.clone()
     }
 
-    /// Whether a place is in this file.
-    pub(super) fn holds(&self, place: &Place) -> bool {
-        matches!((place, &self.file), (Place::File { file, .. }, Place::File { file: own, .. }) if file == own)
-    }
-
     pub(super) fn get(&self, key: &str) -> Option<&WrittenValue> {
         self.values.get(key)
     }

@@ -123,7 +123,7 @@ fn every_key_of_a_web_speaks_up_far_outside_of_what_is_usual() {
     );
     for key in WEB_KEYS {
         let Some(dimension) = key.kind.dimension() else { continue };
-        let (least, greatest) = key.usual_range().unwrap_or_else(|| panic!("{}", key.name));
+        let (least, greatest) = key.usual.unwrap_or_else(|| panic!("{}", key.name));
         for far in [1000.0 * greatest, 1e-3 * least] {
             let value = dimension.exact(far);
             let text = if key.name.starts_with("line.rows.") { &rows } else { &known };

@@ -3,8 +3,8 @@
 use crate::args::{LineNumbers, value};
 use spunlaid::air::Cabin;
 use spunlaid::fibre::Polymer;
+use spunlaid::fibre::body::linear_density;
 use spunlaid::ground::{Dimension, Fault};
-use std::f64::consts::PI;
 
 /// How far the weight that a belt takes may be from the one that is given beside it, as a share.
 const NEARLY: f64 = 0.01;
@@ -44,7 +44,7 @@ impl<'a> NewLine<'a> {
         let in_all = given.holes.map(|holes| (holes as f64 / given.width.value).round().max(1.0) as u64);
         let holes_per_metre = given.holes_per_metre.or(in_all).unwrap_or(1);
         let polymer = value(&given.polymer).unwrap_or(Polymer::Pp);
-        let of_diameter = |diameter| 0.25 * PI * diameter * diameter * polymer.material(false).solid_density;
+        let of_diameter = |diameter| linear_density(diameter, polymer.material(false).solid_density);
         let titre = value(&given.diameter).map_or(known(&given.dtex), of_diameter);
         let flow = (given.beams * holes_per_metre) as f64 * throughput;
         let belt_speed = value(&given.belt_speed).unwrap_or(flow / known(&given.basis_weight));

@@ -4,9 +4,9 @@ use super::beam::beam;
 use super::line::{GIVEN, NewLine, length, speed};
 use crate::args::value;
 use spunlaid::air::Cabin;
+use spunlaid::fibre::body::diameter_of;
 use spunlaid::ground::Dimension;
 use spunlaid_results::numbers::significant;
-use std::f64::consts::PI;
 
 /// Turbulence of the air between slot and belt, of the usual size: intensity, length of an eddy [m], and the
 /// velocity at the belt over that at the slot.
@@ -54,8 +54,7 @@ fn filament(line: &NewLine<'_>) -> String {
             format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
         }
         None => {
-            let diameter =
-                Dimension::Length.pretty((4.0 * line.titre / (PI * material.solid_density)).sqrt());
+            let diameter = Dimension::Length.pretty(diameter_of(line.titre, material.solid_density));
             let titre = dtex(GIVEN);
             format!("linear_density = \"{titre} dtex\"   # of {diameter}: √(4 × titre / (π × density))")
         }

@@ -22,21 +22,11 @@ pub fn about_web(spec: &WebSpec) -> Vec<String> {
     [line(spec), spinlines(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat()
 }
 
-/// The speed of the belt, on which all layers lie [m/s].
-fn belt(spec: &WebSpec) -> Option<f64> {
-    spec.layers.first().map(|layer| layer.belt_speed)
-}
-
-/// Mass of the web per area [kg/m²].
-fn weight(spec: &WebSpec) -> f64 {
-    belt(spec).map_or(f64::NAN, |belt| spec.mass_flow() / belt)
-}
-
 /// The numbers by which a line is known: `20 g/m² on a belt of 2.083 m/s`, `150 kg/h`.
 pub fn numbers_of_line(spec: &WebSpec) -> [String; 3] {
     [
-        format!("{} g/m²", significant(weight(spec) * 1e3, 4)),
-        Dimension::Velocity.pretty(belt(spec).unwrap_or(f64::NAN)),
+        format!("{} g/m²", significant(spec.weight() * 1e3, 4)),
+        Dimension::Velocity.pretty(spec.belt_speed()),
         format!("{} kg/h", significant(spec.mass_flow() * 3600.0, 4)),
     ]
 }
@@ -278,7 +268,7 @@ pub fn expected_of_web(
 ) -> Result<Vec<String>, Error> {
     let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
     let mut each = Vec::new();
-    for case in spec.layers.iter().filter_map(|layer| layer.source.case()) {
+    for case in spec.cases() {
         // On all threads together, because they may share a core. A thread flies eight filaments at once.
         let paces = try_each(threads, threads.max(1), |_| pace(case, Isa::detect()))?;
         let pace = paces.iter().sum::<f64>() / paces.len() as f64;

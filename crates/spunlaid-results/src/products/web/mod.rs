@@ -137,7 +137,7 @@ impl Contents for WebFolder {
         };
         let tried = [advice, guesses].into_iter().flatten();
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
-        let field = spec.layers.iter().find_map(|layer| field_figure(layer.source.case()?, None));
+        let field = spec.cases().find_map(|case| field_figure(case, None));
         let figures: Vec<Figure> =
             web_figures(web, findings).into_iter().chain(effects).chain(field).collect();
         let spinlines = spinlines(spec);

@@ -11,7 +11,7 @@ mod usual;
 
 use crate::air::motion::time_between_looks;
 use crate::air::{Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, StationGrid, StreamKey};
-use crate::fibre::body::Fibre;
+use crate::fibre::body::{Fibre, linear_density};
 use crate::fibre::chain::{Scheme, Strand};
 use crate::fibre::drag::Drag;
 use crate::fibre::line::Line;
@@ -126,7 +126,7 @@ impl Case {
 
     /// Mass per length of the fibre [kg/m].
     pub fn linear_density(&self) -> f64 {
-        self.fibre.density * self.fibre.cross_section()
+        linear_density(self.fibre.diameter, self.fibre.density)
     }
 
     /// Mass flow of a fed fibre, which is that of its hole [kg/s]; `None` if the fibre has a fixed length.

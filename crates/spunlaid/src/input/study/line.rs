@@ -126,8 +126,7 @@ impl WebToChange<'_> {
             Flow::Profile(profile) => profile.turbulence_intensity.windows(2).all(|pair| pair[0] == pair[1]),
             Flow::Uniform | Flow::Field(_) => true,
         };
-        let mut cases = self.spec().layers.iter().filter_map(|layer| layer.source.case());
-        cases.all(|case| {
+        self.spec().cases().all(|case| {
             !case.air.from_flow.turbulence_intensity || (!case.air.flow.is_field() && is_even(&case.air))
         })
     }
@@ -236,7 +235,7 @@ impl WebToChange<'_> {
         if belt.is_nan() || belt > slowest {
             return None;
         }
-        made.spec.set_belt_speed(belt).ok()?;
+        made.spec.set_belt_speed(belt);
         let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
             (*power != 0.0 && from != to).then(|| self.changed_key(key, [*from, *to]))
         };
@@ -270,10 +269,8 @@ impl WebToChange<'_> {
 
     /// Mass per area of the changed webs [kg/m²].
     fn weight(&self) -> f64 {
-        let spec = self.spec();
-        let belt = spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
-        let found = || rounded(Dimension::BasisWeight, spec.mass_flow() / belt, HELD);
-        spec.basis_weight.unwrap_or_else(found)
+        let found = || rounded(Dimension::BasisWeight, self.spec().weight(), HELD);
+        self.spec().basis_weight.unwrap_or_else(found)
     }
 }
 
@@ -323,9 +320,8 @@ impl WebToChange<'_> {
             Ok(made) => (made.spec, None),
             Err(why) => (self.base.spec().clone(), Some(why.to_string())),
         };
-        let belt_speed = |spec: &WebSpec| spec.layers.first().map_or(f64::NAN, |layer| layer.belt_speed);
         let ends = [self.base.spec(), &spec];
-        let (belt_speed, mass_flow) = (ends.map(belt_speed), ends.map(WebSpec::mass_flow));
+        let (belt_speed, mass_flow) = (ends.map(WebSpec::belt_speed), ends.map(WebSpec::mass_flow));
         let file = self.base.path().to_owned();
         let experiment = ChangedWeb { file, set, spec, belt_speed, mass_flow };
         Change { setting, layers, keys, experiment, refusal }

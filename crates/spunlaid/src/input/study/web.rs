@@ -10,7 +10,7 @@ use crate::fibre::case::keys::{self, Value, VariedKey};
 use crate::ground::error::{Place, nearest_word};
 use crate::ground::{Error, Problem};
 use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
-use crate::simulation::{LaydownSource, LayerSpec, SAME, WEB_KEYS, WebSpec};
+use crate::simulation::{SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
 pub(super) struct WebBase {
@@ -83,8 +83,7 @@ impl WebBase {
     /// The number of a key of the cases, if all that are flown have the same.
     pub(super) fn number_of_cases(&self, name: &str) -> Option<f64> {
         let key = keys::find(name)?;
-        let number = |layer: &LayerSpec| Some(key.value_in(layer.source.case()?)?.number());
-        let mut numbers = self.spec().layers.iter().filter_map(number);
+        let mut numbers = self.spec().cases().filter_map(|case| Some(key.value_in(case)?.number()));
         let first = numbers.next()??;
         let is_same =
             |other: Option<f64>| other.is_some_and(|other| (other - first).abs() <= SAME * first.abs());
@@ -93,11 +92,7 @@ impl WebBase {
 
     /// The case that it flies, the first of several.
     fn case_value(&self, name: &str) -> Option<Value> {
-        let case = self.spec().layers.iter().find_map(|layer| match &layer.source {
-            LaydownSource::Case { case, .. } => Some(&**case),
-            _ => None,
-        });
-        keys::find(name)?.value_in(case?)
+        keys::find(name)?.value_in(self.spec().cases().next()?)
     }
 }
 

@@ -42,8 +42,6 @@ impl Reading<'_> {
             let laydown = format!("{prefix}laydown");
             match &layer.source {
                 LaydownSource::Case { case, path } if !case.air.records.is_empty() => {
-                    let keys = [format!("{prefix}air.record"), "air.record".to_owned()];
-                    let key = keys.into_iter().find(|key| self.is_written(key));
                     let message = format!(
                         "follows a recorded wind ({}, air.record), which says nothing of how the air differs from \
                         place to place across the flow, and all filaments of a web hang in one air",
@@ -54,7 +52,7 @@ impl Reading<'_> {
                         `spunlaid run` fly it, and write the spreads σ₁ and σ₂ and the noise A that it gives as \
                         {laydown}.sigma_md, {laydown}.sigma_cd and {laydown}.noise in place of the case"
                     );
-                    let key = key.unwrap_or_else(|| format!("{laydown}.case"));
+                    let key = self.says(prefix, "air.record").unwrap_or_else(|| format!("{laydown}.case"));
                     self.key_values.reject(&key, Fault::new(message, remedy));
                 }
                 LaydownSource::Surrogate(_) if self.has_numbers(prefix) => {
@@ -225,14 +223,8 @@ impl Reading<'_> {
 }
 
 impl Reading<'_> {
-    /// Checks the charge of each layer.
-    pub(super) fn check_charge(&mut self, prefixes: &[String], web: &WebSpec) {
-        for (prefix, layer) in prefixes.iter().zip(&web.layers) {
-            self.check_charge_of(prefix, web, layer);
-        }
-    }
-
-    fn check_charge_of(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
+    /// Checks the charge of a layer.
+    pub(super) fn check_charge(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
         let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));
         if layer.charged().is_some() && !web.flies() {
             let fault = Fault::new(

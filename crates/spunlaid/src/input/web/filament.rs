@@ -5,10 +5,11 @@
 use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::read::{CASE, Reading, THROUGHPUT};
-use crate::fibre::case::keys::{self, CASE as OF_CASE, Value};
+use crate::fibre::case::keys::{self, Value};
 use crate::fibre::{Case, Note, Remark};
 use crate::ground::{Dimension, Error, Fault, Problem};
-use crate::simulation::layers::keys::{EITHER, WEB};
+use crate::simulation::layers::full_names::layer_and_name;
+use crate::simulation::layers::keys::{EITHER, WEB, WEB_FILE};
 use crate::simulation::{LaydownSource, LayerSpec, WebKey};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,48 +24,19 @@ pub(super) struct Filament {
     pub(super) values: WrittenValues,
     /// The file that describes it, for messages.
     path: PathBuf,
-    /// Numbers of that file in whose place the file of the web has others.
-    replaced: Vec<Replaced>,
-}
-
-/// A number of a case in whose place a web has another one.
-struct Replaced {
-    /// The key of the web in its place, by its full name.
-    by: String,
-    /// The key of the case.
-    name: String,
-    number: f64,
+    /// The numbers of that file, by their keys.
+    own: Vec<(String, f64)>,
 }
 
 impl Filament {
-    /// Puts values in the place of those that there are, also of those that they give in other words.
-    fn put(&mut self, upper: &WrittenValues, prefix: &str) {
-        let merged = self.values.with(upper.all().map(|(name, value)| (name.to_owned(), value.clone())));
-        let is_kept = |name: &str| upper.get(name).is_none() && merged.get(name).is_some();
-        for (name, lower) in self.values.all().filter(|(name, _)| !is_kept(name)) {
-            let gives = |by: &&str| *by == name || OF_CASE.are_alternatives(by, name);
-            let by = format!("{prefix}{}", upper.all().map(|(by, _)| by).find(gives).unwrap_or(name));
-            if upper.holds(&lower.place) {
-                // A layer says something else than all have in common, and so it is what replaces the case's own.
-                let common = self.replaced.iter_mut().filter(|replaced| replaced.by == name);
-                common.for_each(|replaced| replaced.by.clone_from(&by));
-            } else if let Some(number) = lower.value.as_ref().and_then(Value::number) {
-                self.replaced.push(Replaced { by, name: name.to_owned(), number });
-            }
-        }
-        self.values = merged;
-        self.values.excuse_as(upper);
-    }
-
-    /// Takes a value out, because another key gives it.
-    fn take_out(&mut self, name: &str, by: &str) {
-        let number = self.values.remove(name).and_then(|written_value| written_value.value?.number());
-        let replaced = |number| Replaced { by: by.to_owned(), name: name.to_owned(), number };
-        self.replaced.extend(number.map(replaced));
-    }
-
     /// Sets a number that follows from a key of the web.
-    fn derive(&mut self, name: &'static str, dimension: Dimension, number: f64, from: (&str, &WrittenValue)) {
+    pub(super) fn derive(
+        &mut self,
+        name: &'static str,
+        dimension: Dimension,
+        number: f64,
+        from: (&str, &WrittenValue),
+    ) {
         let shown = format!("{} (from {})", dimension.pretty(number), from.0);
         self.values.set(name, WrittenValue::new(&from.1.place, shown, number.into()));
     }
@@ -97,11 +69,6 @@ impl Filament {
         self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN))
     }
 
-    /// Sets the speed of the belt on which the web has the basis weight that is written.
-    pub(super) fn lay_on(&mut self, belt: f64, from: (&str, &WrittenValue)) {
-        self.derive("belt.speed", Dimension::Velocity, belt, from);
-    }
-
     /// Whether another filament has the same values.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         self.values.has_values_of(&other.values)
@@ -111,25 +78,28 @@ impl Filament {
 impl Reading<'_> {
     /// The filament of a layer; none if the file that it names cannot be read, which is noted.
     pub(super) fn filament(&mut self, prefix: &str) -> Option<Filament> {
-        // What all layers have in common stands above them.
-        let levels = if prefix.is_empty() { vec![""] } else { vec!["", prefix] };
-        let part = |level| (level, self.key_values.part(level, |name| keys::find(name).is_some()));
-        let parts: Vec<(&str, WrittenValues)> = levels.into_iter().map(part).collect();
-        let (values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
+        let (mut values, path) = if self.is_written(&format!("{prefix}{CASE}")) {
             let (path, named) = self.named.remove(prefix)?;
             let mut values = named.map_err(|problems| self.key_values.problems.extend(problems)).ok()?;
             self.key_values.problems.append(&mut values.problems);
             for full in &self.key_values.taken_out {
                 values.remove(full.strip_prefix(prefix).unwrap_or(full));
             }
-            // Whoever sets a number knows that the case has another one.
-            let set = parts.iter().flat_map(|(_, part)| part.all()).filter(|(_, value)| value.is_set());
-            (values.with(set.map(|(name, value)| (name.to_owned(), value.clone()))), path)
+            (values, path)
         } else {
             (WrittenValues::new(self.key_values.whole()), self.path.clone())
         };
-        let mut filament = Filament { values, path, replaced: Vec::new() };
-        parts.iter().for_each(|(level, part)| filament.put(part, level));
+        let number = |(name, written): (&str, &WrittenValue)| {
+            Some((name.to_owned(), written.value.as_ref().and_then(Value::number)?))
+        };
+        let own = values.all().filter_map(number).collect();
+        // What all layers have in common stands above them.
+        for level in if prefix.is_empty() { vec![""] } else { vec!["", prefix] } {
+            let part = self.key_values.part(level, |name| keys::find(name).is_some());
+            values = values.with(part.all().map(|(name, value)| (name.to_owned(), value.clone())));
+            values.excuse_as(&part);
+        }
+        let mut filament = Filament { values, path, own };
         for key in WEB.rows.iter().filter(|key| !key.relations.gives_case.is_empty()) {
             self.give(&mut filament, prefix, key);
         }
@@ -148,18 +118,18 @@ impl Reading<'_> {
         };
         for of_case in key.relations.gives_case {
             let here = [format!("{prefix}{of_case}"), (*of_case).to_owned()];
-            let here = if key.relations.of_all_layers { &here[..] } else { &here[..1] };
+            let here = if key.relations.of_all_layers.is_some() { &here[..] } else { &here[..1] };
             if here.iter().any(|name| self.is_written(name)) {
                 self.key_values.reject(&full, Fault::excludes(of_case, EITHER));
                 return;
             }
-            filament.take_out(of_case, &full);
+            filament.values.remove(of_case);
         }
         let same = key.key_of_case().map(|same| same.name);
         let number = written_value.value.as_ref().and_then(Value::number);
         match (same, number) {
             (Some(same), _) => filament.values.set(same, written_value),
-            (None, Some(throughput)) if !key.relations.of_all_layers => {
+            (None, Some(throughput)) if key.relations.of_all_layers.is_none() => {
                 if filament.is_spun() {
                     filament.values.set("spinline.throughput", written_value);
                 } else {
@@ -177,7 +147,7 @@ impl Reading<'_> {
     /// # Errors
     /// A case that cannot be read for another reason than what is in it.
     pub(super) fn fly(&mut self, prefix: &str, filament: Filament) -> Result<Option<LaydownSource>, Error> {
-        let Filament { values, path, replaced } = filament;
+        let Filament { values, path, own } = filament;
         if values.all().any(|(_, written_value)| written_value.value.is_none()) {
             return Ok(None);
         }
@@ -196,7 +166,7 @@ impl Reading<'_> {
         }
         let case = self.fed_case(&named, read)?;
         if let Some(case) = &case {
-            replaced.iter().for_each(|number| self.note_replaced(number, case, &path));
+            own.iter().for_each(|(name, number)| self.note_replaced(prefix, (name, *number), case, &path));
         }
         Ok(case.map(|case| LaydownSource::Case { path, case }))
     }
@@ -215,25 +185,39 @@ impl Reading<'_> {
         }
     }
 
-    /// Notes that a case is flown with another number than its file says, unless the two differ by rounding.
-    fn note_replaced(&mut self, replaced: &Replaced, case: &Case, path: &Path) {
-        let Replaced { by, name, number: own } = replaced;
-        let Some(key) = keys::find(name) else { return };
+    /// Notes that a case is flown with another number than its file says, because the file of the web says it, unless
+    /// the two differ by rounding.
+    fn note_replaced(&mut self, prefix: &str, (name, own): (&str, f64), case: &Case, path: &Path) {
+        let (Some(key), Some(by)) = (keys::find(name), self.says(prefix, name)) else { return };
         let (Some(used), Some(dimension)) =
             (key.value_in(case).and_then(|value| value.number()), key.dimension())
         else {
             return;
         };
-        if (own / used - 1.0).abs() > ROUNDED
-            && !(by.ends_with(name) && self.key_values.get(by).is_some_and(WrittenValue::is_set))
-        {
-            let [used, own] = [used, *own].map(|value| dimension.pretty(value));
+        // Whoever sets a key of the case knows that it has another number.
+        let is_known = keys::find(&layer_and_name(&by).1).is_some()
+            && self.key_values.get(&by).is_some_and(WrittenValue::is_set);
+        if (own / used - 1.0).abs() > ROUNDED && !is_known {
+            let [used, own] = [used, own].map(|value| dimension.pretty(value));
             let (case, of_case) = (path.display(), key.name);
             let what =
                 Remark::note(format!("is laid with {of_case} = {used} in place of the {own} of {case}"));
-            let note = Note { place: self.key_values.whole(), key: by.clone(), value: None, what };
+            let note = Note { place: self.key_values.whole(), key: by, value: None, what };
             self.note(vec![self.key_values.placed(note)]);
         }
+    }
+
+    /// The key of the file of the web that says a value of the case of a layer, of the layer itself before one of all.
+    pub(super) fn says(&self, prefix: &str, name: &str) -> Option<String> {
+        let is_it = |full: &&str| {
+            let (layer, said) = layer_and_name(full);
+            let Some(key) = WEB_FILE.find(&said) else { return false };
+            let gives = said == name || key.relations.gives_case.contains(&name);
+            (layer.is_empty() || layer == prefix || key.relations.of_all_layers.is_some())
+                && (gives || WEB_FILE.are_alternatives(&said, name))
+        };
+        let all = self.key_values.all().map(|(full, _)| full).filter(is_it);
+        all.max_by_key(|full| full.starts_with(prefix)).map(ToOwned::to_owned)
     }
 
     /// A case whose fibres are laid down on a moving belt.

@@ -32,15 +32,14 @@ impl Guess {
     /// # Errors
     /// If it has no half and no twice: a name that is no key, a word, a temperature, zero, or several numbers.
     pub(crate) fn new(web: &WebSpec, name: &str) -> Result<Self, Fault> {
-        let cases = || web.layers.iter().filter_map(|layer| layer.source.case());
-        let flies = cases().next().is_some();
+        let flies = web.flies();
         let (keys, kind, varies, values) = match keys::find(name).filter(|_| is_of_case(name, flies)) {
             Some(_) if !flies => {
                 return Err(Fault::new(format!("names {name}"), format!("it {}", flies_none())));
             }
-            Some(key) if cases().any(|case| key.is_derived(case)) => return Err(given_by_flow(name)),
+            Some(key) if web.cases().any(|case| key.is_derived(case)) => return Err(given_by_flow(name)),
             Some(key) => {
-                let values = cases().map(|case| key.get(case).and_then(|value| value.number())).collect();
+                let values = web.cases().map(|case| key.get(case).and_then(|value| value.number())).collect();
                 (vec![name.to_owned()], key.kind, key.varies, values)
             }
             None => {

@@ -4,7 +4,7 @@
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use super::filament::Filament;
-use super::read::{CASE, Reading, THROUGHPUT, as_web};
+use super::read::{CASE, Reading, as_web};
 use super::{WrittenWeb, flies_none};
 use crate::fibre::case::keys;
 use crate::fibre::{Note, Remark};
@@ -59,7 +59,6 @@ impl OpenWeb<'_> {
     pub(super) fn spec(self) -> Result<(WebSpec, Vec<Note>), Error> {
         let Self { mut reading, mut web, layers } = self;
         let prefixes = reading.prefixes.clone();
-        let ways: Vec<Way> = layers.iter().map(|layer| layer.way).collect();
         for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
             if let Some(filament) = filament {
                 match reading.fly(prefix, filament)? {
@@ -75,9 +74,9 @@ impl OpenWeb<'_> {
         reading.check_sources(&prefixes, &web);
         reading.check_guessed(&web);
         reading.check_turnable(&web);
-        reading.check_charge(&prefixes, &web);
-        reading.settle_belt(&mut web, &ways);
-        for (number, prefix) in prefixes.iter().enumerate() {
+        reading.settle_belt(&mut web);
+        for (number, (prefix, layer)) in prefixes.iter().zip(&web.layers).enumerate() {
+            reading.check_charge(prefix, &web, layer);
             reading.check_layer(prefix, &web.alone(number));
         }
         let unusual = reading.unusual();
@@ -150,12 +149,8 @@ impl Reading<'_> {
             spec.filaments = Filaments::Rows(rows);
         }
         spec.defects = self.defects(&format!("{prefix}line."));
-        spec.throughput = self.key_values.number(&format!("{prefix}{THROUGHPUT}"));
-        if let (Way::Numbers, Some(throughput)) = (way, spec.throughput) {
-            spec.feed(throughput);
-        }
         let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
-        Layer { spec, way, filament, spun }
+        Layer { spec, filament, spun }
     }
 
     /// Excuses that the numbers are missing which a case would give.
@@ -168,7 +163,7 @@ impl Reading<'_> {
 
 /// What tells how the filaments of a layer lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
+enum Way {
     /// A filament is flown.
     Fly,
     /// The numbers of a surrogate.
@@ -180,7 +175,6 @@ pub(super) enum Way {
 /// A layer before its filament is spun and flown.
 pub(super) struct Layer {
     pub(super) spec: LayerSpec,
-    pub(super) way: Way,
     /// Its filament, if it has to be flown.
     pub(super) filament: Option<Filament>,
     /// The throughput of its holes, if the filament comes from a die [kg/s].
@@ -189,7 +183,7 @@ pub(super) struct Layer {
 
 impl Reading<'_> {
     /// What tells how the filaments of a layer lie.
-    pub(super) fn way(&mut self, prefix: &str) -> Way {
+    fn way(&mut self, prefix: &str) -> Way {
         let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
         let numbers = NUMBERS.iter().find(is_written);
         let ways: Vec<&'static str> =

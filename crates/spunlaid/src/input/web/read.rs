@@ -7,7 +7,7 @@ use crate::fibre::Note;
 use crate::fibre::case::keys::Value;
 use crate::fibre::case::unusual;
 use crate::ground::{Fault, Finding};
-use crate::simulation::layers::full_names::{web_key, without_numbers};
+use crate::simulation::layers::full_names::{DEFECTS, ROWS, web_key, without_numbers};
 use crate::simulation::layers::keys::{NUMBERS, WEB, in_rows};
 use crate::simulation::{LaydownSource, LayerSpec, WebKey, WebSpec};
 use crate::web::map::Filaments;
@@ -49,7 +49,7 @@ impl Reading<'_> {
     pub(super) fn unusual(&self) -> Vec<Note> {
         let entry = |(full, written_value): (&str, &WrittenValue)| {
             let key = web_key(full)?;
-            let (dimension, usual) = (key.kind.dimension()?, key.usual_range()?);
+            let (dimension, usual) = (key.kind.dimension()?, key.usual?);
             let values = match written_value.value.as_ref()? {
                 Value::Number(value) => std::slice::from_ref(value),
                 Value::Numbers(values) => values.as_slice(),
@@ -110,8 +110,8 @@ impl Reading<'_> {
     /// The full names of a key of a layer, or of one of all layers in each of them.
     pub(super) fn places_of(&self, key: &WebKey, prefix: &str) -> Vec<String> {
         match key.relations.of_all_layers {
-            true => self.prefixes.iter().map(|prefix| format!("{prefix}{}", key.name)).collect(),
-            false => vec![format!("{prefix}{}", key.name)],
+            Some(_) => self.prefixes.iter().map(|prefix| format!("{prefix}{}", key.name)).collect(),
+            None => vec![format!("{prefix}{}", key.name)],
         }
     }
 
@@ -128,7 +128,7 @@ impl Reading<'_> {
             };
             let written = self.written(&full).map(|written_value| written_value.value.clone());
             let missing = |_: &WebSpec| Fault::missing(&without_numbers(before), &key.example());
-            let missing = |web: &WebSpec| (!key.relations.of_all_layers).then(|| missing(web));
+            let missing = |web: &WebSpec| key.relations.of_all_layers.is_none().then(|| missing(web));
             if let Err(fault) = WEB.fill((key, &mut *web), written, is_there, missing)
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {
@@ -152,38 +152,39 @@ impl Reading<'_> {
             let rows = "rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]";
             self.key_values.reject(&at_random, Fault::new("is missing", format!("{add}, or {rows}")));
         }
-        let count = self.key_values.number(&rows).unwrap_or(0.0) as u64;
-        let row = |number| {
-            let row = Row::new(f64::NAN, f64::NAN, 0);
-            let mut layer = LayerSpec {
-                filaments: Filaments::Rows(vec![row]),
-                ..LayerSpec::unknown(LaydownSource::UNKNOWN)
-            };
-            as_web(&mut layer, |web| {
-                web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
-                self.fill(web, "line.rows", &format!("{rows}.{number}."), false);
-            });
-            match layer.filaments {
-                Filaments::Rows(rows) => rows.first().copied(),
-                Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
-            }
+        let unknown = Filaments::Rows(vec![Row::new(f64::NAN, f64::NAN, 0)]);
+        let layers = self.entries(before, ROWS, |layer| layer.filaments = unknown.clone());
+        let row = |layer: LayerSpec| match layer.filaments {
+            Filaments::Rows(rows) => rows.first().copied(),
+            Filaments::AtRandom { .. } | Filaments::Slot { .. } => None,
         };
-        (1..=count).filter_map(row).collect()
+        layers.into_iter().filter_map(row).collect()
     }
 
     /// The defects of a layer.
     ///
     /// * `before` – what comes before the names of the table's keys: `line.`
     pub(super) fn defects(&mut self, before: &str) -> Vec<Defect> {
-        let list = format!("{before}defects");
-        let count = self.key_values.number(&list).unwrap_or(0.0) as u64;
-        let defect = |number| {
+        let layers = self.entries(before, DEFECTS, |layer| layer.defects = vec![Defect::USUAL]);
+        layers.into_iter().flat_map(|layer| layer.defects).collect()
+    }
+
+    /// The entries of a list, each in a layer of its own.
+    ///
+    /// * `unknown` – gives a layer an entry whose keys are set one after another
+    fn entries(&mut self, before: &str, list: &str, unknown: impl Fn(&mut LayerSpec)) -> Vec<LayerSpec> {
+        let full = format!("{before}{}", list.trim_start_matches("line."));
+        let count = self.key_values.number(&full).unwrap_or(0.0) as u64;
+        let entry = |number| {
             let mut layer = LayerSpec::unknown(LaydownSource::UNKNOWN);
-            layer.defects = vec![Defect::USUAL];
-            as_web(&mut layer, |web| self.fill(web, "line.defects", &format!("{list}.{number}."), false));
-            layer.defects
+            unknown(&mut layer);
+            as_web(&mut layer, |web| {
+                web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
+                self.fill(web, list, &format!("{full}.{number}."), false);
+            });
+            layer
         };
-        (1..=count).flat_map(defect).collect()
+        (1..=count).map(entry).collect()
     }
 
     /// Whether a layer gives the numbers of a surrogate.

@@ -1,11 +1,11 @@
 //! The sheet: its size, cells, patches and edges.
 
-use super::open::{Layer, Way};
-use super::read::{BELT_SPEED, Reading};
+use super::open::Layer;
+use super::read::{BELT_SPEED, CASE, Reading};
 use crate::fibre::case::whole_parts;
 use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::full_names::without_numbers;
-use crate::simulation::layers::keys::EITHER;
+use crate::simulation::layers::keys::{EITHER, WEB};
 use crate::simulation::{LayerSpec, SAME, WebSpec};
 use crate::web::Sheet;
 
@@ -148,14 +148,14 @@ impl Reading<'_> {
     /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
     /// are flown above it.
     pub(super) fn lay_weight(&mut self, web: &mut WebSpec, layers: &mut [Layer]) {
-        let Some((key, weight)) = self.basis_weight() else { return };
+        let Some(key) = self.of_all_layers(BASIS_WEIGHT) else { return };
         self.basis_weight_key.clone_from(&key);
-        let of_other = |prefix: &&String| format!("{prefix}{BASIS_WEIGHT}") != key;
-        let belts = self.prefixes.iter().filter(of_other).map(|prefix| format!("{prefix}{BELT_SPEED}"));
-        if let Some(belt) = belts.into_iter().find(|key| self.is_written(key)) {
+        let of_same_layer = key.replace(BASIS_WEIGHT, BELT_SPEED);
+        let mut belts = self.written_in_layers(BELT_SPEED).into_iter();
+        if let Some(belt) = belts.find(|belt| *belt != of_same_layer) {
             self.key_values.reject(&key, Fault::excludes(&belt, EITHER));
         }
-        let Some(weight) = weight else { return };
+        let Some(weight) = self.key_values.number(&key) else { return };
         web.basis_weight = Some(weight);
         let flow = |layer: &Layer| {
             let each = layer.spun.unwrap_or(layer.spec.hole_flow());
@@ -170,92 +170,87 @@ impl Reading<'_> {
             if let (Some(filament), Some(written_value)) = (&mut layer.filament, &written_value)
                 && !belt.is_nan()
             {
-                filament.lay_on(belt, (&key, written_value));
+                filament.derive("belt.speed", Dimension::Velocity, belt, (&key, written_value));
             }
         }
     }
 
-    /// The basis weight that is written in one of the layers, with the full name of its key.
-    fn basis_weight(&mut self) -> Option<(String, Option<f64>)> {
-        let keys = self.prefixes.iter().map(|prefix| format!("{prefix}{BASIS_WEIGHT}"));
-        let keys: Vec<String> = keys.filter(|key| self.is_written(key)).collect();
-        let first = keys.first()?;
-        let weight = self.key_values.number(first);
-        for key in &keys[1..] {
-            if let (Some(weight), Some(other)) = (weight, self.key_values.number(key))
-                && (other / weight - 1.0).abs() > SAME
+    /// The full names of a key in the layers in which it is written.
+    fn written_in_layers(&self, name: &str) -> Vec<String> {
+        let keys = self.prefixes.iter().map(|prefix| format!("{prefix}{name}"));
+        keys.filter(|key| self.is_written(key)).collect()
+    }
+
+    /// The full name of a key of all layers in the first one in which it is written, if it is written in any. Another
+    /// number in another layer is refused.
+    fn of_all_layers(&mut self, name: &str) -> Option<String> {
+        let (key, mut written) = (WEB.find(name)?, self.written_in_layers(name).into_iter());
+        let first = written.next()?;
+        let number = self.key_values.number(&first);
+        for full in written {
+            if let (Some(number), Some(other)) = (number, self.key_values.number(&full))
+                && (other / number - 1.0).abs() > SAME
             {
-                let weight = Dimension::BasisWeight.pretty(weight);
+                let (number, why) = (key.kind.pretty(&number.into()), key.relations.of_all_layers);
                 let fault = Fault::new(
-                    format!("differs from {first} = {weight}, and it is the weight of all layers together"),
+                    format!("differs from {first} = {number}, and {}", why.unwrap_or_default()),
                     "write it in one layer and leave it out of the others",
                 );
-                self.key_values.reject(key, fault);
+                self.key_values.reject(&full, fault);
             }
         }
-        Some((first.clone(), weight))
+        Some(first)
     }
 
     /// Checks that all layers lie on one belt, which tears none of them.
-    pub(super) fn settle_belt(&mut self, web: &mut WebSpec, ways: &[Way]) {
-        if self.basis_weight_key.is_empty() {
-            self.settle_common_belt(&mut web.layers, ways);
-        } else if let Some(layer) = web.layers.iter().find(|layer| layer.belt_speed > layer.feed_speed) {
+    pub(super) fn settle_belt(&mut self, web: &mut WebSpec) {
+        let by_weight = !self.basis_weight_key.is_empty();
+        if !by_weight {
+            self.lay_on_common_belt(&mut web.layers);
+        }
+        let torn = (0..).zip(&web.layers).filter(|(_, layer)| layer.belt_speed > layer.feed_speed);
+        // The belt of a basis weight is one number for all.
+        for (number, layer) in torn.take(if by_weight { 1 } else { usize::MAX }) {
             let [belt, feed] =
                 [layer.belt_speed, layer.feed_speed].map(|speed| Dimension::Velocity.pretty(speed));
-            let message = format!(
-                "takes a belt of {belt}, which is more than line.feed_speed = {feed} and would tear the fibre"
-            );
-            let key = self.basis_weight_key.clone();
-            self.key_values.reject(&key, Fault::new(message, "lay more, or feed faster"));
+            if by_weight {
+                let message = format!(
+                    "takes a belt of {belt}, which is more than line.feed_speed = {feed} and would tear the fibre"
+                );
+                let key = self.basis_weight_key.clone();
+                self.key_values.reject(&key, Fault::new(message, "lay more, or feed faster"));
+            } else {
+                let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");
+                let key = format!("{}{BELT_SPEED}", self.prefixes[number]);
+                self.refuse(&key, belt, Fault::new(message, "slow the belt, or feed faster"));
+            }
         }
     }
 
-    /// Gives every layer the speed of the belt, which is written in one layer or is that of a flown case.
-    fn settle_common_belt(&mut self, layers: &mut [LayerSpec], ways: &[Way]) {
+    /// Gives every layer the speed of the belt, which is written in one layer or is that of the flown cases.
+    fn lay_on_common_belt(&mut self, layers: &mut [LayerSpec]) {
+        self.of_all_layers(BELT_SPEED);
         let keys: Vec<String> = self.prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
-        // Flown fibres come first, because they would lie otherwise on another belt.
-        let known = (0..layers.len()).filter(|&layer| !layers[layer].belt_speed.is_nan());
-        let Some(first) = known.min_by_key(|&layer| layers[layer].source.case().is_none()) else {
-            let is_there = |key: &String| self.is_told(key);
-            let is_known = ways.iter().all(|way| *way == Way::Numbers || *way == Way::Unknown);
-            if let Some(key) = keys.first().filter(|_| is_known && !keys.iter().any(is_there)) {
+        let Some(first) = layers.iter().position(|layer| !layer.belt_speed.is_nan()) else {
+            if let Some(key) = keys.first().filter(|_| !keys.iter().any(|key| self.is_told(key))) {
                 let table = without_numbers(key.trim_end_matches(".belt_speed"));
                 self.key_values.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
             }
             return;
         };
-        let LayerSpec { belt_speed: belt, source, .. } = layers[first].clone();
-        for (number, (layer, key)) in layers.iter_mut().zip(&keys).enumerate() {
-            let is_written = self.is_written(key);
-            if layer.belt_speed.is_nan() && !is_written {
+        let belt = layers[first].belt_speed;
+        for (layer, prefix) in layers.iter_mut().zip(self.prefixes.clone()) {
+            if layer.belt_speed.is_nan() {
                 layer.belt_speed = belt;
-            }
-            let its_own = self.key_values.number(key).unwrap_or(layer.belt_speed);
-            let [own, feed, first_belt] =
-                [its_own, layer.feed_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
-            if (its_own / belt - 1.0).abs() > SAME {
-                let whose =
-                    if is_written { String::new() } else { format!("has belt.speed = {own}, which ") };
+            } else if layer.source.case().is_some() && (layer.belt_speed / belt - 1.0).abs() > SAME {
+                let [own, belt] = [layer.belt_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
                 let message = format!(
-                    "{whose}differs from the belt speed of layer {}, {first_belt}, and all layers lie on one belt",
+                    "has belt.speed = {own}, which differs from the belt speed of layer {}, {belt}, and all layers \
+                    lie on one belt",
                     first + 1
                 );
-                let remedy = match source.case() {
-                    _ if !is_written => "give all cases the same belt.speed".to_owned(),
-                    Some(_) => {
-                        format!("leave it out here, and set belt.speed in {}", source.path().display())
-                    }
-                    None => "write it in one layer and leave it out of the others".to_owned(),
-                };
-                let ways = ["laydown.case", "belt.speed"];
-                let ways = ways.map(|way| format!("{}{way}", self.prefixes[number]));
-                let way = ways.iter().find(|way| self.is_written(way)).filter(|_| !is_written);
-                self.key_values.reject(way.unwrap_or(key), Fault::new(message, remedy));
-            }
-            if layer.belt_speed > layer.feed_speed {
-                let message = format!("is more than line.feed_speed = {feed}, which would tear the fibre");
-                self.refuse(key, own, Fault::new(message, "slow the belt, or feed faster"));
+                let key = self.says(&prefix, "belt.speed").unwrap_or_else(|| format!("{prefix}{CASE}"));
+                self.key_values.reject(&key, Fault::new(message, "give all cases the same belt.speed"));
             }
         }
     }

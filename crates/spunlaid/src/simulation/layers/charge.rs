@@ -3,7 +3,6 @@
 use super::LayerSpec;
 use crate::fibre::{Case, Charge, ChargeEstimate};
 use crate::web::Sheet;
-use crate::web::map::Filaments;
 
 impl LayerSpec {
     /// Its charge; None of filaments without charge.
@@ -23,10 +22,7 @@ impl LayerSpec {
 
     /// Farthest that a filament is fed from the middle of the slot, along the machine direction [m].
     pub(crate) fn farthest_inlet(&self) -> f64 {
-        match &self.filaments {
-            Filaments::Rows(rows) => rows.iter().map(|row| row.md.abs()).fold(0.0, f64::max),
-            Filaments::AtRandom { .. } | Filaments::Slot { .. } => 0.5 * self.filaments.depth(),
-        }
+        self.filaments.depths().into_iter().map(f64::abs).fold(0.0, f64::max)
     }
 }
 

@@ -4,6 +4,7 @@ use super::keys::{WEB, WEB_FILE, WebKey};
 use super::{LayerSpec, WebSpec};
 use crate::fibre::case::keys::Value;
 use crate::web::map::Filaments;
+use crate::web::{Defect, Row};
 
 /// The key of a full name, `layer.2.line.rows.1.pitch`.
 pub fn web_key(full: &str) -> Option<&'static WebKey> {
@@ -19,7 +20,8 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
 /// * `layered` – whether the file has a list of layers
 pub(crate) fn displaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&str) -> bool + 's {
     let names: Vec<(&str, String)> = set.iter().map(|full| layer_and_name(full)).collect();
-    let of_all_layers = |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers);
+    let of_all_layers =
+        |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers.is_some());
     // Each with the layer in which it is displaced; with none, in all.
     let mut displaced: Vec<(Option<&str>, String)> = Vec::new();
     for (layer, _) in &names {
@@ -41,7 +43,7 @@ pub(crate) fn displaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&st
 }
 
 /// What says of which layer a full name is, `layer.2.`, if anything; and the name without numbers.
-fn layer_and_name(full: &str) -> (&str, String) {
+pub(crate) fn layer_and_name(full: &str) -> (&str, String) {
     let dot = full.strip_prefix("layer.").and_then(|rest| rest.find('.'));
     let (layer, name) = full.split_at(dot.map_or(0, |dot| "layer.".len() + dot + 1));
     (layer, without_numbers(name))
@@ -59,7 +61,7 @@ pub(crate) fn full_name(web: &WebSpec, name: &str) -> Result<String, String> {
     let by_name = (1..).zip(&web.layers).find_map(|(number, layer)| Some((number, named(layer)?)));
     let full = by_name.map_or_else(|| name.to_owned(), |(number, rest)| format!("layer.{number}.{rest}"));
     let table = WEB.find(name).map_or("", WebKey::table);
-    for (list, entry, what) in [("line.rows", "rows", "row"), ("line.defects", "defects", "defect")] {
+    for (list, entry, what) in [(ROWS, "rows", "row"), (DEFECTS, "defects", "defect")] {
         if table == list {
             let numbered = name.replace(entry, &format!("{entry}.1"));
             return Err(format!("write the number of the {what}, as in {numbered}"));
@@ -84,16 +86,27 @@ pub(crate) fn value(web: &WebSpec, full: &str) -> Option<Value> {
 fn layer_and_row(web: &WebSpec, full: &str) -> Option<WebSpec> {
     let mut numbers = full.split('.').filter_map(|word| word.parse::<usize>().ok());
     let layer = if full.starts_with("layer.") { numbers.next()? } else { 1 };
-    let mut alone = web.alone(layer.checked_sub(1)?);
+    let alone = web.alone(layer.checked_sub(1)?);
     let Some(number) = numbers.next() else { return Some(alone) };
-    let (one, number) = (alone.layers.first_mut()?, number.checked_sub(1)?);
-    if full.contains(".defects.") {
-        one.defects = vec![*one.defects.get(number)?];
-    } else {
-        let Filaments::Rows(rows) = &mut one.filaments else { return None };
-        *rows = vec![*rows.get(number)?];
-    }
-    Some(alone)
+    let list = if full.contains(".defects.") { DEFECTS } else { ROWS };
+    entries(&alone, list).into_iter().nth(number.checked_sub(1)?)
+}
+
+/// The lists of a layer.
+pub(crate) const ROWS: &str = "line.rows";
+pub(crate) const DEFECTS: &str = "line.defects";
+
+/// The web of one layer, once for each entry of a list of it, and with that entry alone.
+pub(crate) fn entries(web: &WebSpec, list: &str) -> Vec<WebSpec> {
+    let Some(layer) = web.layers.first() else { return Vec::new() };
+    let with_row = |row: &Row| LayerSpec { filaments: Filaments::Rows(vec![*row]), ..layer.clone() };
+    let with_defect = |defect: &Defect| LayerSpec { defects: vec![*defect], ..layer.clone() };
+    let layers: Vec<LayerSpec> = match &layer.filaments {
+        _ if list == DEFECTS => layer.defects.iter().map(with_defect).collect(),
+        Filaments::Rows(rows) => rows.iter().map(with_row).collect(),
+        Filaments::AtRandom { .. } | Filaments::Slot { .. } => Vec::new(),
+    };
+    layers.into_iter().map(|layer| WebSpec { layers: vec![layer], ..web.clone() }).collect()
 }
 
 /// The layer and the row or the defect of a full name in words, ` of layer 2, row 1`; nothing without them.

@@ -10,7 +10,7 @@ pub(crate) mod full_names;
 pub(crate) mod keys;
 
 use crate::fibre::Case;
-use crate::fibre::case::keys::{self as case_keys, Value};
+use crate::fibre::body::linear_density;
 use crate::ground::error::Place;
 use crate::ground::{Dimension, Error, Fault, Finding, Problem};
 use crate::simulation::ensemble::LineFilaments;
@@ -18,7 +18,6 @@ use crate::web::map::{Filaments, inlets};
 use crate::web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -180,7 +179,7 @@ impl LayerSpec {
 
     /// Mass per length of a filament [kg/m].
     pub fn linear_density(&self) -> f64 {
-        0.25 * PI * self.diameter * self.diameter * self.density
+        linear_density(self.diameter, self.density)
     }
 
     /// Mass flow of a hole [kg/s].
@@ -234,7 +233,12 @@ impl WebSpec {
     /// Whether its filaments are flown: those of cases hang in one air and lay the web as they come down. Those
     /// of known numbers are independent paths of the surrogate.
     pub fn flies(&self) -> bool {
-        self.layers.iter().any(|layer| layer.source.case().is_some())
+        self.cases().next().is_some()
+    }
+
+    /// The cases that it flies, in the order of its layers.
+    pub fn cases(&self) -> impl Iterator<Item = &Case> {
+        self.layers.iter().filter_map(|layer| layer.source.case())
     }
 
     /// What the defects of a layer make of its filaments.
@@ -252,6 +256,16 @@ impl WebSpec {
         self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
     }
 
+    /// Speed of the belt, on which all layers lie [m/s].
+    pub fn belt_speed(&self) -> f64 {
+        self.layers.first().map_or(f64::NAN, |layer| layer.belt_speed)
+    }
+
+    /// Mass of all layers per area [kg/m²].
+    pub fn weight(&self) -> f64 {
+        self.mass_flow() / self.belt_speed()
+    }
+
     /// The speed of a belt on which all layers together have this mass per area [m/s].
     pub(crate) fn belt_speed_for(&self, basis_weight: f64) -> f64 {
         self.mass_flow() / basis_weight
@@ -260,20 +274,16 @@ impl WebSpec {
     /// Puts all layers on a belt of this speed, above which the cases are flown.
     ///
     /// * `belt` – its speed [m/s]
-    ///
-    /// # Errors
-    /// If a case cannot have it.
-    pub(crate) fn set_belt_speed(&mut self, belt: f64) -> Result<(), Fault> {
+    pub(crate) fn set_belt_speed(&mut self, belt: f64) {
         for layer in &mut self.layers {
             if let LaydownSource::Case { case, .. } = &mut layer.source
                 && (layer.belt_speed / belt - 1.0).abs() > SAME
+                && let Some(line) = &mut Arc::make_mut(case).line
             {
-                let speed = case_keys::find("belt.speed");
-                speed.map_or(Ok(()), |speed| speed.apply(Arc::make_mut(case), &Value::Number(belt)))?;
+                line.belt_speed = belt;
             }
             layer.belt_speed = belt;
         }
-        Ok(())
     }
 
     /// The web of one of its layers alone.
@@ -354,11 +364,7 @@ impl WebSpec {
     /// The files from which the cases that it flies were read, each with the parts that it names, relative to
     /// its folder.
     pub fn files(&self) -> Vec<(&Path, &[PathBuf])> {
-        let flown = self.layers.iter().filter_map(|layer| match &layer.source {
-            LaydownSource::Case { case, .. } => Some(case),
-            _ => None,
-        });
-        flown.flat_map(|case| case.files()).collect()
+        self.cases().flat_map(Case::files).collect()
     }
 
     /// The same web with these files at other paths.

@@ -8,6 +8,7 @@ use super::streaks::{Streak, StreakSource, streaks};
 use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
 use super::{Deviations, FabricKeys, MapUncertainty, light};
+use crate::fibre::body::{diameter_of, linear_density};
 use crate::ground::threads::each;
 use crate::ground::{Dimension, Known};
 use crate::web::map::lattice::{Chance, Lattice};
@@ -15,7 +16,6 @@ use crate::web::map::uniformity::{Unevenness, unevenness};
 use crate::web::map::{Map, Orientation, straight_fibres};
 use crate::web::scan::{Findings, PatchFindings};
 use std::borrow::Cow;
-use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Sides of the patches of which thin places are told [m].
@@ -313,7 +313,7 @@ fn with_error_of(part: Unevenness, told: Option<Unevenness>) -> Unevenness {
 
 /// Length of fibre per area [1/m], and the mean of the diameter over it [m].
 fn lengths(filaments: &[Filaments]) -> (f64, f64) {
-    let length = |of: &Filaments| of.basis_weight / (0.25 * PI * of.diameter * of.diameter * of.density);
+    let length = |of: &Filaments| of.basis_weight / linear_density(of.diameter, of.density);
     let whole: f64 = filaments.iter().map(length).sum();
     (whole, filaments.iter().map(|of| length(of) * of.diameter).sum::<f64>() / whole)
 }
@@ -393,7 +393,7 @@ const DENSITY: f64 = 1000.0;
 pub fn of_scan(findings: &Findings) -> Fabric {
     let titre = findings.titre.filter(|_| findings.mean_known);
     let filaments = titre.map(|titre| Filaments {
-        diameter: (4.0 * titre / (PI * DENSITY)).sqrt(),
+        diameter: diameter_of(titre, DENSITY),
         density: DENSITY,
         basis_weight: findings.map.basis_weight(),
     });

@@ -1,13 +1,13 @@
 //! The axes of a study's figures: quantities and readable units.
 
+use crate::effects::label;
 use crate::figures::with_unit;
 use crate::products::run::figures::measured::axes;
 use spunlaid::experiment::{Design, Factor, PointResults, Study, study};
 use spunlaid::fibre::ZERO_CELSIUS;
-use spunlaid::fibre::case::keys;
 use spunlaid::ground::{Dimension, Unit, measure};
 use spunlaid::simulation::FibreMeasure;
-use spunlaid::simulation::layers::{place_in_web, web_key};
+use spunlaid::simulation::layers::place_in_web;
 use spunlaid_charts::{Axis, Spacing};
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.
@@ -84,18 +84,12 @@ impl Group {
 
 /// Label of a key with its letter: `Mean velocity *U*`.
 pub(super) fn label_of_key(key: &str) -> String {
-    plain_label(key).to_owned() + &place_in_web(key)
-}
-
-/// Label of a key without the layer that it is of.
-fn plain_label(key: &str) -> &str {
-    let of_web = || web_key(key).map(|known| known.label);
-    keys::find(key).map(|known| known.label).or_else(of_web).unwrap_or(key)
+    label(key).to_owned() + &place_in_web(key)
 }
 
 /// Name of a key within a sentence: `mean velocity`.
 pub fn name_of_key(key: &str) -> String {
-    let label = spunlaid_charts::label::plain(plain_label(key));
+    let label = spunlaid_charts::label::plain(label(key));
     // The letter at the end is left out.
     let words = match label.rsplit_once(' ') {
         Some((words, letter)) if letter.chars().count() <= 2 => words,

@@ -11,11 +11,11 @@ use crate::products::web::files::effects::HOUR;
 use crate::products::web::files::fabric::fabric_rows;
 use crate::products::web::files::summary::Layer;
 use spunlaid::experiment::plausible::implausible;
+use spunlaid::fibre::body::diameter_of;
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::{LayerSpec, WebSpec};
 use spunlaid::web::map::Findings;
 use spunlaid::web::{Fabric, Map};
-use std::f64::consts::PI;
 
 /// What is asked, the answers, and what is to be said of them.
 #[derive(Debug)]
@@ -42,13 +42,12 @@ const MOST_LAYERS: usize = 3;
 /// The line itself, and whether it is one.
 pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
     let row = |name: &str, value: String| Row::new(name, [value]);
-    let belt = layers.first().map_or(f64::NAN, |layer| layer.belt_speed_m_s);
-    let made = spec.mass_flow() / belt;
+    let made = spec.weight();
     let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
     let piece = format!("this piece {}; {faster}", grams_with_error(findings.basis_weight()));
     let mut rows = vec![
         row("Per metre of width", shown(HOUR * spec.mass_flow(), "kg/h")),
-        row("Belt", speed(belt)),
+        row("Belt", speed(spec.belt_speed())),
         row("Basis weight", grams(made)).detail(piece),
     ];
     let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
@@ -88,7 +87,7 @@ fn speed(speed: f64) -> String {
 /// * `width` – of the sheet [m]
 fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String)> {
     let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
-    let size = (4.0 * titre / (PI * density)).sqrt();
+    let size = diameter_of(titre, density);
     let holes = significant(layer.filaments as f64 / width, 4);
     let slot =
         layer.air_at_slot_m_s.map_or_else(String::new, |air| format!(", {} at the slot", shown(air, "m/s")));

@@ -1,6 +1,6 @@
 //! The keys of a kind of input, and how its file is divided into tables.
 
-use super::{Key, Omission, Relations, Value};
+use super::{Key, Omission, Value};
 use crate::fibre::case::Case;
 use crate::ground::Fault;
 use crate::ground::error::{by_similarity, nearest_word};
@@ -128,10 +128,10 @@ impl<T> KeyTable<T> {
             Omission::Value(value) => format!("`{value}`"),
             Omission::Follows(words) => words.to_owned(),
         };
-        if let Some((when, value)) = key.relations.default_if {
+        if let Some((when, value)) = key.default_if {
             words += &format!("; {}, `{value}`", when.words);
         }
-        if let Some((when, example)) = key.relations.needed_if {
+        if let Some((when, example)) = key.needed_if {
             words += &format!("; {}, {}", when.words, required(example));
         }
         let is_instead = |other: &&Key<T>| other.relations.alternative_to.contains(&key.name);
@@ -275,41 +275,4 @@ pub(crate) const fn joined<T, const COUNT: usize>(tables: &[Table<T>]) -> [Key<T
         i += 1;
     }
     all
-}
-
-/// What a key says of its values and of other keys, without access to an input: for a file that describes
-/// several inputs.
-pub(crate) fn described<T>(key: &Key<T>) -> Key<()> {
-    let of = &key.relations;
-    let relations = Relations {
-        alternative_to: of.alternative_to,
-        gives_one: of.gives_one,
-        remedy: of.remedy,
-        read_after: of.read_after,
-        gives: of.gives,
-        takes_unit: of.takes_unit,
-        in_study: of.in_study,
-        same_in_case: of.same_in_case,
-        gives_case: of.gives_case,
-        of_all_layers: of.of_all_layers,
-        ..Relations::NONE
-    };
-    Key {
-        name: key.name,
-        kind: key.kind,
-        omission: key.omission,
-        meaning: key.meaning,
-        synonyms: key.synonyms,
-        label: key.label,
-        varies: key.varies,
-        in_flight: key.in_flight,
-        slider: key.slider,
-        usual: key.usual,
-        read_last: key.read_last,
-        words: key.words,
-        relations,
-        get: |()| None,
-        set: |(), _| Ok(()),
-        derived: |()| false,
-    }
 }

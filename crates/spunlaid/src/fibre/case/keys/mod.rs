@@ -80,7 +80,15 @@ pub struct Key<T: 'static = Case> {
     /// Words that may stand in place of a number.
     pub(crate) words: &'static [&'static str],
     /// What it has to do with other keys.
-    pub relations: Relations<T>,
+    pub relations: Relations,
+    /// When it is needed, with an example value.
+    pub needed_if: Option<(&'static Condition<T>, &'static str)>,
+    /// When it has another default, and which.
+    pub default_if: Option<(&'static Condition<T>, &'static str)>,
+    /// Takes it from what has been set if it is left out, and says whether that gives it.
+    infer: fn(&mut T) -> bool,
+    /// Its value in an input that says it in other words.
+    in_other_words: fn(&T) -> Option<Value>,
     get: fn(&T) -> Option<Value>,
     set: fn(&mut T, &Value) -> Result<(), Fault>,
     derived: fn(&T) -> bool,
@@ -109,6 +117,23 @@ pub fn all() -> &'static [Key] {
 /// The key with this full name, `air.velocity`.
 pub fn find(name: &str) -> Option<&'static Key> {
     CASE.find(name)
+}
+
+/// The row of a key, for the tables of other inputs. A program that asks for another name does not compile.
+pub(crate) const fn row_of(name: &str) -> &'static Key {
+    let mut i = 0;
+    while !is_same(table::KEYS[i].name, name) {
+        i += 1;
+    }
+    &table::KEYS[i]
+}
+
+const fn is_same(one: &str, other: &str) -> bool {
+    let (one, other, mut i) = (one.as_bytes(), other.as_bytes(), 0);
+    while i < one.len() && i < other.len() && one[i] == other[i] {
+        i += 1;
+    }
+    i == one.len() && i == other.len()
 }
 
 /// The key with this full name.
@@ -211,8 +236,7 @@ impl<T> Key<T> {
     /// Whether it is found by this word: in its name, its meaning or its synonyms, or as one of its units.
     pub fn has_word(&self, word: &str) -> bool {
         let has = |text: &str| text.to_lowercase().contains(&word.to_lowercase());
-        let Relations { needed_if, default_if, .. } = self.relations;
-        let when = [needed_if, default_if].into_iter().flatten().map(|(when, _)| when.words);
+        let when = [self.needed_if, self.default_if].into_iter().flatten().map(|(when, _)| when.words);
         [self.name, self.meaning].into_iter().chain(self.synonyms.iter().copied()).chain(when).any(has)
             || self.dimension().is_some_and(|dimension| dimension.has_unit(word))
     }
@@ -220,7 +244,7 @@ impl<T> Key<T> {
     /// An example line of its file: `velocity = "10 m/s"`.
     pub(crate) fn example(&self) -> String {
         let (Omission::Required(value) | Omission::Value(value) | Omission::Follows(value)) = self.omission;
-        let value = self.relations.needed_if.map_or(value, |(_, example)| example);
+        let value = self.needed_if.map_or(value, |(_, example)| example);
         match self.dimension() {
             // Of any name.
             None if self.short() == "*" => value.to_owned(),

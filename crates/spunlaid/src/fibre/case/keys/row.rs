@@ -257,6 +257,10 @@ impl NewKey {
             read_last: false,
             words: &[],
             relations: Relations::NONE,
+            needed_if: None,
+            default_if: None,
+            infer: |_| false,
+            in_other_words: |_| None,
             get,
             set,
             derived: |_| false,
@@ -287,7 +291,38 @@ impl<T> Key<T> {
         /// Words that may stand in place of a number.
         or_words(words: &'static [&'static str]) { words }
         derived(derived: fn(&T) -> bool) { derived }
+        /// Another name, for another key with the same words.
+        named(name: &'static str) { name }
+        unrelated() { relations: Relations::NONE }
+        needed_if(when: &'static Condition<T>, example: &'static str) { needed_if: Some((when, example)) }
+        default_if(when: &'static Condition<T>, value: &'static str) { default_if: Some((when, value)) }
+        inferred(infer: fn(&mut T) -> bool) { infer }
+        in_other_words(value: fn(&T) -> Option<Value>) { in_other_words: value }
     }
+
+    /// The same key of another input: its values, its words and its relations.
+    pub(crate) const fn of_input<U>(&self, access: AccessTo<U>) -> Key<U> {
+        let Self { name, kind, varies, usual, omission, meaning, synonyms, label, .. } = *self;
+        let (read_last, words, relations) = (self.read_last, self.words, self.relations);
+        let new = NewKey { name, kind, varies, usual }.access(access);
+        Key { omission, meaning, synonyms, label, read_last, words, relations, ..new }
+    }
+
+    /// The same key of a web, where it has another name.
+    pub(crate) const fn called(self, name: &'static str) -> Self {
+        Self { name, ..self.same_in_case(self.name) }
+    }
+
+    /// A quantity with the same words that is above zero.
+    pub(crate) const fn above_zero(self) -> Self {
+        let Kind::Quantity(dimension, _) = self.kind else { return self };
+        Self { kind: Kind::Quantity(dimension, Sign::Positive), ..self }
+    }
+}
+
+impl AccessTo<()> {
+    /// Of a file that describes several inputs: its keys have no access to any.
+    pub(crate) const NONE: Self = Self { get: |()| None, set: |(), _| Ok(()) };
 }
 
 /// The fault of a value of the wrong kind. It only occurs if the caller has not checked the value.

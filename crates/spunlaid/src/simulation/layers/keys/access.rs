@@ -19,17 +19,12 @@ macro_rules! of_surrogate {
             |web| &layer(web)?.source,
             &mut layer_mut(web)?.source,
             LaydownSource::Surrogate(surrogate) => surrogate.$field,
-            flown()
+            Fault::needs("laydown without a case", "leave it out, or leave this out")
         )
     };
 }
 
 pub(super) use of_surrogate;
-
-/// A number of a surrogate that follows from flights.
-pub(super) fn flown() -> Fault {
-    Fault::needs("laydown without a case", "leave it out, or leave this out")
-}
 
 /// The fault of a depth beside rows.
 pub(crate) fn in_rows() -> Fault {
@@ -37,11 +32,6 @@ pub(crate) fn in_rows() -> Fault {
         "line.rows",
         "rows have places in machine direction of their own, rows.md; keep one of them",
     )
-}
-
-/// The fault of plates beside filaments without charge.
-pub(super) fn uncharged() -> Fault {
-    Fault::needs("line.charge", "write the charge of the filaments, or leave it out")
 }
 
 /// Whether the case of flown fibres gives the value.
@@ -81,9 +71,4 @@ pub(super) fn defect(web: &WebSpec) -> Option<&Defect> {
 pub(super) fn defect_mut(web: &mut WebSpec) -> Result<&mut Defect, Fault> {
     let defect = layer_mut(web)?.defects.first_mut();
     defect.ok_or_else(|| Fault::needs("line.defects", "write a list of defects"))
-}
-
-/// Diameter of a filament of this linear density [kg/m] and density [kg/m³].
-pub(super) fn diameter(linear_density: f64, density: f64) -> f64 {
-    (4.0 * linear_density / (std::f64::consts::PI * density)).sqrt()
 }

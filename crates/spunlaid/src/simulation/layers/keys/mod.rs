@@ -16,94 +16,57 @@ pub(crate) use table::{EITHER, NUMBERS, ONE_SOURCE};
 pub use table::{WEB_KEYS, WEB_TABLES};
 
 use super::WebSpec;
-use crate::fibre::case::keys::key_table::described;
+use crate::fibre::case::keys::row::AccessTo;
 use crate::fibre::case::keys::{self, CASE, Key, KeyTable, TableList};
 use std::sync::LazyLock;
 
 /// The keys of a web.
-pub static WEB: KeyTable<WebSpec> = KeyTable {
-    rows: WEB_KEYS,
-    tables: &WEB_TABLES,
-    lists: &[
-        TableList {
-            name: "layer",
-            tables: &["fibre", "laydown", "line"],
-            common: &["fibre"],
-            entry: "a layer",
-            wanted: WANTED_LAYERS,
-        },
-        ROWS,
-        DEFECTS,
-    ],
-    noun: "a web",
-    file: "a web file",
-};
+pub static WEB: KeyTable<WebSpec> =
+    KeyTable { rows: WEB_KEYS, tables: &WEB_TABLES, lists: LISTS, noun: "a web", file: "a web file" };
 
 /// The keys of the file of a web: those of the web, and those of the case of its filament. They say how a
 /// file is read, and have no access to either. A key or a table that both have stands here once, as that of
 /// the filament.
 pub(crate) static WEB_FILE: LazyLock<KeyTable<()>> = LazyLock::new(|| {
+    let of_case = CASE.rows.iter().map(|key| key.of_input(AccessTo::NONE));
     let own_keys = WEB.rows.iter().filter(|key| CASE.find(key.name).is_none());
-    let rows: Vec<Key<()>> = CASE.rows.iter().map(described).chain(own_keys.map(described)).collect();
+    let rows: Vec<Key<()>> = of_case.chain(own_keys.map(|key| key.of_input(AccessTo::NONE))).collect();
     let own_tables = WEB.tables.iter().filter(|table| !CASE.tables.contains(table));
     let tables: Vec<&str> = CASE.tables.iter().chain(own_tables).copied().collect();
-    KeyTable {
-        rows: rows.leak(),
-        tables: tables.leak(),
-        lists: LISTS_OF_FILE,
-        noun: WEB.noun,
-        file: WEB.file,
-    }
+    KeyTable { rows: rows.leak(), tables: tables.leak(), lists: LISTS, noun: WEB.noun, file: WEB.file }
 });
 
-const LISTS_OF_FILE: &[TableList] = &[
+/// The tables of a filament, which all layers may have in common.
+pub(crate) const OF_FILAMENT: &[&str] = &["spinline", "fibre", "feed", "belt", "air", "drag", "run"];
+
+const LISTS: &[TableList] = &[
     TableList {
         name: "layer",
         tables: &["spinline", "fibre", "feed", "belt", "air", "drag", "run", "laydown", "line"],
         common: OF_FILAMENT,
         entry: "a layer",
-        wanted: WANTED_LAYERS,
+        wanted: "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]",
     },
-    ROWS,
-    DEFECTS,
+    TableList {
+        name: "line.rows",
+        tables: &[],
+        common: &[],
+        entry: "a row of nozzles",
+        wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
+    },
+    TableList {
+        name: "line.defects",
+        tables: &[],
+        common: &[],
+        entry: "a defect",
+        wanted: "a list of defects, like [{ from = \"0.5 m\", to = \"0.51 m\", titre = 0 }]",
+    },
 ];
-
-/// The tables of a filament, which all layers may have in common.
-pub(crate) const OF_FILAMENT: &[&str] = &["spinline", "fibre", "feed", "belt", "air", "drag", "run"];
-
-const WANTED_LAYERS: &str =
-    "a list of tables: [[layer]], and below it [layer.fibre], [layer.laydown] and [layer.line]";
-const ROWS: TableList = TableList {
-    name: "line.rows",
-    tables: &[],
-    common: &[],
-    entry: "a row of nozzles",
-    wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
-};
-const DEFECTS: TableList = TableList {
-    name: "line.defects",
-    tables: &[],
-    common: &[],
-    entry: "a defect",
-    wanted: "a list of defects, like [{ from = \"0.5 m\", to = \"0.51 m\", titre = 0 }]",
-};
 
 impl WebKey {
     /// The key of a case that means the same, if there is one.
     pub fn key_of_case(&self) -> Option<&'static Key> {
         keys::find(self.relations.same_in_case.unwrap_or(self.name))
-    }
-
-    /// Other words for it: with those of the same key of a case, where there is one.
-    pub fn all_synonyms(&self) -> Vec<&'static str> {
-        let of_case = self.key_of_case().map_or(&[][..], |key| key.synonyms);
-        self.synonyms.iter().chain(of_case).copied().collect()
-    }
-
-    /// Outside of these a value, unless it is zero, is most likely a slip, in SI units: as for the same key of a
-    /// case, where there is one.
-    pub fn usual_range(&self) -> Option<(f64, f64)> {
-        self.key_of_case().map_or(self.usual, |key| key.usual)
     }
 }
 

@@ -4,10 +4,9 @@ use super::super::Key;
 use super::super::row::{Access, choose, key, number, quantity, without_spinline};
 use super::super::value::Sign::{NotNegative, Positive};
 use super::super::value::{Kind, Value};
-use crate::fibre::body::Root;
+use crate::fibre::body::{Root, diameter_of};
 use crate::fibre::case::whole_parts;
 use crate::ground::{Dimension, Fault};
-use std::f64::consts::PI;
 
 /// Access to a number of the fibre that a spinline gives.
 macro_rules! from_spinline {
@@ -69,7 +68,7 @@ pub(super) const KEYS: &[Key] = &[
             get: |_| None,
             set: |case, value| {
                 without_spinline(case)?;
-                case.fibre.diameter = (4.0 * number(value)? / (PI * case.fibre.density)).sqrt();
+                case.fibre.diameter = diameter_of(number(value)?, case.fibre.density);
                 Ok(())
             },
         })

@@ -1,16 +1,17 @@
 //! The keys of the tables `[layer]`, `[fibre]` and `[laydown]`.
 
-use super::super::access::{Access, WebKey, diameter, flown, is_flown, layer, layer_mut, of_surrogate};
-use super::{EITHER, positive};
-use crate::fibre::case::keys::row::{at, key, number, of_any_size};
-use crate::fibre::case::keys::{Condition, Kind, Sign, Value};
-use crate::ground::Dimension;
+use super::super::access::{Access, WebKey, is_flown, layer, layer_mut, of_surrogate};
+use super::positive;
+use crate::fibre::body::diameter_of;
+use crate::fibre::case::keys::row::{at, key, number};
+use crate::fibre::case::keys::{Condition, Kind, Value, row_of};
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::{LaydownSource, WebSpec};
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    of_any_size("fibre.diameter", Dimension::Length, Sign::Positive)
-        .access(Access {
+    row_of("fibre.diameter")
+        .of_input(Access {
             get: |web| layer(web).filter(|layer| layer.titre.is_none()).map(|layer| layer.diameter.into()),
             set: |web, value| {
                 let layer = layer_mut(web)?;
@@ -19,29 +20,18 @@ pub(super) const KEYS: &[WebKey] = &[
             },
         })
         .derived(is_flown)
-        .required("18 µm")
-        .meaning("Diameter of the round filaments; of filaments that fly, that of their case.")
-        .label("Fibre diameter *d*"),
-    of_any_size("fibre.density", Dimension::Density, Sign::Positive)
-        .access(at!(layer, layer_mut, density))
-        .derived(is_flown)
-        .required("910 kg/m³")
-        .meaning("Density of the polymer; of filaments that fly, that of their case.")
-        .label("Fibre density"),
-    of_any_size("fibre.linear_density", Dimension::LinearDensity, Sign::Positive)
-        .access(Access {
+        .required("18 µm"),
+    row_of("fibre.density").of_input(at!(layer, layer_mut, density)).derived(is_flown).required("910 kg/m³"),
+    row_of("fibre.linear_density")
+        .of_input(Access {
             get: |web| layer(web)?.titre.map(Value::Number),
             set: |web, value| {
                 let (titre, layer) = (number(value)?, layer_mut(web)?);
-                (layer.diameter, layer.titre) = (diameter(titre, layer.density), Some(titre));
+                (layer.diameter, layer.titre) = (diameter_of(titre, layer.density), Some(titre));
                 Ok(())
             },
         })
-        .alternative_to(&["fibre.diameter"], EITHER)
-        .in_other_words(|web| Some(layer(web)?.linear_density().into()))
-        .follows("diameter and density give it")
-        .meaning("Mass per length, in place of `fibre.diameter`, which follows with the density.")
-        .label("Linear density"),
+        .in_other_words(|web| Some(layer(web)?.linear_density().into())),
 ];
 
 /// In the order of the file.

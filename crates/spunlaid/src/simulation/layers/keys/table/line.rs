@@ -1,18 +1,18 @@
 //! The keys of the table `[line]`, with the defects of a line, `line.defects`.
 
 use super::super::access::{
-    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut, uncharged,
+    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
-use crate::fibre::case::keys::row::{at, key, number, of_any_size, quantity, whole};
-use crate::fibre::case::keys::{EVEN, Kind, Sign, Value};
+use crate::fibre::case::keys::row::{at, key, number, quantity, whole};
+use crate::fibre::case::keys::{EVEN, Kind, Sign, Value, row_of};
 use crate::ground::{Dimension, Fault};
 use crate::web::map::Filaments;
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    of_any_size("line.feed_speed", Dimension::Velocity, Sign::Positive)
-        .access(Access {
+    row_of("feed.speed")
+        .of_input(Access {
             get: |web| {
                 layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into())
             },
@@ -22,17 +22,16 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
+        .called("line.feed_speed")
         .derived(is_flown)
-        .same_in_case("feed.speed")
         .gives_case(&["feed.speed"])
         .required("50 m/s")
         .meaning(
             "Speed at which each filament is fed: the spinning speed. It may stand in place of \
              `feed.speed` of a filament that flies.",
-        )
-        .label("Feed speed"),
-    positive("line.throughput", Dimension::MassFlow, (1e-8, 1e-3))
-        .access(Access {
+        ),
+    row_of("spinline.throughput")
+        .of_input(Access {
             get: |web| layer(web)?.throughput.map(Value::Number),
             set: |web, value| {
                 let throughput = number(value)?;
@@ -40,19 +39,17 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
+        .named("line.throughput")
         .alternative_to(&["line.feed_speed"], EITHER)
         .in_other_words(|web| layer(web).map(|layer| layer.hole_flow().into()))
         .gives_case(&["feed.speed", "spinline.throughput"])
-        .read_last()
         .follows("`feed_speed` and the filament give it")
         .meaning(
             "Mass flow of a hole, in place of `line.feed_speed`, which is then throughput / linear \
              density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
-        )
-        .synonyms(&["output per hole", "mass flow", "grams per minute"])
-        .label("Throughput of a hole"),
-    of_any_size("line.belt_speed", Dimension::Velocity, Sign::Positive)
-        .access(Access {
+        ),
+    row_of("belt.speed")
+        .of_input(Access {
             get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
             set: |web, value| {
                 let belt_speed = number(value)?;
@@ -62,16 +59,16 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
+        .called("line.belt_speed")
+        .above_zero()
         .derived(is_flown)
-        .same_in_case("belt.speed")
         .gives_case(&["belt.speed"])
-        .of_all_layers()
+        .of_all_layers("all layers lie on one belt")
         .required("3 m/s")
         .meaning(
             "Speed of the belt, written in one of the layers. It may stand in place of `belt.speed` \
              of a filament that flies.",
-        )
-        .label("Belt speed"),
+        ),
     positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
             get: |web| layer(web).and(web.basis_weight).map(Value::Number),
@@ -86,7 +83,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .alternative_to(&["line.belt_speed"], EITHER)
         .gives_case(&["belt.speed"])
         .read_last()
-        .of_all_layers()
+        .of_all_layers("it is the weight of all layers together")
         .follows("`belt_speed` and the filaments give it")
         .meaning(
             "Mass of the web per area, of all layers together, written in one of them. It stands in \
@@ -94,17 +91,17 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),
-    positive("line.cabin_pressure", Dimension::Pressure, (100.0, 3e4))
-        .access(Access {
+    row_of("air.cabin_pressure")
+        .of_input(Access {
             get: |web| layer(web)?.source.case()?.air.cabin_pressure.map(Value::Number),
             set: |_, _| Err(Fault::needs("a filament that flies", "leave it out")),
         })
+        .unrelated()
+        .called("line.cabin_pressure")
         .derived(is_flown)
-        .same_in_case("air.cabin_pressure")
         .gives_case(&["air.cabin_pressure"])
         .follows("the air says how fast it is")
-        .meaning("The same as `air.cabin_pressure` of a filament that flies, in whose place it may stand.")
-        .label("Cabin pressure"),
+        .meaning("The same as `air.cabin_pressure` of a filament that flies, in whose place it may stand."),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| match layer(web)?.filaments {
@@ -173,7 +170,8 @@ pub(super) const KEYS: &[WebKey] = &[
             set: |web, value| {
                 let layer = layer_mut(web)?;
                 if layer.charge.is_none() {
-                    return Err(uncharged());
+                    let remedy = "write the charge of the filaments, or leave it out";
+                    return Err(Fault::needs("line.charge", remedy));
                 }
                 layer.walls = Some(number(value)?);
                 Ok(())

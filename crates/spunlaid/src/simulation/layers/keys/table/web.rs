@@ -4,7 +4,7 @@ use super::super::access::{Access, WebKey};
 use super::{MOST_FILAMENTS, positive};
 use crate::fibre::case::keys::row::{at, choose, key, named, number, quantity, text, whole};
 use crate::fibre::case::keys::{Kind, Sign, Value};
-use crate::ground::Dimension;
+use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::{Flown, WantedError};
 use crate::web::Edges;
 
@@ -13,6 +13,13 @@ const AUTO: &str = "auto";
 const ALL: &str = "all";
 /// No number is a guess.
 const NONE: &str = "none";
+/// The names in a text, with commas between them.
+fn names(value: &Value) -> Result<Vec<String>, Fault> {
+    let names = text(value)?;
+    let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
+    Ok(names.map(ToOwned::to_owned).collect())
+}
+
 /// What becomes of fibre beyond the edges.
 const EDGES: [&str; 2] = ["periodic", "cut"];
 
@@ -150,9 +157,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(Access {
             get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
             set: |web, value| {
-                let names = text(value)?;
-                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
-                web.guessed = names.map(ToOwned::to_owned).collect();
+                web.guessed = names(value)?;
                 Ok(())
             },
         })
@@ -168,9 +173,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(Access {
             get: |web| web.turnable.as_ref().map(|names| names.join(", ").into()),
             set: |web, value| {
-                let names = text(value)?;
-                let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
-                web.turnable = Some(names.map(ToOwned::to_owned).collect());
+                web.turnable = Some(names(value)?);
                 Ok(())
             },
         })

@@ -1,6 +1,6 @@
 //! The air along the spinline: a table, a field, or numbers.
 
-use super::spinline;
+use super::{spinline, spun};
 use crate::fibre::case::keys::Key;
 use crate::fibre::case::keys::row::{Access, file, key, number, quantity, read_with_case, switch};
 use crate::fibre::case::keys::value::Sign::{Any, NotNegative, Positive};
@@ -127,13 +127,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Air temperature *T*_{a}")
         .slider(273.15, 373.15),
     key("spinline.follows_air", Kind::Switch)
-        .access(Access {
-            get: |case| Some(Value::from_switch(case.spinline.as_ref()?.air_change.follows_air)),
-            set: |case, value| {
-                spinline(case)?.air_change.follows_air = switch(value)?;
-                Ok(())
-            },
-        })
+        .access(at!(spun, spinline, air_change.follows_air))
         .value("false")
         .meaning(
             "Whether the velocity along the filament ends with that of `air` where the flown fibre begins: cabin \
