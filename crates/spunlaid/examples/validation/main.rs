@@ -12,6 +12,7 @@ mod closed_loops;
 mod common;
 mod fits;
 mod flights;
+mod levels;
 mod mechanics;
 #[path = "../../tests/common/scans.rs"]
 mod pictures;
@@ -23,6 +24,9 @@ fn main() {
     let asked = |what: &str| std::env::args().any(|word| word == what);
     if asked("webs") {
         return webs::intervals();
+    }
+    if asked("levels") {
+        return levels::savings();
     }
     if asked("advice") {
         return advice::changes();

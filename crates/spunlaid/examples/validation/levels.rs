@@ -1,0 +1,128 @@
+//! What two levels save: errors of webs in one air with and without coarse sheets, against the scatter of seeds.
+
+use crate::title;
+use spunlaid::ground::{Control, Isa};
+use spunlaid::input::read_web;
+use spunlaid::simulation::{Flyer, WantedError, WebSpec};
+use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::time::Instant;
+
+/// Sides of the patches that are looked at [m].
+const SIDES: [f64; 4] = [5e-3, 10e-3, 20e-3, 50e-3];
+/// The error that is wanted.
+const WANTED: f64 = 0.025;
+
+/// A filament of 2 dtex in air that slows down, on a way of half a metre.
+const FILAMENT: &str = r#"version = 1
+[fibre]
+diameter = "16.8 µm"
+density = "905 kg/m³"
+youngs_modulus = "1.9 GPa"
+element_length = "4 mm"
+root = "clamped"
+[feed]
+speed = "41.7 m/s"
+[belt]
+distance = "300 mm"
+speed = "2.08 m/s"
+[air]
+velocity = "50 m/s"
+turbulence_intensity = 0.1
+length_scale = "16 mm"
+cutoff_frequency = "700 Hz"
+[drag]
+across = "marheineke-wegener"
+[run]
+duration = "1 s"
+[web]
+width = "1 m"
+length = "1 m"
+cell = "1 mm"
+"#;
+
+/// Lines of several kinds, by what they have beside the filament.
+const LINES: [(&str, &str); 4] = [
+    ("a slot of 20 mm", "[line]\nfilaments_per_metre = 5000\ndepth = \"20 mm\"\n"),
+    ("a slot of 60 mm", "[line]\nfilaments_per_metre = 5000\ndepth = \"60 mm\"\n"),
+    ("a row", "[line]\nrows = [{ pitch = \"0.5 mm\", filaments = 2000 }]\n"),
+    (
+        "two layers",
+        "[[layer]]\n[layer.line]\nfilaments_per_metre = 3000\ndepth = \"20 mm\"\n\
+         [[layer]]\n[layer.line]\nfilaments_per_metre = 3000\ndepth = \"20 mm\"\n",
+    ),
+];
+
+/// The CV and its whole error over each of [`SIDES`], and the time that they took [s].
+struct Found {
+    cvs: Vec<[f64; 2]>,
+    time: f64,
+}
+
+fn find(spec: &WebSpec) -> Found {
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+    let begun = Instant::now();
+    let mut web = Flyer::new(1, &stop, &|_, work| work()).web(spec).expect("it flies");
+    let found = web.find(by).expect("it is laid");
+    let time = begun.elapsed().as_secs_f64();
+    let of_side = |side: &f64| {
+        let patch = found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-6);
+        patch
+            .and_then(|patch| Some([patch.told()?.cv, patch.whole_error().whole()?]))
+            .unwrap_or([f64::NAN; 2])
+    };
+    Found { cvs: SIDES.iter().map(of_side).collect(), time }
+}
+
+/// Of each line: the mean of CV over the seeds, its scatter over the error, and error² × time, of one sheet and of two
+/// levels. `cargo run --release --example validation levels [SEEDS] [FILE]`
+pub fn savings() {
+    let words: Vec<String> = std::env::args().skip(2).collect();
+    let seeds: u64 = words.iter().find_map(|word| word.parse().ok()).unwrap_or(6);
+    title("webs in one air: one sheet | two levels (mean CV, scatter over error, error² × time as a ratio)");
+    let file = words.iter().find(|word| word.ends_with(".toml"));
+    let lines: Vec<(String, WebSpec)> = match file {
+        Some(file) => {
+            let spec = read_web(std::path::Path::new(file), &[]).expect("it is read").spec;
+            vec![(file.clone(), spec)]
+        }
+        None => LINES
+            .iter()
+            .map(|(name, line)| {
+                let text = format!("{FILAMENT}{line}");
+                (name.to_string(), read_web((text.as_str(), "line.toml"), &[]).expect("it is read").spec)
+            })
+            .collect(),
+    };
+    for (name, spec) in lines {
+        let both = |error: WantedError| -> Vec<Found> {
+            let of_seed = |seed| find(&WebSpec { seed, error, ..spec.clone() });
+            (1..=seeds).map(of_seed).collect()
+        };
+        let [one, two] = [WantedError::OfOneSheet, WantedError::Of(WANTED)].map(both);
+        let times = [&one, &two].map(|found| found.iter().map(|of| of.time).sum::<f64>() / seeds as f64);
+        println!("{name}: {:.1} s | {:.1} s", times[0], times[1]);
+        for (number, side) in SIDES.iter().enumerate() {
+            let numbers = [&one, &two].map(|found| {
+                let count = found.len() as f64;
+                let mean = found.iter().map(|of| of.cvs[number][0]).sum::<f64>() / count;
+                let scatter =
+                    found.iter().map(|of| (of.cvs[number][0] - mean).powi(2)).sum::<f64>() / (count - 1.0);
+                let error = found.iter().map(|of| of.cvs[number][1].powi(2)).sum::<f64>() / count;
+                [mean, scatter, error]
+            });
+            let [[mean, scatter, error], [of_two, scatter_of_two, error_of_two]] = numbers;
+            println!(
+                "  {:2.0} mm: {:.2} % ± {:.2}, {:.2} | {:.2} % ± {:.2}, {:.2} | {:.1}",
+                1e3 * side,
+                100.0 * mean,
+                100.0 * error.sqrt(),
+                (scatter / error).sqrt(),
+                100.0 * of_two,
+                100.0 * error_of_two.sqrt(),
+                (scatter_of_two / error_of_two).sqrt(),
+                error * times[0] / (error_of_two * times[1])
+            );
+        }
+    }
+}
