@@ -202,7 +202,7 @@ impl Flights {
             let position = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]);
             self.log.append([SHAPES, replicate], [shape.time].into_iter().chain(position)).ok()?;
         }
-        self.log.append([KEPT_POINTS, replicate], Row::numbers(&*trajectory.laid)).ok()?;
+        self.log.append([KEPT_POINTS, replicate], LaidPoint::numbers(&trajectory.laid)).ok()?;
         let counts = (SAMPLES..LANDED).map(|kind| self.log.count([kind, replicate]) as f64);
         let mut numbers: Vec<f64> = counts.collect();
         for (measure, value) in &trajectory.values {
@@ -313,7 +313,7 @@ impl Flights {
     ) -> Result<(), Failure> {
         self.in_file(replicate).try_for_each(|rows| show(&rows?))?;
         show(held)?;
-        Ok(self.add(replicate, held)?)
+        self.add(replicate, held)
     }
 
     /// Hands over what memory has of a replicate.
