@@ -1,4 +1,5 @@
-//! What flights record, of which the tables of a run are made, and a file from which a run goes on that was interrupted.
+//! What flights record, of which the tables of a run are made, and a file from which a run goes on that was
+//! interrupted.
 //!
 //! ```text
 //! flights → Flights (memory; beyond its room, the file) → Tables and the file, when the turn of a fibre has come
