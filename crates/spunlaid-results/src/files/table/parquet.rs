@@ -101,7 +101,11 @@ impl Parquet {
                     .set_encoding(Encoding::PLAIN)
                     .set_created_by(concat!("spunlaid ", env!("CARGO_PKG_VERSION")).to_owned())
                     .build();
-                SerializedFileWriter::new(BufWriter::new(file), Arc::new(schema), Arc::new(properties))
+                SerializedFileWriter::new(
+                    BufWriter::with_capacity(1 << 17, file),
+                    Arc::new(schema),
+                    Arc::new(properties),
+                )
             })
             .map_err(|error| failure::table(&path, error))?;
         let empty = |column: &Column| match column.holds {

@@ -1,6 +1,7 @@
 //! What a case means: its mesh, its limits, and what a run of it is expected to need.
 
 use super::POSITIONS;
+use super::flown::ROOM;
 use super::report::frames::POSITIONS as POSITIONS_OF_PAGE;
 use crate::numbers::significant;
 use crate::products::spinline::files as spinline;
@@ -255,11 +256,10 @@ fn memory(case: &Case, threads: u64) -> f64 {
     const FIGURES: f64 = 20.0 * (1u64 << 20) as f64;
     /// Bytes of a position that is read back from the file of the shapes, there and in the report.
     const POSITION: f64 = 2.0 * 24.0;
-    /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those
-    /// of each fibre that wait to go to its file.
+    /// Rows of the tables that wait to be written, of 18 numbers, in lists that may be half empty; and those of fibres
+    /// whose turn has not come.
     const ROWS: f64 = (2 << 15) as f64;
     const ROW: f64 = 18.0 * 8.0;
-    const FIBRE: f64 = (2 << 15) as f64;
     let air = &case.air;
     let reading = match &air.flow {
         Flow::Field(placed) => placed.field.memory_while_made() as f64 + largest_file(air),
@@ -269,7 +269,7 @@ fn memory(case: &Case, threads: u64) -> f64 {
     let fibres = (WIDTH as u64 * threads).min(case.run.replicates) as f64;
     let flying = case.flight_memory().total() * threads as f64
         + ROW * rows.min(ROWS)
-        + (ROW * rows).min(FIBRE * fibres);
+        + (2.0 * ROW * instants(case) * fibres).min(ROOM as f64);
     let drawing = FIGURES + POSITION * positions(case).min(POSITIONS_OF_PAGE as f64);
     PROGRAM + reading.max(air.field_memory() as f64 + flying.max(drawing))
 }

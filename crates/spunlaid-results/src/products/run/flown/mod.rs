@@ -1,8 +1,8 @@
-//! What flights record, in a file from which the tables of a run are made, and from which a run goes on that was
+//! What flights record, of which the tables of a run are made, and a file from which a run goes on that was
 //! interrupted.
 //!
 //! ```text
-//! flights → Flights (a little memory, then the file) → Tables, when the turn of a fibre has come
+//! flights → Flights (memory; beyond its room, the file) → Tables and the file, when the turn of a fibre has come
 //!
 //! .<folder>-<case>.flown   the file, from where the first fibre has landed until the results are complete
 //! ```
@@ -30,8 +30,11 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 /// A run that fails leaves nothing if it has flown fewer steps of elements: flying them again takes seconds.
 /// They are counted, since the time would be another one on a busy machine.
 const FEW: f64 = 1e9;
-/// Numbers of a fibre that stay in memory before they go to the file.
-const IN_MEMORY: usize = 1 << 12;
+/// Bytes of all fibres that stay in memory until their turn. Beyond them a fibre with the rows of a record puts what it
+/// has into the file, from which it is read back: that takes longer.
+pub(super) const ROOM: usize = 1 << 25;
+/// Most rows of a record. Small ones take the system twice the time.
+const RECORD: usize = 1 << 10;
 /// Number of rows in a row group, which is held in memory.
 const ROWS: usize = 1 << 15;
 
@@ -58,13 +61,74 @@ pub struct Flights {
     keep: Keep<'static>,
     /// Replicates that an earlier process has flown.
     earlier: BTreeSet<u64>,
-    /// What has been recorded of the others and is not in the file.
-    held: Mutex<BTreeMap<u64, [Vec<f64>; 2]>>,
+    /// What has been recorded of the others and is not in the file, and its bytes.
+    held: Mutex<(BTreeMap<u64, Held>, usize)>,
     /// Steps of elements of a replicate, and how many have landed.
     steps_of_each: f64,
     landed: AtomicU64,
     /// Whether the run was interrupted, so that another process goes on.
     pub interrupted: AtomicBool,
+}
+
+/// The rows of a fibre that are in memory only.
+#[derive(Debug, Default)]
+struct Held {
+    samples: Vec<Sample>,
+    points: Vec<LaidPoint>,
+}
+
+/// What is recorded at an instant, or of a laid point.
+trait Row: Copy {
+    const KIND: u64;
+
+    fn held(held: &mut Held) -> &mut Vec<Self>;
+
+    /// A record of some.
+    fn numbers(rows: &[Self]) -> Vec<f64>;
+
+    fn of(numbers: &[f64]) -> Vec<Self>;
+}
+
+impl Row for Sample {
+    const KIND: u64 = SAMPLES;
+
+    fn held(held: &mut Held) -> &mut Vec<Self> {
+        &mut held.samples
+    }
+
+    fn numbers(rows: &[Self]) -> Vec<f64> {
+        let row = |sample: &Self| {
+            let (mut sample, mut row) = (*sample, [0.0; SAMPLE.len()]);
+            row.iter_mut().zip(SAMPLE).for_each(|(number, (_, place))| *number = *place(&mut sample));
+            row
+        };
+        rows.iter().map(row).collect::<Vec<_>>().into_flattened()
+    }
+
+    fn of(numbers: &[f64]) -> Vec<Self> {
+        let sample = |numbers: &[f64; SAMPLE.len()]| {
+            let mut sample = Self::default();
+            SAMPLE.iter().zip(numbers).for_each(|((_, place), number)| *place(&mut sample) = *number);
+            sample
+        };
+        numbers.as_chunks().0.iter().map(sample).collect()
+    }
+}
+
+impl Row for LaidPoint {
+    const KIND: u64 = POINTS;
+
+    fn held(held: &mut Held) -> &mut Vec<Self> {
+        &mut held.points
+    }
+
+    fn numbers(rows: &[Self]) -> Vec<f64> {
+        rows.iter().map(|point| POINT.map(|(_, value)| value(point))).collect::<Vec<_>>().into_flattened()
+    }
+
+    fn of(numbers: &[f64]) -> Vec<Self> {
+        numbers.as_chunks().0.iter().copied().map(point_of).collect()
+    }
 }
 
 impl Flights {
@@ -139,8 +203,7 @@ impl Flights {
             let position = shape.position.iter().flat_map(|p| [p.x, p.y, p.z]);
             self.log.append([SHAPES, replicate], [shape.time].into_iter().chain(position)).ok()?;
         }
-        let laid = trajectory.laid.iter().flat_map(|p| [p.fed, p.time, p.md, p.cd]);
-        self.log.append([KEPT_POINTS, replicate], laid).ok()?;
+        self.log.append([KEPT_POINTS, replicate], LaidPoint::numbers(&trajectory.laid)).ok()?;
         let counts = (SAMPLES..LANDED).map(|kind| self.log.count([kind, replicate]) as f64);
         let mut numbers: Vec<f64> = counts.collect();
         for (measure, value) in &trajectory.values {
@@ -193,13 +256,13 @@ impl Flights {
             trajectory.shapes.push(*time, position.into_iter())?;
         }
         for points in self.pieces(KEPT_POINTS, replicate) {
-            trajectory.laid.extend(points?.as_chunks().0.iter().copied().map(point_of));
+            trajectory.laid.extend(LaidPoint::of(&points?));
         }
         for landed in self.pieces(LANDED, replicate) {
             trajectory.values = values(landed?.get(LANDED as usize..).unwrap_or_default());
         }
-        for samples in self.pieces(SAMPLES, replicate) {
-            let samples = samples_of(&samples?);
+        for samples in self.in_file::<Sample>(replicate) {
+            let samples = samples?;
             if is_first && self.keep.curves && !self.fed {
                 samples.iter().for_each(|sample| trajectory.path.push(sample));
             }
@@ -213,37 +276,58 @@ impl Flights {
         self.log.pieces([kind, replicate]).map(move |piece| piece.map_err(unreadable))
     }
 
-    /// Takes the next numbers of a replicate, not many at a time.
-    fn push(&self, kind: u64, replicate: u64, numbers: impl Iterator<Item = f64>) -> Result<(), Error> {
+    fn in_file<R: Row>(&self, replicate: u64) -> impl Iterator<Item = Result<Vec<R>, Error>> {
+        self.pieces(R::KIND, replicate).map(|piece| piece.map(|numbers| R::of(&numbers)))
+    }
+
+    /// Takes the next rows of a replicate, not many at a time.
+    fn push<R: Row>(&self, replicate: u64, some: &[R]) -> Result<(), Error> {
         if self.earlier.contains(&replicate) {
             return Ok(());
         }
         let full = {
-            let mut held = lock(&self.held);
-            let rows = &mut held.entry(replicate).or_default()[kind as usize];
-            rows.extend(numbers);
-            if rows.len() < IN_MEMORY { Vec::new() } else { std::mem::take(rows) }
+            let (held, bytes) = &mut *lock(&self.held);
+            let rows = R::held(held.entry(replicate).or_default());
+            rows.extend_from_slice(some);
+            *bytes += size_of_val(some);
+            let is_full = *bytes > ROOM && rows.len() >= RECORD;
+            let full = if is_full { std::mem::take(rows) } else { Vec::new() };
+            *bytes -= size_of_val(&full[..]);
+            full
         };
         // A replicate flies in one thread only, so its rows stay in their order.
-        self.add(kind, replicate, full)
+        self.add(replicate, &full)
     }
 
-    fn add(&self, kind: u64, replicate: u64, numbers: Vec<f64>) -> Result<(), Error> {
-        match numbers.is_empty() {
-            true => Ok(()),
-            false => self.log.append([kind, replicate], numbers).map_err(Error::unwritable(&self.later[0])),
-        }
+    fn add<R: Row>(&self, replicate: u64, rows: &[R]) -> Result<(), Error> {
+        let mut records = rows.chunks(RECORD);
+        let add = |rows| self.log.append([R::KIND, replicate], R::numbers(rows));
+        records.try_for_each(add).map_err(Error::unwritable(&self.later[0]))
     }
 
-    /// Puts all that was recorded of a replicate into the file.
-    fn settle(&self, replicate: u64) -> Result<(), Error> {
-        let held = lock(&self.held).remove(&replicate).unwrap_or_default();
-        (SAMPLES..).zip(held).try_for_each(|(kind, numbers)| self.add(kind, replicate, numbers))
+    /// Shows all that was recorded of a replicate, and puts into the file what memory has of it.
+    fn settle<R: Row>(
+        &self,
+        replicate: u64,
+        held: &[R],
+        mut show: impl FnMut(&[R]) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        self.in_file(replicate).try_for_each(|rows| show(&rows?))?;
+        show(held)?;
+        self.add(replicate, held)
+    }
+
+    /// Hands over what memory has of a replicate.
+    fn take(&self, replicate: u64) -> Held {
+        let (held, bytes) = &mut *lock(&self.held);
+        let taken = held.remove(&replicate).unwrap_or_default();
+        *bytes -= size_of_val(&taken.samples[..]) + size_of_val(&taken.points[..]);
+        taken
     }
 
     /// Forgets what was recorded of a replicate.
     pub fn leave_out(&self, replicate: u64) {
-        lock(&self.held).remove(&replicate);
+        self.take(replicate);
         if !self.earlier.contains(&replicate) {
             // What cannot be forgotten does not count, because its numbers are others.
             (SAMPLES..=LANDED).for_each(|kind| drop(self.log.forget([kind, replicate])));
@@ -274,15 +358,11 @@ impl Recorder for Flights {
     }
 
     fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
-        let row = |sample: &Sample| {
-            let mut sample = *sample;
-            SAMPLE.map(|(_, place)| *place(&mut sample))
-        };
-        self.push(SAMPLES, replicate, samples.iter().flat_map(row))
+        self.push(replicate, samples)
     }
 
     fn lay(&self, replicate: u64, points: &[LaidPoint]) -> Result<(), Error> {
-        self.push(POINTS, replicate, points.iter().flat_map(|point| POINT.map(|(_, value)| value(point))))
+        self.push(replicate, points)
     }
 
     fn shapes(&self, replicate: u64) -> Result<Shapes, Error> {
@@ -318,15 +398,6 @@ fn values(mut rest: &[f64]) -> Vec<(&'static FibreMeasure, Value)> {
     values
 }
 
-fn samples_of(numbers: &[f64]) -> Vec<Sample> {
-    let sample = |numbers: &[f64; SAMPLE.len()]| {
-        let mut sample = Sample::default();
-        SAMPLE.iter().zip(numbers).for_each(|((_, place), number)| *place(&mut sample) = *number);
-        sample
-    };
-    numbers.as_chunks().0.iter().map(sample).collect()
-}
-
 /// The tables of a run. Each has a row for each replicate and recorded instant, or laid point: `replicate`
 /// (counted from 1), then its columns.
 pub struct Tables<'a> {
@@ -353,25 +424,20 @@ impl<'a> Tables<'a> {
         Ok(Self { flights, samples: samples.collect::<Result<_, Failure>>()?, laid })
     }
 
-    /// Adds what was recorded of a replicate.
+    /// Adds what was recorded of a replicate, and puts it into the file.
     ///
     /// # Errors
     /// If it cannot be read back or written.
     pub fn add(&mut self, replicate: u64) -> Result<(), Failure> {
-        self.flights.settle(replicate)?;
-        for samples in self.flights.pieces(SAMPLES, replicate) {
-            let samples = samples_of(&samples?);
-            for (columns, table) in &mut self.samples {
-                add_rows(table, replicate, &samples, columns)?;
-            }
-        }
-        if let Some(table) = &mut self.laid {
-            for points in self.flights.pieces(POINTS, replicate) {
-                let points: Vec<_> = points?.as_chunks().0.iter().copied().map(point_of).collect();
-                add_rows(table, replicate, &points, &POINT)?;
-            }
-        }
-        Ok(())
+        let (flights, held) = (self.flights, self.flights.take(replicate));
+        flights.settle(replicate, &held.samples, |samples| {
+            let mut tables = self.samples.iter_mut();
+            tables.try_for_each(|(columns, table)| add_rows(table, replicate, samples, columns))
+        })?;
+        let laid = self.laid.as_mut();
+        laid.map_or(Ok(()), |table| {
+            flights.settle(replicate, &held.points, |points| add_rows(table, replicate, points, &POINT))
+        })
     }
 
     /// Writes the remaining rows and closes the files.
