@@ -46,6 +46,9 @@ const LOOKS_IN_PERIOD: f64 = 8.0;
 /// remembers too long, that of another one does too.
 const COARSER: f64 = 2.0;
 
+/// Memory of the way and of the random phases, which all fields of an air share [bytes].
+const TABLES: f64 = 48e3;
+
 /// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
 ///
 /// Equal airs, extents and keys give equal fields, bit for bit, in whatever order and with however many
@@ -281,7 +284,7 @@ fn memory(fields: u64, way: &EddyPath, room: &Room, cutoff: f64) -> f64 {
         making =
             making.max(synthesis::memory(points, of_stage) + tape::memory_while_joining(points, samples));
     }
-    kept * fields as f64 + making
+    kept * fields as f64 + making + TABLES
 }
 
 /// Memory of the amplitudes of a harmonic [bytes].
