@@ -11,7 +11,7 @@ mod common;
 mod vtk;
 
 use common::*;
-use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, StreamKey, Wind};
+use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, Lateral, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Strand};
 use spunlaid::ground::{Control, Isa, WIDTH};
@@ -385,4 +385,16 @@ fn limit_a_field_of_eddies_takes_the_memory_that_is_told_before() {
             assert!((0.75 * told..told).contains(&found), "{what}: {found} of {told}");
         }
     }
+}
+
+/// A field is made near its fibre only.
+#[test]
+fn limit_fibres_in_eddies_take_the_part_of_their_fields_that_is_told_before() {
+    let mut case = table1(Scheme::ImplicitTension, 2e-4, 0.4, WIDTH as u64);
+    case.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
+    let (_, memory) = memory_of(|| flights(&case));
+    let (found, told) = (memory.peak as f64, case.flight_memory().total());
+    assert!((0.5 * told..2.0 * told).contains(&found), "{found} of {told}");
+    let whole = EddyField::memory(WIDTH as u64, &case.air, case.way_of_air(), case.extent_of_air(), 10.0);
+    assert!(found < whole / 6.0, "{found} of {whole} for the whole fields");
 }

@@ -1,7 +1,7 @@
 //! The air at any place and time, as fibres in a field of eddies meet it.
 
 use super::eddy_field::EddyFields;
-use super::{Air, EddyField, Extent, Flow, LocalAir, StreamKey};
+use super::{Air, EddyField, Extent, Flow, LocalAir, Room, StreamKey};
 use crate::air::field::Hint;
 use crate::ground::{Dimension, Error, Fault, Isa, Lanes, Register, Task, Vec3, WIDTH};
 
@@ -42,7 +42,9 @@ impl AirAtPlaces {
                 "write air.lateral = \"von-karman\"",
             ));
         }
-        let field = air.field_cutoff().map(|cutoff| EddyField::new(air, distance, extent, cutoff, key));
+        // The air that a fibre flies in, but everywhere.
+        let room = Room::alone(distance, extent).for_fibre(f64::INFINITY);
+        let field = air.field_cutoff().map(|cutoff| EddyField::in_room(air, &room, cutoff, key));
         Ok(Self { air: air.clone(), extent, field, threads, isa: Isa::detect() })
     }
 
@@ -114,7 +116,7 @@ impl Task for Look<'_> {
                 lanes
             };
             let at = Vec3::new(coordinate(|p| p.x), coordinate(|p| p.y), coordinate(|p| p.z));
-            let Vec3 { x, y, z } = fields.fluctuations::<S>(self.time, &at);
+            let (Vec3 { x, y, z }, _) = fields.fluctuations::<S>(self.time, &at);
             all.extend((0..eight.len()).map(|lane| Vec3::new(x.0[lane], y.0[lane], z.0[lane])));
         }
         all
@@ -236,17 +238,21 @@ mod tests {
     #[test]
     fn identical_to_the_air_around_a_fibre() {
         let place = Inlet { y: 3e-3, z: -7e-3 };
-        let field = EddyField::new(&air(), DISTANCE, EXTENT, 8.0, KEY);
+        // A fibre that swings far beyond what is made of its field at first.
+        let room = Room::alone(DISTANCE, EXTENT).for_fibre(0.01);
+        let field = EddyField::in_room(&air(), &room, 8.0, KEY);
         let lanes = PerLane::new(vec![(air(), place, Arc::new(field), DISTANCE)]).unwrap();
         let mut around = AirInSpace::new(&lanes, 20, 1);
         let mut free = at_places();
-        let nodes: Vec<Vec3<f64>> = (0..=20).map(|i| Vec3::new(0.01 * f64::from(i), 1e-3, 2e-3)).collect();
-        let fibre: Vec<Vec3<Lanes>> = nodes.iter().map(|node| Vec3::splat(*node)).collect();
-        let centres: Vec<Vec3<f64>> = (nodes.windows(2))
-            .map(|ends| (ends[0] + ends[1]) * 0.5 + Vec3::new(0.0, place.y, place.z))
-            .collect();
         for step in 0..40 {
-            let time = 1e-3 * step as f64;
+            let (time, swing) = (1e-3 * step as f64, 1e-2 * (step as f64 - 15.0));
+            let node =
+                |i: u32| Vec3::new(0.01 * f64::from(i), swing * f64::from(i) / 20.0, 2e-3 - 0.5 * swing);
+            let nodes: Vec<Vec3<f64>> = (0..=20).map(node).collect();
+            let fibre: Vec<Vec3<Lanes>> = nodes.iter().map(|node| Vec3::splat(*node)).collect();
+            let centres: Vec<Vec3<f64>> = (nodes.windows(2))
+                .map(|ends| (ends[0] + ends[1]) * 0.5 + Vec3::new(0.0, place.y, place.z))
+                .collect();
             let found = free.velocities(time, &centres).unwrap();
             let there = around.look::<Plain>(step, time, &fibre);
             for (j, found) in found.iter().enumerate() {

@@ -5,7 +5,7 @@
 //! MeanAlong, or Surroundings in a CFD field → mean velocity and rms there → the velocity
 //! ```
 
-use super::eddy_field::EddyFields;
+use super::eddy_field::{EddyFields, Missing};
 use super::{Air, EddyField, Surroundings};
 use crate::air::field::Hint;
 use crate::ground::place::Inlet;
@@ -150,14 +150,22 @@ impl AirInSpace {
     fn look_up<S: Register>(&mut self, t: f64, position: &[Vec3<Lanes>]) {
         let (each, field, per_step) = self.elements.look_up::<S>(position);
         let half = Wide::<S>::splat(0.5);
-        let fields = EddyFields::new(from_fn(|lane| &*self.fields.lane(lane).field));
+        let mut fields = looked_at(&self.fields);
         let means: [&WayFlow; WIDTH] = from_fn(|lane| self.means.lane(lane));
         let places =
             Vec3::new(Lanes::ZERO, self.places.lanes(|place| place.y), self.places.lanes(|place| place.z));
         for (j, (ends, element)) in position.windows(2).zip(each).enumerate() {
             let centre = ((Vec3::load(&ends[0]) + Vec3::load(&ends[1])) * half).store();
             let at = centre + places;
-            let fluctuation = fields.fluctuations::<S>(t, &at);
+            let fluctuation = loop {
+                match fields.fluctuations::<S>(t, &at) {
+                    (fluctuation, None) => break fluctuation,
+                    (_, Some(missing)) => {
+                        self.fields = widened(&self.fields, &missing);
+                        fields = looked_at(&self.fields);
+                    }
+                }
+            };
             let (mut mean, mut rms) = (Vec3::ZERO, Lanes::ZERO);
             for (lane, means) in means.iter().enumerate() {
                 let [speed, widening, strength] = means.at(at.x.0[lane]);
@@ -172,6 +180,23 @@ impl AirInSpace {
             element.keep(Vec3::load(&fluctuation).mul_add(rms, mean), per_step);
         }
     }
+}
+
+#[inline(always)]
+fn looked_at(fields: &PerLane<Field>) -> EddyFields<'_> {
+    EddyFields::new(from_fn(|lane| &*fields.lane(lane).field))
+}
+
+/// The fields, of which one is made around a place that a fibre has come to.
+#[cold]
+#[inline(never)]
+fn widened(fields: &PerLane<Field>, missing: &Missing) -> PerLane<Field> {
+    let Field { field, same_as } = fields.lane(missing.lane);
+    let wider = Arc::new(field.widened(missing));
+    fields.map(|known| match known.same_as == *same_as {
+        true => Field { field: Arc::clone(&wider), same_as: *same_as },
+        false => known.clone(),
+    })
 }
 
 /// [`AirInSpace::look_up`].

@@ -77,8 +77,8 @@ impl Case {
         let (turbulence, synthesis, field) = match air.field_cutoff() {
             None => (turbulence, synthesis, 0.0),
             Some(cutoff) => {
-                let (fields, extent) = (self.run.replicates.min(WIDTH as u64), self.extent_of_air());
-                (0.0, 0.0, EddyField::memory(fields, air, self.way_of_air(), extent, cutoff))
+                let fields = self.run.replicates.min(WIDTH as u64);
+                (0.0, 0.0, EddyField::memory_in_room(fields, air, &self.room_of_air(), cutoff))
             }
         };
         let number_of_instants = (self.run.steps / self.run.output_steps.max(1) + 1) as f64;
@@ -87,6 +87,13 @@ impl Case {
         let kept = |(bytes, most): (f64, f64)| bytes * number_of_instants.min(most);
         let instants = kept(QUANTILES) + kept(SPECTRA);
         FlightMemory { chain, turbulence, synthesis, field, instants }
+    }
+
+    /// Pairs of windows of a field of eddies in space that a run makes one after the other, in those of its first
+    /// step; zero without such a field.
+    pub(crate) fn windows_of_eddies(&self) -> f64 {
+        let pairs = |cutoff| EddyField::pairs(&self.air, &self.room_of_air(), cutoff, self.air_horizon());
+        self.air.field_cutoff().map_or(0.0, pairs)
     }
 
     /// Number of eddies, or stations of the air, for which a flight makes turbulence; at most one for each

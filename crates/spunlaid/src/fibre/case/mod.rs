@@ -10,7 +10,9 @@ mod step;
 mod usual;
 
 use crate::air::motion::time_between_looks;
-use crate::air::{Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, StationGrid, StreamKey};
+use crate::air::{
+    Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, Room, StationGrid, StreamKey,
+};
 use crate::fibre::body::{Fibre, linear_density};
 use crate::fibre::chain::{Scheme, Strand};
 use crate::fibre::drag::Drag;
@@ -168,6 +170,14 @@ impl Case {
     pub fn extent_of_air(&self) -> Extent {
         let side = 10.0 * self.length_scales().fold(0.0, f64::max);
         Extent { y: side, z: side }
+    }
+
+    /// The room of a field of eddies in space around a fibre that is alone in it.
+    pub(crate) fn room_of_air(&self) -> Room {
+        /// How far aside fibres go that hang, and that are fed, over the way: three standard deviations of usual ones.
+        const SWINGS: [f64; 2] = [0.035, 0.135];
+        let swing = SWINGS[usize::from(self.line.is_some())];
+        Room::alone(self.way_of_air(), self.extent_of_air()).for_fibre(swing)
     }
 
     /// The smallest length scale of the eddies on the way of the air [m].

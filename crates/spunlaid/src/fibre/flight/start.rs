@@ -203,13 +203,10 @@ pub(super) fn surrounded(
                         false => Arc::new(field.with_key(key)),
                     }
                 }
-                _ => Arc::new(EddyField::new(
-                    &job.case.air,
-                    distance,
-                    job.case.extent_of_air(),
-                    cutoff.number(),
-                    key,
-                )),
+                _ => {
+                    let (air, room) = (&job.case.air, job.case.room_of_air());
+                    Arc::new(EddyField::in_room(air, &room, cutoff.number(), key))
+                }
             };
             last = Some((job, Arc::clone(&field)));
             (job.case.air.clone(), job.place, field, distance)

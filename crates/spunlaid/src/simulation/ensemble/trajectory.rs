@@ -279,11 +279,16 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     const TRIAL: f64 = 0.05;
     const PARTS: u64 = 64;
     let steps = ((2e5 / case.fibre.elements as f64).clamp(1.0, 1e4) as u64).min(case.run.steps).max(1);
-    // Each fibre finds its own part of a field.
+    // Each fibre finds its own part of a field, and has eddies in space of its own.
     let is_in_field = matches!(case.air.flow, Flow::Field(_));
-    let fibres = if is_in_field { case.run.replicates.clamp(1, WIDTH as u64) } else { 1 };
+    let windows = case.windows_of_eddies();
+    let fibres = if is_in_field || windows > 0.0 { case.run.replicates.clamp(1, WIDTH as u64) } else { 1 };
     let jobs: Vec<Job<'_>> = (0..fibres).map(|replicate| Job::new(case, replicate)).collect();
     let mut flight = Flight::new(&jobs, isa)?;
+    // The first step makes the first windows, and those that follow take as long.
+    let begun = Instant::now();
+    flight.advance(u64::from(windows > 0.0));
+    let making = windows * begun.elapsed().as_secs_f64() / case.run.steps as f64;
     if let Some(line) = case.line {
         // Until the fibre has come down.
         let down = 1.5 * line.distance / line.feed_speed / case.run.time_step;
@@ -306,7 +311,7 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
         }
     }
     let (done_before, time_before) = if before.0 < done { before } else { (0, 0.0) };
-    Ok((started.elapsed().as_secs_f64() - time_before) / (done - done_before) as f64)
+    Ok(making + (started.elapsed().as_secs_f64() - time_before) / (done - done_before) as f64)
 }
 
 /// Steps that are repeated between two looks at whether to stop.

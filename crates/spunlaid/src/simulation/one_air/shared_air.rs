@@ -301,7 +301,7 @@ impl Beam<'_> {
     /// Most memory that its air takes in a room [B].
     fn memory_in(&self, room: &Room, highest: f64) -> f64 {
         let air = &self.case.air;
-        let memory = |cutoff: f64| EddyField::memory_in_room(air, room, cutoff.min(highest));
+        let memory = |cutoff: f64| EddyField::memory_in_room(1, air, room, cutoff.min(highest));
         air.lateral.cutoff().map_or(0.0, memory)
     }
 

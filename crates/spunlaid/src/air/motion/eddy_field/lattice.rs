@@ -1,9 +1,12 @@
 //! The lattice on which a field is kept, across the way and in time.
 
+use super::transform::ABREAST;
 use std::f64::consts::{PI, TAU};
 
 /// Share of the highest wave number that a lattice can carry.
 const CARRIED: f64 = 0.8;
+/// Points that are made beyond one that a fibre has come to.
+const MARGIN: usize = 3;
 /// Samples in the shortest period of a generation.
 const SAMPLES_IN_PERIOD: usize = 4;
 
@@ -14,6 +17,79 @@ pub struct Extent {
     pub y: f64,
     /// Along z, the cross direction.
     pub z: f64,
+}
+
+/// Successive points along an axis, after whose last the first one follows: all, or those near a fibre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Band {
+    first: usize,
+    pub(super) count: usize,
+    /// Number of all.
+    of: usize,
+}
+
+impl Band {
+    /// The four points from one on, and a margin to either side.
+    fn around(first: usize, margin: usize, of: usize) -> Self {
+        let count = NEEDED + 2 * margin;
+        if count >= of {
+            Self { first: 0, count: of, of }
+        } else {
+            Self { first: (first + of - margin) % of, count, of }
+        }
+    }
+
+    /// Where the first of four points lies in the band; none if one of them is not in it.
+    #[inline(always)]
+    pub(super) fn place(self, first: usize) -> Option<usize> {
+        let place = if first < self.first { first + self.of - self.first } else { first - self.first };
+        (self.count == self.of || place + NEEDED <= self.count).then_some(place)
+    }
+
+    /// The number of a point among all.
+    pub(super) fn point(self, place: usize) -> usize {
+        (self.first + place) % self.of
+    }
+
+    /// The band that also holds four points from one on, with a margin beyond them.
+    fn widened(self, first: usize, margin: usize) -> Self {
+        if self.place(first).is_some() {
+            return self;
+        }
+        let Self { first: start, of, .. } = self;
+        let up = (first + of - start) % of + NEEDED + margin;
+        let down = (start + of - first) % of + margin;
+        let (start, count) = if up - self.count.min(up) <= down {
+            (start, up)
+        } else {
+            ((first + of - margin.min(of)) % of, self.count + down)
+        };
+        if count >= of { Self { first: 0, count: of, of } } else { Self { first: start, count, of } }
+    }
+}
+
+/// The points of a field that are made, along y and z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part(pub(super) [Band; 2]);
+
+impl Part {
+    /// Where four lines and four points of each lie in it.
+    #[inline(always)]
+    pub(super) fn place(&self, first: [usize; 2]) -> Option<[usize; 2]> {
+        let Self([y, z]) = self;
+        Some([y.place(first[0])?, z.place(first[1])?])
+    }
+
+    /// Number of points along y and z.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        self.0.map(|band| band.count)
+    }
+
+    /// The part that also holds the points around a place, with a margin beyond them.
+    pub(super) fn widened(&self, first: [usize; 2]) -> Self {
+        let [y, z] = self.0;
+        Self([y.widened(first[0], MARGIN), z.widened(first[1], MARGIN)])
+    }
 }
 
 /// The points of a field across the way.
@@ -57,6 +133,19 @@ impl Lattice {
         [TAU / self.extent.y, TAU / self.extent.z]
     }
 
+    /// The points within a distance [m] of the middle, or all.
+    pub(super) fn part(&self, within: Option<f64>) -> Part {
+        let margin = |of: usize, extent: f64| match within {
+            Some(within) => (within * of as f64 / extent).ceil().min(of as f64) as usize + 1,
+            None => of,
+        };
+        let [y, z] = self.points;
+        let [of_y, of_z] = [margin(y, self.extent.y), margin(z, self.extent.z)];
+        // As many points along z as are transformed together take no longer than one.
+        let of_z = ((NEEDED + 2 * of_z).next_multiple_of(ABREAST) - NEEDED) / 2;
+        Part([Band::around(y - BEFORE as usize, of_y, y), Band::around(z - BEFORE as usize, of_z, z)])
+    }
+
     /// What the interpolation leaves of the rms of waves: along y, and along z.
     pub(super) fn left(&self, waves: [i64; 2]) -> f64 {
         let each = [0, 1].map(|axis| left(TAU * waves[axis] as f64 / self.points[axis] as f64));
@@ -97,11 +186,13 @@ pub(super) const NEEDED: usize = 4;
 pub(super) const REPEATED: usize = NEEDED - 1;
 /// Points along z in a brick. In a row of all points the samples around a place would lie far apart in memory.
 pub(super) const BRICK: usize = 32;
-/// Numbers of a sample in a brick, with the points that it repeats of the next one.
-pub(super) const ROW: usize = 3 * (BRICK + REPEATED);
+/// Numbers of a sample in a brick of a line of points, with the points that it repeats of the next one.
+pub(super) fn row_size(points: usize) -> usize {
+    3 * (BRICK.min(points) + REPEATED)
+}
 /// Numbers that are read for a sample: four points of three components, and what follows them.
 pub(super) const READ: usize = 16;
 /// Numbers in a line of a block. What follows the last point is read, but does not count.
 pub(super) fn line_size(samples: usize, points: usize) -> usize {
-    points.div_ceil(BRICK) * samples * ROW + READ - 3 * NEEDED
+    points.div_ceil(BRICK) * samples * row_size(points) + READ - 3 * NEEDED
 }

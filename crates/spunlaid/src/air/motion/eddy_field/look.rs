@@ -21,6 +21,19 @@ pub(crate) struct EddyFields<'a> {
     fading: Lanes,
     /// Number of the last generation that has one to fade into.
     last: Lanes,
+    /// Times of the pattern at the start [s].
+    starts: Lanes,
+    /// Generations that are looked at.
+    parts: usize,
+}
+
+/// A place whose points have not been made.
+#[derive(Clone, Copy)]
+pub(crate) struct Missing {
+    pub(crate) lane: usize,
+    pub(super) generation: usize,
+    /// The first points around it along y and z.
+    pub(super) first: [usize; 2],
 }
 
 /// The points along y or along z, after which a field repeats itself.
@@ -46,8 +59,11 @@ impl<'a> EddyFields<'a> {
             z: ring(),
             fading: Lanes::ZERO,
             last: Lanes::ZERO,
+            starts: Lanes::ZERO,
+            parts: 1,
         };
-        for (lane, plan) in all.plans.iter().enumerate() {
+        for (lane, (plan, field)) in all.plans.iter().zip(fields).enumerate() {
+            all.starts.0[lane] = field.start;
             let lattice = &plan.lattice;
             let axes = [(&mut all.y, lattice.extent.y), (&mut all.z, lattice.extent.z)];
             for ((ring, extent), points) in axes.into_iter().zip(lattice.points) {
@@ -55,33 +71,39 @@ impl<'a> EddyFields<'a> {
                 ring.points.0[lane] = points as f64;
             }
             let fading = usize::from(plan.way.is_carried() && plan.generations.len() > 1);
+            all.parts = all.parts.max(1 + fading);
             all.fading.0[lane] = fading as f64;
             all.last.0[lane] = (plan.generations.len() - 1 - fading) as f64;
         }
         all
     }
 
-    /// Fluctuations of rms one, x, y and z [-].
+    /// Fluctuations of rms one, x, y and z [-]; and a place for which the field has not been made, if there is one.
     ///
     /// * `time` – for which the fields have been made [s]
     /// * `at` – places: distance from the inlet, and y and z [m]
     #[inline(always)]
-    pub(crate) fn fluctuations<S: Register>(&self, time: f64, at: &Vec3<Lanes>) -> Vec3<Lanes> {
+    pub(crate) fn fluctuations<S: Register>(
+        &self,
+        time: f64,
+        at: &Vec3<Lanes>,
+    ) -> (Vec3<Lanes>, Option<Missing>) {
         let one = Wide::<S>::splat(1.0);
         let [generation, travel] = self.passages::<S>(&at.x);
         let young = generation.floor().min(Wide::load(&self.last));
         let share = (generation - young).min(one) * Wide::load(&self.fading);
         let young = indices(young);
-        let label = (Wide::splat(time) - travel).store();
+        let label = (Wide::splat(time) + Wide::load(&self.starts) - travel).store();
 
         let across_y = self.y.around::<S>(&at.y);
         let across_z = self.z.around::<S>(&at.z);
         // Where all samples are is found first, so that they are on their way from memory while the first
         // ones are summed up.
         let mut rows = [[[Rows::NONE; NEEDED]; WIDTH]; 2];
+        let mut missing = None;
         // Of a line and a sample.
         let mut weights = [[[[0.0_f32; WIDTH]; NEEDED]; NEEDED]; 2];
-        for (next, part) in [one - share, share].into_iter().enumerate() {
+        for (next, part) in [one - share, share].into_iter().enumerate().take(self.parts) {
             let mut generations = young;
             let mut places = Lanes::ZERO;
             for (lane, generation) in generations.iter_mut().enumerate() {
@@ -95,13 +117,18 @@ impl<'a> EddyFields<'a> {
                 }
             }
             for (lane, rows) in rows[next].iter_mut().enumerate() {
-                let Some(block) = self.tapes[lane][generations[lane]].around(along.first[lane]) else {
+                let tape = &self.tapes[lane][generations[lane]];
+                let Some(block) = tape.around(along.first[lane]) else {
                     continue;
                 };
-                let lines = self.plans[lane].lattice.points[0];
-                let mut line = across_y.first[lane] as usize;
+                let first = [across_y.first[lane] as usize, across_z.first[lane] as usize];
+                let Some([mut line, point]) = tape.part.place(first) else {
+                    missing = Some(Missing { lane, generation: generations[lane], first });
+                    continue;
+                };
+                let lines = tape.part.counts()[0];
                 for rows in rows {
-                    *rows = block.rows(along.first[lane], line, across_z.first[lane] as usize);
+                    *rows = block.rows(along.first[lane], line, point);
                     line = if line + 1 == lines { 0 } else { line + 1 };
                 }
             }
@@ -109,7 +136,7 @@ impl<'a> EddyFields<'a> {
         let mut sums = [[0.0; READ]; WIDTH];
         for (lane, sums) in sums.iter_mut().enumerate() {
             let mut of_samples = [S::Singles::zero(); NEEDED];
-            for (rows, weights) in rows.iter().zip(&weights) {
+            for (rows, weights) in rows.iter().zip(&weights).take(self.parts) {
                 for (rows, weights) in rows[lane].iter().zip(weights) {
                     for (m, sum) in of_samples.iter_mut().enumerate() {
                         *sum = sum.add_weighted(rows.row(m), weights[m][lane]);
@@ -119,7 +146,7 @@ impl<'a> EddyFields<'a> {
             let [a, b, c, d] = of_samples;
             *sums = a.add(b).add(c.add(d)).store();
         }
-        self.across_z(&sums, &across_z.weights, share, &young)
+        (self.across_z(&sums, &across_z.weights, share, &young), missing)
     }
 
     /// Generation and travel time of the air at distances from the inlet [m].

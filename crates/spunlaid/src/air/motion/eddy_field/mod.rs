@@ -33,8 +33,8 @@ use self::way::EddyPath;
 use super::{Air, SpectrumShape, StreamKey};
 use crate::ground::Isa;
 pub use lattice::Extent;
-use lattice::{BEFORE, Lattice, NEEDED, samples};
-pub(crate) use look::EddyFields;
+use lattice::{BEFORE, Lattice, NEEDED, Part, samples};
+pub(crate) use look::{EddyFields, Missing};
 use plan::{BLOCKS, sizes};
 use std::ops::Range;
 use std::sync::Arc;
@@ -45,6 +45,9 @@ const LOOKS_IN_PERIOD: f64 = 8.0;
 /// How many times as far apart as usual generations are in a [`Room`]: what the pattern of one of its airs
 /// remembers too long, that of another one does too.
 const COARSER: f64 = 2.0;
+
+/// Memory of the way and of the random phases, which all fields of an air share [bytes].
+const TABLES: f64 = 48e3;
 
 /// A field of eddies with the mean zero and the rms one, as far as it has been made. Clones share what has been made.
 ///
@@ -57,8 +60,10 @@ pub struct EddyField {
     key: StreamKey,
     /// Of each generation.
     tapes: Vec<Tape>,
-    /// Times for which the field can be looked at [s].
+    /// Times for which the field can be looked at, from the start on [s].
     made: Range<f64>,
+    /// Time of the pattern at the start [s].
+    start: f64,
 }
 
 impl std::fmt::Debug for EddyField {
@@ -80,6 +85,9 @@ pub(crate) struct Room {
     /// Largest wave number across, times the smallest length scale, of the waves that fields of any larger cut-off
     /// have in common.
     in_common: f64,
+    /// How far from the middle a fibre goes that is alone in it, in distances from the inlet [-]: what lies farther is
+    /// made when it comes there. None if all is made, and for many fibres.
+    swing: Option<f64>,
 }
 
 impl Room {
@@ -92,6 +100,7 @@ impl Room {
             distance: largest(|(_, distance, _)| *distance),
             steps: (0, COARSER),
             in_common: f64::INFINITY,
+            swing: None,
         };
         let steps = airs.iter().map(|(air, ..)| room.way(air).stages.len() - 1);
         Self { steps: (steps.max().unwrap_or(0), COARSER), ..room }
@@ -99,13 +108,24 @@ impl Room {
 
     /// The room of one air alone.
     pub(crate) const fn alone(distance: f64, extent: Extent) -> Self {
-        Self { extent, distance, steps: (0, 1.0), in_common: f64::INFINITY }
+        Self { extent, distance, steps: (0, 1.0), in_common: f64::INFINITY, swing: None }
     }
 
     /// The same room, in which a field of any larger cut-off than this one has the waves of a field of this one, and
     /// smaller ones.
     pub(crate) const fn with_waves_in_common(self, cutoff: f64) -> Self {
         Self { in_common: cutoff, ..self }
+    }
+
+    /// The same room for one fibre.
+    pub(crate) const fn for_fibre(self, swing: f64) -> Self {
+        Self { swing: Some(swing), ..self }
+    }
+
+    /// The points that are made of each generation at first.
+    fn parts(&self, way: &EddyPath, lattice: &Lattice) -> Vec<Part> {
+        let within = |generation: usize| Some(self.swing? * way.farthest(generation));
+        (0..way.stages.len()).map(|generation| lattice.part(within(generation))).collect()
     }
 
     fn way(&self, air: &Air) -> EddyPath {
@@ -134,9 +154,10 @@ impl EddyField {
     /// * `cutoff`, `key` – as of [`EddyField::new`]
     pub(crate) fn in_room(air: &Air, room: &Room, cutoff: f64, key: StreamKey) -> Self {
         let plan = Plan::new(air, room.way(air), room.extent, [cutoff, room.in_common.min(cutoff)]);
-        let tapes = vec![Tape::default(); plan.generations.len()];
+        let tapes = room.parts(&plan.way, &plan.lattice).into_iter().map(Tape::unmade).collect();
         Self {
             synthesis: Arc::new(Synthesis::new(&plan, Isa::detect())),
+            start: room.swing.map_or(0.0, |_| plan.start_of_fibre()),
             plan: Arc::new(plan),
             key,
             tapes,
@@ -182,7 +203,7 @@ impl EddyField {
     /// Another field of the same air, with a key of its own.
     #[must_use]
     pub(crate) fn with_key(&self, key: StreamKey) -> Self {
-        let tapes = vec![Tape::default(); self.tapes.len()];
+        let tapes = self.tapes.iter().map(|tape| Tape::unmade(tape.part)).collect();
         Self { key, tapes, made: 0.0..0.0, ..self.clone() }
     }
 
@@ -191,12 +212,22 @@ impl EddyField {
     ///
     /// * as of [`EddyField::new`]
     pub fn memory(fields: u64, air: &Air, distance: f64, extent: Extent, cutoff: f64) -> f64 {
-        memory(fields, &EddyPath::new(air, distance), extent, cutoff)
+        Self::memory_in_room(fields, air, &Room::alone(distance, extent), cutoff)
     }
 
-    /// [`EddyField::memory`] of one field in a room.
-    pub(crate) fn memory_in_room(air: &Air, room: &Room, cutoff: f64) -> f64 {
-        memory(1, &room.way(air), room.extent, cutoff)
+    /// [`EddyField::memory`] of fields in a room.
+    pub(crate) fn memory_in_room(fields: u64, air: &Air, room: &Room, cutoff: f64) -> f64 {
+        memory(fields, &room.way(air), room, cutoff)
+    }
+
+    /// How many pairs of windows are made for a fibre until a time [s], in those that are made at its start.
+    ///
+    /// * as of [`EddyField::in_room`]
+    pub(crate) fn pairs(air: &Air, room: &Room, cutoff: f64, until: f64) -> f64 {
+        let plan = Plan::new(air, room.way(air), room.extent, [cutoff; 2]);
+        let pairs = |time: f64| (time / plan.pair()).ceil();
+        let first = plan.start_of_fibre() + plan.block();
+        pairs(first + until) / pairs(first)
     }
 
     /// Longest time between two looks at the air around a fibre that is fed [s]: an eighth of the shortest
@@ -225,33 +256,45 @@ impl EddyField {
 
     /// Makes what is looked at between two times [s], and forgets what lies before them.
     pub fn make(&mut self, times: Range<f64>, threads: usize) {
-        let Self { plan, synthesis, key, .. } = self;
-        for (j, tape) in self.tapes.iter_mut().enumerate() {
-            let (spacing, margin) = (plan.spacing(j), NEEDED as f64);
-            let [youngest, oldest] = plan.way.travels(j);
-            let first = ((times.start - oldest) / spacing - margin).floor() as i64 - BEFORE;
-            let end = ((times.end - youngest) / spacing + margin).ceil() as i64 + 1;
-            tape.extend((&**plan, &**synthesis, *key), j, first..end, threads);
-        }
         self.made = times;
+        (0..self.tapes.len()).for_each(|generation| self.make_generation(generation, threads));
+    }
+
+    fn make_generation(&mut self, j: usize, threads: usize) {
+        let Self { plan, synthesis, key, .. } = self;
+        let made = self.start + self.made.start..self.start + self.made.end;
+        let (spacing, margin) = (plan.spacing(j), NEEDED as f64);
+        let [youngest, oldest] = plan.way.travels(j);
+        let first = ((made.start - oldest) / spacing - margin).floor() as i64 - BEFORE;
+        let end = ((made.end - youngest) / spacing + margin).ceil() as i64 + 1;
+        self.tapes[j].extend((&**plan, &**synthesis, *key), j, first..end, threads);
+    }
+
+    /// The same field, as far as it has been made and around a place that was missing, with the same bits.
+    #[must_use]
+    pub(crate) fn widened(&self, missing: &Missing) -> Self {
+        let (j, mut field) = (missing.generation, self.clone());
+        field.tapes[j] = Tape::unmade(field.tapes[j].part.widened(missing.first));
+        field.make_generation(j, 1);
+        field
     }
 }
 
 /// The most memory that so many fields take, of which one at a time is made in such blocks [bytes].
-fn memory(fields: u64, way: &EddyPath, extent: Extent, cutoff: f64) -> f64 {
-    let (lattice, harmonics) = sizes(way, extent, cutoff);
+fn memory(fields: u64, way: &EddyPath, room: &Room, cutoff: f64) -> f64 {
+    let (lattice, harmonics) = sizes(way, room.extent, cutoff);
     let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
     let (mut kept, mut making) = (0.0, 0.0_f64);
-    for (j, stage) in way.stages.iter().enumerate() {
-        let of_stage = harmonics as f64 * stage.cutoff_frequency / highest;
+    for (j, (stage, part)) in way.stages.iter().zip(room.parts(way, &lattice)).enumerate() {
+        let (of_stage, points) = (harmonics as f64 * stage.cutoff_frequency / highest, part.counts());
         let samples = samples(of_stage.ceil() as usize);
         let [youngest, oldest] = way.travels(j);
         let looked_at = samples as f64 * (1.0 / BLOCKS + (oldest - youngest) * highest / harmonics as f64);
-        kept += tape::memory(&lattice, samples, looked_at) + of_stage * amplitudes_memory(&lattice);
+        kept += tape::memory(points, samples, looked_at) + of_stage * amplitudes_memory(&lattice);
         making =
-            making.max(synthesis::memory(&lattice, of_stage) + tape::memory_while_joining(&lattice, samples));
+            making.max(synthesis::memory(points, of_stage) + tape::memory_while_joining(points, samples));
     }
-    kept * fields as f64 + making
+    kept * fields as f64 + making + TABLES
 }
 
 /// Memory of the amplitudes of a harmonic [bytes].

@@ -11,6 +11,8 @@ use std::sync::Arc;
 const ENERGY_WAVE: f64 = 0.746834;
 /// Fewest harmonics, and fewest of the generation with the lowest cut-off frequency.
 const FEWEST: [f64; 2] = [64.0, 10.0];
+/// Samples more than are looked at around a place.
+const MARGIN: f64 = 12.0;
 /// Blocks of time in a repeat time.
 pub(super) const BLOCKS: f64 = 8.0;
 
@@ -91,6 +93,18 @@ impl Plan {
     /// Time from sample to sample of a generation [s].
     pub(super) fn spacing(&self, generation: usize) -> f64 {
         self.repeat_time / self.generations[generation].samples as f64
+    }
+
+    /// Time of a field at which a fibre begins, so that the first windows are in full strength there and all that is
+    /// looked at before [s].
+    pub(super) fn start_of_fibre(&self) -> f64 {
+        let of = |j| self.way.travels(j)[1] + 0.25 * self.repeat_time + MARGIN * self.spacing(j);
+        (0..self.generations.len()).map(of).fold(0.0, f64::max)
+    }
+
+    /// Time that a pair of windows lasts [s].
+    pub(super) fn pair(&self) -> f64 {
+        1.5 * self.repeat_time
     }
 
     /// A good length of the blocks of time for which a field is made [s].
@@ -233,5 +247,8 @@ impl Mode {
 pub(super) fn projection(k: [f64; 3], is_alone: bool) -> [[f64; 3]; 3] {
     let square = k[0] * k[0] + k[1] * k[1] + k[2] * k[2];
     let per_square = if is_alone { 0.0 } else { 1.0 / square };
-    from_fn(|i| from_fn(|m| (if i == m { 1.0 } else { 0.0 }) - k[i] * k[m] * per_square))
+    let [x, y, z] = k;
+    let less = |whole: f64, product: f64| whole - product * per_square;
+    let (xy, xz, yz) = (less(0.0, x * y), less(0.0, x * z), less(0.0, y * z));
+    [[less(1.0, x * x), xy, xz], [xy, less(1.0, y * y), yz], [xz, yz, less(1.0, z * z)]]
 }

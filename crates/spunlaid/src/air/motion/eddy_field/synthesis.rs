@@ -7,7 +7,7 @@
 //! The real and the imaginary part of one complex transform are two independent fields: two windows, one
 //! after the other.
 
-use super::lattice::Lattice;
+use super::lattice::{Lattice, Part};
 use super::plan::{Harmonic, Plan, projection};
 use super::transform::{ABREAST, Numbers, Transform, Turned, root};
 use crate::air::motion::StreamKey;
@@ -16,7 +16,6 @@ use crate::ground::random::stream;
 use crate::ground::threads::each;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
-use std::array::from_fn;
 use std::f64::consts::TAU;
 
 /// Number of different random phases.
@@ -63,21 +62,21 @@ impl Synthesis {
     /// Makes two windows of a generation, and lets `finish` make each line.
     ///
     /// * `pair` – number of the pair of windows
+    /// * `part` – points that are made
     pub(super) fn lines<T: Send>(
         &self,
         plan: &Plan,
         key: StreamKey,
-        (generation, pair): (usize, i64),
+        (generation, pair, part): (usize, i64, &Part),
         threads: usize,
         finish: impl Fn(usize, LineMaker<'_>) -> T + Sync,
     ) -> Vec<T> {
         let shape = &plan.generations[generation];
         let planes = each(threads, shape.harmonics.len(), |n| {
-            let mut random =
-                [0, SMALLER].map(|part| Random::new(plan, key, pair, generation, n as u64 | part));
-            self.plane(plan, &shape.harmonics[n], &mut random)
+            let mut random = [0, SMALLER].map(|set| Random::new(plan, key, pair, generation, n as u64 | set));
+            self.plane(plan, &shape.harmonics[n], &mut random, part)
         });
-        let [lines, points] = plan.lattice.points;
+        let [lines, points] = part.counts();
         each(threads, lines, |y| {
             let line = LineMaker {
                 synthesis: self,
@@ -92,39 +91,48 @@ impl Synthesis {
     }
 
     /// The modes of a harmonic as points, of each component `[y][z]`.
-    fn plane(&self, plan: &Plan, harmonic: &Harmonic, random: &mut [Random; 2]) -> [Complexes; 3] {
+    fn plane(
+        &self,
+        plan: &Plan,
+        harmonic: &Harmonic,
+        random: &mut [Random; 2],
+        part: &Part,
+    ) -> [Complexes; 3] {
         let lattice = &plan.lattice;
+        let (Part([of_y, of_z]), [lines, columns]) = (part, part.counts());
         let [points_y, points_z] = lattice.points;
         let waves_y = 2 * lattice.most_waves()[0] as usize + 1;
         let mut scratch = Vec::new();
         self.modes(plan, harmonic, random).map(|modes| {
             // `[waves along y][z]`
-            let mut half = [0, 1].map(|_| vec![0.0; waves_y * points_z]);
+            let mut half = [0, 1].map(|_| vec![0.0; waves_y * columns]);
             for first in (0..waves_y).step_by(ABREAST) {
                 let count = ABREAST.min(waves_y - first);
                 let mut numbers = load(&modes, points_z, waves_y, first, count);
                 scratch.resize(points_z, Numbers::ZERO);
                 self.along_z.pass(self.isa, points_z, &mut numbers, &mut scratch);
-                for (z, number) in numbers.iter().enumerate() {
+                for z in 0..columns {
+                    let number = &numbers[of_z.point(z)];
                     for wave in 0..count {
-                        half[0][(first + wave) * points_z + z] = number.re[wave];
-                        half[1][(first + wave) * points_z + z] = number.im[wave];
+                        half[0][(first + wave) * columns + z] = number.re[wave];
+                        half[1][(first + wave) * columns + z] = number.im[wave];
                     }
                 }
             }
-            let mut points = [0, 1].map(|_| vec![0.0; points_y * points_z]);
-            for first in (0..points_z).step_by(ABREAST) {
-                let count = ABREAST.min(points_z - first);
-                let waves = load(&half, waves_y, points_z, first, count);
+            let mut points = [0, 1].map(|_| vec![0.0; lines * columns]);
+            for first in (0..columns).step_by(ABREAST) {
+                let count = ABREAST.min(columns - first);
+                let waves = load(&half, waves_y, columns, first, count);
                 let mut numbers = vec![Numbers::ZERO; points_y];
                 for (wave, number) in waves.iter().enumerate() {
                     numbers[place(wave as i64 - (waves_y / 2) as i64, points_y)] = *number;
                 }
                 scratch.resize(points_y, Numbers::ZERO);
                 self.along_y.pass(self.isa, points_y, &mut numbers, &mut scratch);
-                for (y, number) in numbers.iter().enumerate() {
-                    points[0][y * points_z + first..][..count].copy_from_slice(&number.re[..count]);
-                    points[1][y * points_z + first..][..count].copy_from_slice(&number.im[..count]);
+                for y in 0..lines {
+                    let number = &numbers[of_y.point(y)];
+                    points[0][y * columns + first..][..count].copy_from_slice(&number.re[..count]);
+                    points[1][y * columns + first..][..count].copy_from_slice(&number.im[..count]);
                 }
             }
             points
@@ -143,28 +151,33 @@ impl Synthesis {
         let [most_y, most_z] = lattice.most_waves();
         let (columns, is_alone) = (2 * most_y as usize + 1, lattice.is_uniform());
         let mut modes = [0, 1, 2].map(|_| [0, 1].map(|_| vec![0.0; points_z * columns]));
+        let ([x, y, z], [a, b, c]) = (&mut modes, harmonic.scale);
         for waves_y in -most_y..=most_y {
             let Some(beside) = lattice.waves_beside(waves_y) else { continue };
             let larger = in_common.waves_beside(waves_y).unwrap_or(-1);
             let amplitudes = &harmonic.amplitudes[waves_y.unsigned_abs() as usize * (most_z as usize + 1)..];
             for waves_z in -beside..=beside {
                 let k = [harmonic.wave_number, waves_y as f64 * unit_y, waves_z as f64 * unit_z];
-                let projection = projection(k, is_alone);
                 let amplitude = amplitudes[waves_z.unsigned_abs() as usize];
                 let part = usize::from(waves_z.abs() > larger);
                 let white = random[part].next(&self.phases, &self.turns);
                 let at = place(waves_z, points_z) * columns + (waves_y + most_y) as usize;
-                for (i, modes) in modes.iter_mut().enumerate() {
-                    let factors: [f32; 3] = from_fn(|m| projection[i][m] as f32);
-                    for (part, modes) in modes.iter_mut().enumerate() {
-                        let [a, b, c] = from_fn(|m| factors[m] * white[m][part]);
-                        modes[at] = (a + b + c) * (harmonic.scale[i] * amplitude);
-                    }
+                let [of_x, of_y, of_z] = projection(k, is_alone);
+                for (modes, row, scale) in [(&mut *x, of_x, a), (&mut *y, of_y, b), (&mut *z, of_z, c)] {
+                    let factors = [row[0] as f32, row[1] as f32, row[2] as f32];
+                    modes[0][at] = weighted(factors, white, 0) * (scale * amplitude);
+                    modes[1][at] = weighted(factors, white, 1) * (scale * amplitude);
                 }
             }
         }
         modes
     }
+}
+
+/// The sum of the real parts, or of the imaginary ones, of three amplitudes.
+#[inline(always)]
+fn weighted([a, b, c]: [f32; 3], [u, v, w]: [[f32; 2]; 3], part: usize) -> f32 {
+    a * u[part] + b * v[part] + c * w[part]
 }
 
 /// Two windows along one line of z, made some points at a time.
@@ -209,8 +222,8 @@ impl LineMaker<'_> {
 
 /// Memory that two windows with so many harmonics take while they are made [bytes]: the points of each
 /// harmonic, complex and of three components.
-pub(super) fn memory(lattice: &Lattice, harmonics: f64) -> f64 {
-    let [y, z] = lattice.points.map(|points| points as f64);
+pub(super) fn memory(points: [usize; 2], harmonics: f64) -> f64 {
+    let [y, z] = points.map(|points| points as f64);
     harmonics * y * z * (3 * size_of::<[f32; 2]>()) as f64
 }
 
@@ -262,7 +275,8 @@ impl Random {
     #[inline(always)]
     fn next(&mut self, phases: &[[f32; 2]], turns: &[[f32; 2]]) -> [[f32; 2]; 3] {
         let start = self.stream.next_u32();
-        from_fn(|i| {
+        let mut white = [[0.0; 2]; 3];
+        for (i, white) in white.iter_mut().enumerate() {
             let phase = phases[(start >> (10 * i)) as usize % PHASES];
             let (mut forward, mut left) = (0, self.generation as u32);
             for _ in 0..self.words {
@@ -274,7 +288,8 @@ impl Random {
             // Forward less backward.
             let net = 2 * forward as usize + self.steps - self.generation;
             let turn = turns[net];
-            [phase[0] * turn[0] - phase[1] * turn[1], phase[0] * turn[1] + phase[1] * turn[0]]
-        })
+            *white = [phase[0] * turn[0] - phase[1] * turn[1], phase[0] * turn[1] + phase[1] * turn[0]];
+        }
+        white
     }
 }

@@ -143,6 +143,13 @@ impl EddyPath {
         }
     }
 
+    /// The farthest place at which a generation is looked at, as its distance from the inlet [m].
+    pub(super) fn farthest(&self, generation: usize) -> f64 {
+        let behind = self.passages.partition_point(|[number, _]| *number <= generation as f64 + 1.0);
+        let is_last = generation + 1 == self.stages.len();
+        (if is_last { PIECES } else { behind.min(PIECES) }) as f64 / self.pieces_per_length
+    }
+
     /// Pieces of the way per length [1/m].
     #[inline(always)]
     pub(super) fn pieces_per_length(&self) -> f64 {

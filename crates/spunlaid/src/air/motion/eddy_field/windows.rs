@@ -1,6 +1,6 @@
 //! How windows follow each other and are joined to endless samples.
 
-use super::lattice::{BRICK, REPEATED, ROW, line_size};
+use super::lattice::{BRICK, REPEATED, line_size, row_size};
 use super::synthesis::LineMaker;
 use super::transform::{ABREAST, Numbers};
 use crate::ground::{Isa, Register, Sixteen, Task};
@@ -90,6 +90,7 @@ impl FieldWindows {
     /// bricks, and what is left.
     pub(super) fn join(&self, isa: Isa, mut line: LineMaker<'_>, rest: &Rest) -> (Vec<Box<[f16]>>, Rest) {
         let points = line.points();
+        let row_size = row_size(points);
         let mut blocks: Vec<Box<[f16]>> = (0..BLOCKS)
             .map(|number| vec![f16::ZERO; line_size(self.block(number).len() + REPEATED, points)].into())
             .collect();
@@ -122,7 +123,7 @@ impl FieldWindows {
             for (number, block) in blocks.iter_mut().enumerate() {
                 let within = self.block(number);
                 let samples = &samples[within.start..within.end + REPEATED];
-                let rows = block[brick * samples.len() * ROW..].chunks_exact_mut(ROW);
+                let rows = block[brick * samples.len() * row_size..].chunks_exact_mut(row_size);
                 for (row, sample) in rows.zip(samples) {
                     row[place..][..count].copy_from_slice(&sample[..count]);
                 }
@@ -145,14 +146,17 @@ fn factors(sample: usize, fade: usize) -> [f32; 2] {
 ///
 /// * `samples` – in the line
 fn repeat(line: &mut [f16], samples: usize, points: usize) {
-    let bricks = points.div_ceil(BRICK);
+    let (bricks, row_size) = (points.div_ceil(BRICK), row_size(points));
     for brick in 0..bricks {
         let here = BRICK.min(points - brick * BRICK);
         for further in 0..REPEATED {
             let from = (brick * BRICK + here + further) % points;
             for sample in 0..samples {
-                let from = (from / BRICK * samples + sample) * ROW + 3 * (from % BRICK);
-                line.copy_within(from..from + 3, (brick * samples + sample) * ROW + 3 * (here + further));
+                let from = (from / BRICK * samples + sample) * row_size + 3 * (from % BRICK);
+                line.copy_within(
+                    from..from + 3,
+                    (brick * samples + sample) * row_size + 3 * (here + further),
+                );
             }
         }
     }

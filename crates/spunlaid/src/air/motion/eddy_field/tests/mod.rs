@@ -45,7 +45,7 @@ impl Task for LookOnce<'_> {
 #[inline(always)]
 fn look<S: Register>(field: &EddyField, time: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let Vec3 { x, y, z } =
-        EddyFields::new([field; WIDTH]).fluctuations::<S>(time, &Vec3::splat(Vec3::new(x, y, z)));
+        EddyFields::new([field; WIDTH]).fluctuations::<S>(time, &Vec3::splat(Vec3::new(x, y, z))).0;
     [x.0[5], y.0[5], z.0[5]]
 }
 
