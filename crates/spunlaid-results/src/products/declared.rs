@@ -72,6 +72,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
             own: 1e-3,
             few,
             beyond_filling: 0.0,
+            beyond_sheet: 0.0,
         };
         (patch.few, patch.of_map, patch.evidence) = (Some(told), 0.061, Evidence::FewInOneAir);
     };

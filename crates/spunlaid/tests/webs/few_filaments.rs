@@ -111,3 +111,28 @@ fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
         );
     }
 }
+
+/// A web of which little is wanted to be known takes one coarse sheet; the bits are the same on any number of threads, and
+/// a smaller error goes on from there.
+#[test]
+fn identical_two_levels_on_any_number_of_threads() {
+    let text = WEB.replace("\"30 mm\"", "\"100 mm\"").replace("length = \"20 mm\"", "length = \"100 mm\"");
+    let of = |error: &str, threads: usize| {
+        let spec = read_web((format!("{text}error = {error}\n").as_str(), "web.toml"), &[]).unwrap().spec;
+        let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
+        let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+        let mut web = Flyer::new(threads, &stop, &|_, work| work()).web(&spec).unwrap();
+        web.find(by).unwrap().laid.flown[0].few.clone().unwrap()
+    };
+    let [alone, one, two] =
+        [("\"none\"", 1), ("0.2", 1), ("0.2", 2)].map(|(error, threads)| of(error, threads));
+    assert_eq!(format!("{one:?}"), format!("{two:?}"));
+    assert!(one.is_of_two_levels() && !alone.is_of_two_levels(), "{one:?}");
+    // Over ten times the area the clouds leave a third of the error open.
+    let error = |few: &LayerFew| {
+        let cv = few.cvs.iter().find(|cv| cv.patch == 0.01).unwrap();
+        cv.by_chance.map(|error| error / cv.cv)
+    };
+    println!("{:?} {:?} {}", error(&alone), error(&one), one.area);
+    assert!(one.area > 10.0 * alone.area && error(&one).unwrap() < 0.2, "{one:?}");
+}

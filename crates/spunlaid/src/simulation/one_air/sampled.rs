@@ -18,7 +18,7 @@ const PITCH: f64 = 1.0 / 8.0;
 /// Area whose clouds tell the CV over patches of 10 mm within some 4 % [m²], and the one that is flown where coarse
 /// flights tell the rest.
 const AREA: f64 = 0.2;
-const FINE: f64 = 0.1;
+pub(super) const FINE: f64 = 0.1;
 /// Pairs of neighbours whose own patches are looked at, at most, and of webs that are compared.
 const PAIRS: usize = 64;
 const PAIRS_OF_COMPARED: usize = 12;

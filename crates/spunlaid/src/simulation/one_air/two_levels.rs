@@ -8,7 +8,7 @@
 use super::comparison::Laid;
 use super::flying::Sink;
 use super::layer_beam::{LayerBeam, beam_on, key};
-use super::sampled::FlownSheet;
+use super::sampled::{FINE, FlownSheet};
 use super::shared_air::SharedAir;
 use super::{BeamFindings, Flights, Flyer};
 use crate::ground::threads::try_each;
@@ -33,10 +33,10 @@ const FARTHER: f64 = 0.15;
 const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
-/// What is expected before anything is flown: relative variance of CV² that an area of 1 m² leaves open, and the part
+/// What is expected before anything is flown: relative variance of a CV that an area of 1 m² leaves open, and the part
 /// of it that coarse filaments do not tell.
-const EXPECTED: f64 = 2.5e-4;
-const NOT_TOLD: f64 = 0.08;
+const EXPECTED: f64 = 4e-4;
+const NOT_TOLD: f64 = 0.05;
 
 /// A sheet that was flown finely.
 pub(super) struct FineSheet<'a> {
@@ -113,37 +113,29 @@ impl Flyer<'_> {
         let begun = Instant::now();
         let Some(wanted) = spec.wanted_error(number) else { return Ok(first.told) };
         let on = first.on;
+        let of_pairs = on.with_area(first.told.fine_area.max(FINE));
         let alone = first.told.clone();
         let Some(pair) = self.pair((spec, number), first)? else { return Ok(alone) };
         let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
         // Numbers of the airs in which coarse sheets and pairs fly.
         let (mut airs, mut pairs) = (1, 1);
-        let mut more = 1;
+        // Some fewer than are expected, because some webs need fewer.
+        let mut more = (2 * spec.expected_sheets(number) / 3).max(1);
         loop {
             let coarse = self.coarse_sheets((spec, number), on, airs..airs + more)?;
             levels.coarse.extend(coarse);
             airs += more;
             let Some(variances) = levels.variances() else { return Ok(alone) };
             let (limit, area) = (wanted * wanted, AREA * airs as f64);
-            if std::env::var("SPUN_DEBUG").is_ok() {
-                eprintln!(
-                    "{:.2} s airs {airs} pairs {pairs} {variances:?} wanted {limit} whole {}",
-                    begun.elapsed().as_secs_f64(),
-                    variances.whole().sqrt()
-                );
-            }
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             if variances.whole() <= limit || area >= MOST_AREA || is_late {
-                if std::env::var("SPUN_DEBUG").is_ok() {
-                    levels.debug();
-                }
                 let told = levels.tell().unwrap_or(alone);
                 return Ok(LayerFew { wanted: Some(wanted), ..told });
             }
             if variances.by_pairs > BY_PAIRS * limit {
                 let other = spec.in_air(PAIRS | pairs);
                 pairs += 1;
-                let pair = self.fine_sheet((&other, number), on)?;
+                let pair = self.fine_sheet((&other, number), &of_pairs)?;
                 levels.pairs.extend(pair);
             }
             let left = (limit - variances.by_pairs).max(0.5 * BY_PAIRS * limit);

@@ -21,6 +21,8 @@ pub struct FewFilamentsCv {
     /// What CV² of all has more than that of a map in which those between the few are filled in, each at its own place
     /// and without a defect; of filaments at random places, that of an even row. Zero where such a map gives it.
     pub beyond_filling: f64,
+    /// What CV² over a larger area, which was flown coarsely, has more than that of the sheet; zero without.
+    pub beyond_sheet: f64,
 }
 
 impl FewFilamentsCv {
@@ -176,6 +178,7 @@ mod tests {
             own: 0.0,
             few: 0.2,
             beyond_filling: 0.0,
+            beyond_sheet: 0.0,
         }
     }
 

@@ -298,11 +298,15 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
         own: sum(&|few| few.own, 1),
         few: sum(&|few| few.few * few.few, 1).sqrt(),
         beyond_filling: sum(&|few| few.beyond_filling, 1),
+        beyond_sheet: sum(&|few| few.beyond_sheet, 1),
     };
-    if !is_whole || is_of_levels {
+    if !is_whole {
         return Some(told);
     }
-    let told = told.with_square(map.cv * map.cv + told.beyond_filling);
+    let told = told.with_square(map.cv * map.cv + told.beyond_filling + told.beyond_sheet);
+    if is_of_levels {
+        return Some(told);
+    }
     Some(FewFilamentsCv { by_chance: map.standard_error.map(|error| error * map.cv / told.cv), ..told })
 }
 

@@ -65,29 +65,6 @@ struct Share<'a> {
 }
 
 impl Levels {
-    pub(crate) fn debug(&self) {
-        for patch in [0.005, 0.01, 0.02, 0.05] {
-            print!("LEV {patch}");
-            for Share { few, .. } in self.coarse() {
-                let Some(i) = few.cvs.iter().position(|cv| (cv.patch / patch - 1.0).abs() < 1e-6) else {
-                    continue;
-                };
-                let d = deviations(&few.blocks[i]).unwrap_or_default();
-                let v = Covariance::of_means(&d, &d, few.blocks_across).variances[0];
-                let c = few.cvs[i];
-                print!(
-                    " {:.5}/{:.5}/{:.5}/{:.5}/{:.4}",
-                    c.cv,
-                    0.5 * v.sqrt() / (c.cv * c.cv),
-                    c.by_chance.unwrap_or(f64::NAN) / c.cv,
-                    c.by_pitch / c.cv,
-                    c.of_halves
-                );
-            }
-            println!();
-        }
-    }
-
     /// What all of them say of the layer: as the first fine sheet, but with the CV of all.
     pub(crate) fn tell(&self) -> Option<LayerFew> {
         let first = &self.pairs.first()?.fine;
@@ -99,6 +76,7 @@ impl Levels {
                 by_chance: Some(error(variances.by_pairs + variances.by_area)),
                 by_pitch: error(variances.by_pitch),
                 of_halves,
+                beyond_sheet: of_all * of_all - cv.cv * cv.cv,
                 ..cv.with_square(of_all * of_all)
             };
         }
@@ -285,6 +263,7 @@ mod tests {
             own: 0.0,
             few: mean.sqrt(),
             beyond_filling: 0.0,
+            beyond_sheet: 0.0,
         };
         let sheet = [0.2, 0.05 * (blocks.len() / ACROSS) as f64];
         LayerFew {

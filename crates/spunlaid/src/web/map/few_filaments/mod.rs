@@ -208,6 +208,7 @@ impl FewFilaments<'_> {
                 own: whole[1],
                 few: all.cv,
                 beyond_filling,
+                beyond_sheet: 0.0,
             });
         }
         for ([from, to], error) in &mut told.octaves {
@@ -256,6 +257,7 @@ impl FewFilaments<'_> {
             own: if self.arrangement == Arrangement::Slot { slot } else { own(filled.cv) },
             few,
             beyond_filling: 0.0,
+            beyond_sheet: 0.0,
         };
         Some((told, of_blocks))
     }
