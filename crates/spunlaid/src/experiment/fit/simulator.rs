@@ -5,7 +5,7 @@ use super::texture::Texture;
 use super::weights::Matrix;
 use crate::experiment::study::seed_of_web;
 use crate::ground::{Control, Error, Fault};
-use crate::simulation::{Flown, Flyer, WebSpec};
+use crate::simulation::{Flown, Flyer, WantedError, WebSpec};
 use crate::web::map::{PatchFindings, inner_columns};
 
 /// Webs of a few filaments that are compared with those of all in the same air.
@@ -46,6 +46,11 @@ pub(super) struct WebSimulator<'a> {
     spec: WebSpec,
 }
 
+/// The same web, flown on one sheet: a fit looks at maps, to which coarse flights in other airs add nothing.
+fn on_one_sheet(spec: WebSpec) -> WebSpec {
+    WebSpec { error: WantedError::OfOneSheet, ..spec }
+}
+
 impl<'a> WebSimulator<'a> {
     /// * `start` – values of the keys
     ///
@@ -57,13 +62,13 @@ impl<'a> WebSimulator<'a> {
         by: Control<'a>,
         start: &[f64],
     ) -> Result<Self, Error> {
-        Ok(Self { make, target, flyer, by, spec: make(start)? })
+        Ok(Self { make, target, flyer, by, spec: on_one_sheet(make(start)?) })
     }
 }
 
 impl Simulator for WebSimulator<'_> {
     fn set(&mut self, values: &[f64]) -> Result<(), Error> {
-        self.spec = (self.make)(values)?;
+        self.spec = on_one_sheet((self.make)(values)?);
         Ok(())
     }
 

@@ -1,8 +1,8 @@
 //! Coarse flights in other airs, until the CV of a layer is known to the error that is wanted.
 //!
 //! ```text
-//! the fine sheet → the same sheet and air, flown coarsely → a pair
-//!                → coarse sheets in other airs → CV of all → error → more sheets, or told
+//! fine sheet → the same sheet and air, flown coarsely → a pair
+//!            → coarse sheets in other airs → CV of all and its error → more sheets until it is small enough
 //! ```
 
 use super::comparison::Laid;
@@ -101,7 +101,7 @@ impl LayerBeam<'_> {
 }
 
 impl Flyer<'_> {
-    /// What a layer says with sheets that are flown coarsely, until its CV is known to the wanted error.
+    /// Flies coarse sheets of a layer until its CV is known to the wanted error.
     ///
     /// * `first` – the fine sheet, in the air of the web
     pub(super) fn until_sure(
@@ -129,7 +129,7 @@ impl Flyer<'_> {
             let (limit, area) = (wanted * wanted, AREA * airs as f64);
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             if variances.whole() <= limit || area >= MOST_AREA || is_late {
-                let told = levels.tell().unwrap_or(alone);
+                let told = levels.combine().unwrap_or(alone);
                 return Ok(LayerFew { wanted: Some(wanted), ..told });
             }
             if variances.by_pairs > BY_PAIRS * limit {
@@ -241,7 +241,7 @@ fn coarsely(of_beam: &LayerBeam<'_>, by: Control<'_>) -> Result<BeamFindings, Er
     flown.into_iter().next().ok_or_else(Error::no_fibre)?
 }
 
-/// What coarse filaments say of a sheet; None if there are none.
+/// The CV of a coarse sheet; None if all of its filaments are flown.
 fn tell(
     of_beam: &LayerBeam<'_>,
     (sheet, laid): (&Sheet, &BeamFindings),

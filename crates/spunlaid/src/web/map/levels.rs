@@ -5,15 +5,15 @@
 //! ```
 //!
 //! Most of the error of a CV is that the flown sheet holds few clouds, and a coarse flight has nearly the same clouds
-//! as a fine one in the same air. So the area is flown coarsely, and the common part says what the coarse mesh does:
-//! two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of a
-//! control variate.                                                                            theory.md (83g), (83h)
+//! as a fine one in the same air. So the area is flown coarsely, and the common part gives the error of the coarse
+//! mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of a
+//! control variate.                                                                            theory.md (83m), (83o)
 
 use super::few_filaments::{SMALL, small_patch};
 use super::few_findings::{FewFilamentsCv, LayerFew};
 use super::uniformity::nearest_to_seen;
 
-/// What filaments of a layer say of sheets that were flown finely, coarsely, or both ways in the same air.
+/// Results of a layer on sheets that were flown finely, coarsely, or both ways in the same air.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Levels {
     /// Sheets that were flown both ways.
@@ -48,7 +48,7 @@ impl Variances {
     }
 }
 
-/// What all sheets say of the patches of one side.
+/// The result of all sheets over patches of one side.
 struct OfPatch {
     cv: f64,
     variances: Variances,
@@ -65,12 +65,14 @@ struct Share<'a> {
 }
 
 impl Levels {
-    /// What all of them say of the layer: as the first fine sheet, but with the CV of all.
-    pub(crate) fn tell(&self) -> Option<LayerFew> {
+    /// Combines the sheets: the first fine sheet with the CV of all. None without a pair.
+    pub(crate) fn combine(&self) -> Option<LayerFew> {
         let first = &self.pairs.first()?.fine;
         let mut told = first.clone();
         for (number, cv) in told.cvs.iter_mut().enumerate() {
-            let Some(OfPatch { cv: of_all, variances, of_halves }) = self.over(number) else { continue };
+            let Some(OfPatch { cv: of_all, variances, of_halves }) = self.combine_over(number) else {
+                continue;
+            };
             let error = |variance: f64| of_all * variance.sqrt();
             *cv = FewFilamentsCv {
                 by_chance: Some(error(variances.by_pairs + variances.by_area)),
@@ -85,11 +87,11 @@ impl Levels {
         Some(told)
     }
 
-    /// What the error of the CV is made of over the patches that the eye judges first.
+    /// The parts of the error of the CV over the patches that the eye judges first.
     pub(crate) fn variances(&self) -> Option<Variances> {
         let first = &self.pairs.first()?.fine;
         let number = nearest_to_seen(first.cvs.iter().map(|cv| cv.patch))?;
-        Some(self.over(number)?.variances)
+        Some(self.combine_over(number)?.variances)
     }
 
     /// All coarse sheets.
@@ -99,8 +101,10 @@ impl Levels {
         all().map(move |few| Share { few, share: area(few) / whole })
     }
 
+    /// The CV over patches of one side, and its error.
+    ///
     /// * `number` – of the patches of the first fine sheet
-    fn over(&self, number: usize) -> Option<OfPatch> {
+    fn combine_over(&self, number: usize) -> Option<OfPatch> {
         let patch = self.pairs.first()?.fine.cvs[number].patch;
         let at = |few: &LayerFew| few.cvs.iter().position(|cv| (cv.patch / patch - 1.0).abs() < 1e-6);
         let blocks = |few: &LayerFew| deviations(&few.blocks[at(few)?]);
@@ -145,8 +149,10 @@ impl Levels {
         (square > 0.0).then(|| OfPatch { cv: square.sqrt(), variances, of_halves })
     }
 
-    /// How far every second filament is off, and the variance that the few filaments leave open. What depends on where they hang averages out over the sheets; what their
-    /// distance does to all of them stays.
+    /// The relative difference of the CV from every second filament, and the variance that few filaments leave open.
+    ///
+    /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
+    /// distance is the same on all of them.
     fn by_pitch(&self, patch: f64, at: impl Fn(&LayerFew) -> Option<usize>) -> Option<(f64, f64)> {
         let (mut squares, mut off, mut shares) = (0.0, 0.0, 0.0);
         for Share { few, share } in self.coarse() {
@@ -162,7 +168,7 @@ impl Levels {
     }
 }
 
-/// Largest coefficient: a level that scatters so much less than the other one says little of it.
+/// Largest coefficient: a level that scatters so much less than the other one says little about it.
 const MOST: f64 = 2.0;
 
 fn area(few: &LayerFew) -> f64 {
@@ -293,8 +299,8 @@ mod tests {
         Levels { pairs: vec![Pair { fine, coarse }], coarse: others }
     }
 
-    /// The bias of the coarse mesh cancels, and the error that is reported is that of many trials, whether the two levels
-    /// have their clouds in common or nothing.
+    /// The bias of the coarse mesh cancels, and the error that is reported is that of many trials, whether the two
+    /// levels have their clouds in common or nothing.
     #[test]
     fn stat_two_levels_are_unbiased_and_know_their_error() {
         const TRIALS: usize = 1500;
@@ -305,7 +311,7 @@ mod tests {
             for _ in 0..TRIALS {
                 let levels = levels(&mut random, in_common);
                 let square = |few: &LayerFew| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
-                let told = levels.tell().unwrap();
+                let told = levels.combine().unwrap();
                 sum += square(&told);
                 squares += square(&told).powi(2);
                 alone += square(&levels.pairs[0].fine).powi(2);
