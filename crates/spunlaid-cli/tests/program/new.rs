@@ -127,7 +127,7 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
         "1000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.77 µm, fed at 41.67 m/s"
     ));
     let small = [
-        "web.width=0.13 m",
+        "web.width=0.15 m",
         "web.length=0.05 m",
         "web.cell=1 mm",
         "line.basis_weight=2 g/m²",

@@ -110,9 +110,9 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     assert_eq!(summary["layers"][0]["filaments"], 1200, "{summary}");
     let flown = summary["web"]["flown"].as_array().unwrap();
     let of_flown = |name: &str| flown[0][name].as_f64().unwrap();
-    // Ten length scales of the air wide, and a fifth of a square metre large.
+    // Ten length scales of the air wide, and a tenth of a square metre large.
     assert_eq!((flown.len(), of_flown("filaments"), of_flown("width_m")), (1, 40.0, 0.16), "{summary}");
-    assert!((of_flown("width_m") * of_flown("length_m") / 0.2 - 1.0).abs() < 0.01, "{summary}");
+    assert!((of_flown("width_m") * of_flown("length_m") / 0.1 - 1.0).abs() < 0.01, "{summary}");
     for missing in ["missing_variance_md", "missing_variance_cd"].map(of_flown) {
         assert!(missing > 0.0 && missing < 0.5, "{summary}");
     }

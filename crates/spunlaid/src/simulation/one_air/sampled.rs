@@ -19,9 +19,11 @@ const PITCH: f64 = 1.0 / 8.0;
 /// flights tell the rest.
 const AREA: f64 = 0.2;
 pub(super) const FINE: f64 = 0.1;
-/// Pairs of neighbours whose own patches are looked at, at most, and of webs that are compared.
+/// Pairs of neighbours whose own patches are looked at, at most: of the sheet, of webs that are compared, and of each of
+/// many coarse sheets.
 const PAIRS: usize = 64;
 const PAIRS_OF_COMPARED: usize = 12;
+const PAIRS_OF_COARSE: usize = 4;
 /// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
 /// Filaments that are filled in for each flown one on a coarse sheet.
@@ -67,7 +69,7 @@ impl FlownSheet {
 
     /// The same sheet, on which fewer neighbours are looked at.
     pub(super) fn coarse(&self) -> Self {
-        Self { pairs: PAIRS_OF_COMPARED, ..self.clone() }
+        Self { pairs: PAIRS_OF_COARSE, ..self.clone() }
     }
 }
 

@@ -296,7 +296,7 @@ fn error_sentences(findings: &Findings) -> String {
         }
         (Evidence::FewInOneAir, None) => format!(
             "{}; the others follow from them. Chance contributes {} to the error, because the clouds \
-            on that sheet are few, and the small number of flown filaments {}.",
+            on this area are few, and the small number of flown filaments {}.",
             flown(findings),
             part(error.chance),
             part(error.flight)
