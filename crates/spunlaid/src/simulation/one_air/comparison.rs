@@ -6,10 +6,11 @@
 //!      → what all have laid while the same part of the pattern of the air passed → few filaments of each web
 //! ```
 
+use super::flyer::Flyer;
 use super::layer_beam::{LayerBeam, beam_on};
 use super::sampled::Compared;
 use super::shared_air::{fly_abreast, memory_abreast};
-use super::{Beam, BeamFindings, Flyer};
+use super::{Beam, BeamFindings};
 use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::each;
 use crate::ground::{Control, Dimension, Error, Fault, Isa};

@@ -6,35 +6,16 @@
 //! ```
 
 use super::BeamFindings;
+use super::flyer::Flyer;
 use super::layer_beam::{FilledLayer, LayerBeam, beam_on};
 use super::sampled::FlownSheet;
 use super::two_levels::FineSheet;
-use crate::ground::{Control, Error, Isa};
+use crate::ground::{Control, Error};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
 use crate::web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
 use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
 use std::mem::take;
-use std::path::Path;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64};
-
-/// The flights of a case, to be watched.
-#[derive(Clone, Copy, Debug)]
-pub struct Flights<'a> {
-    /// Path of the case.
-    pub path: &'a Path,
-    /// Number of fibres.
-    pub fibres: u64,
-    /// Steps of all fibres that have been done.
-    pub done: &'a AtomicU64,
-    /// Their number at the end; where it is not known yet, about so many.
-    pub steps: u64,
-    /// Time of a step [s].
-    pub time_step: f64,
-}
-
-/// Shows the progress of a case's flights while it does the work that it is given.
-pub(crate) type ProgressDisplay<'a> = &'a dyn Fn(Flights<'_>, &mut (dyn FnMut() + Send));
 
 /// A web with its fibres.
 #[derive(Clone, Debug)]
@@ -45,25 +26,7 @@ pub struct FlownWeb {
     laid: Option<LaidWeb>,
 }
 
-/// Makes the fibres of the layers.
-pub struct Flyer<'a> {
-    pub(super) threads: usize,
-    pub(super) stop: &'a AtomicBool,
-    pub(super) follow: ProgressDisplay<'a>,
-}
-
-impl std::fmt::Debug for Flyer<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Flyer").field("threads", &self.threads).finish_non_exhaustive()
-    }
-}
-
-impl<'a> Flyer<'a> {
-    /// * `stop` – set from elsewhere to stop early
-    pub const fn new(threads: usize, stop: &'a AtomicBool, follow: ProgressDisplay<'a>) -> Self {
-        Self { threads, stop, follow }
-    }
-
+impl Flyer<'_> {
     /// A web and its fibres. Filaments that fly in one air have laid it then.
     ///
     /// # Errors
@@ -149,29 +112,6 @@ impl<'a> Flyer<'a> {
             };
             (layer, asked) = (more, finer);
         }
-    }
-
-    /// Flies a layer and shows the progress.
-    ///
-    /// * `on` – what lays an element of fibre; None if only a few are flown
-    pub(super) fn fly_layer(
-        &self,
-        layer: &LayerBeam<'_>,
-        spec: &WebSpec,
-        on: Option<&Brush<'_>>,
-    ) -> Result<BeamFindings, Error> {
-        let (beam, done) = (layer.beam(), AtomicU64::new(0));
-        let by = Control { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: &done };
-        let flights = Flights {
-            path: layer.path,
-            fibres: layer.places.len() as u64,
-            done: &done,
-            steps: beam.steps(&layer.sheet),
-            time_step: beam.case.run.time_step,
-        };
-        let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
-        flown
     }
 }
 

@@ -19,6 +19,7 @@
 
 mod charge;
 mod comparison;
+mod flyer;
 mod flying;
 mod laid_curves;
 mod lane_group;
@@ -35,8 +36,9 @@ use crate::ground::{Control, Error};
 use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
 pub use charge::BeamCharge;
 pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
+pub use flyer::{Flights, Flyer};
 use flying::Sink;
-pub use laid_curves::{Flights, FlownWeb, Flyer};
+pub use laid_curves::FlownWeb;
 pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
 pub use sampled::Compared;

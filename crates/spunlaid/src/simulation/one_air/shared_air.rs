@@ -8,7 +8,7 @@
 
 use super::flying::{Flying, Sink};
 use super::lane_group::Reach;
-use super::{BLOCK, Beam, BeamFindings, two_levels};
+use super::{BLOCK, Beam, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
 use crate::ground::threads::{each, lock, try_each};
 use crate::ground::{Control, Error, Vec3};
@@ -21,6 +21,10 @@ use std::time::Instant;
 /// Largest lateral wave number of the air of beams that are compared, times its length scale. Smaller eddies change
 /// no CV from patches of 10 mm on, and hardly any change of it, but take as much time again.
 const HIGHEST: f64 = 8.0;
+
+/// Largest lateral wave number of the air of coarse flights, times its smallest length scale: fine flights have these
+/// waves too.
+pub(super) const LARGER_WAVES: f64 = 5.5;
 
 /// Beams that fly on one sheet, with their airs.
 pub(super) struct SharedAir<'a> {
@@ -288,7 +292,7 @@ impl Beam<'_> {
     /// The room of its air alone, in which coarse flights have the larger waves too.
     fn room(&self, sheet: &Sheet) -> Room {
         let room = Room::alone(self.case.way_of_air(), self.extent_of_air(sheet));
-        room.with_waves_in_common(two_levels::HIGHEST)
+        room.with_waves_in_common(LARGER_WAVES)
     }
 
     /// Most memory that the air of all filaments takes [B].

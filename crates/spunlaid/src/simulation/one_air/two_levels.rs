@@ -5,12 +5,13 @@
 //!            → coarse sheets in other airs → CV of all and its error → more sheets until it is small enough
 //! ```
 
+use super::BeamFindings;
 use super::comparison::Laid;
+use super::flyer::{Flights, Flyer};
 use super::flying::Sink;
 use super::layer_beam::{LayerBeam, beam_on, key};
 use super::sampled::{FINE, FlownSheet};
-use super::shared_air::SharedAir;
-use super::{BeamFindings, Flights, Flyer};
+use super::shared_air::{LARGER_WAVES, SharedAir};
 use crate::ground::threads::try_each;
 use crate::ground::{Control, Error, Isa};
 use crate::simulation::layers::USUAL_ERROR;
@@ -25,10 +26,10 @@ use std::time::Instant;
 const AREA: f64 = 0.2;
 /// Largest area that is flown for an error [m²].
 const MOST_AREA: f64 = 30.0;
-/// Largest lateral wave number of the air of coarse flights, times its smallest length scale.
-pub(super) const HIGHEST: f64 = 5.5;
 /// How much farther the coarse filaments of a pair lay, in ways from inlet to belt, so that the fine sheet lies within.
 const FARTHER: f64 = 0.15;
+/// Most coarse sheets that fly before their error is looked at.
+const MOST_AT_FIRST: u64 = 8;
 /// Part of the wanted variance that may come from the pairs before another pair is flown.
 const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
@@ -119,8 +120,9 @@ impl Flyer<'_> {
         let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
         // Numbers of the airs in which coarse sheets and pairs fly.
         let (mut airs, mut pairs) = (1, 1);
-        // Some fewer than are expected, because some webs need fewer.
-        let mut more = (2 * spec.expected_sheets(number) / 3).max(1);
+        // Some fewer than are expected, because some webs need fewer; and one where the time is short.
+        let expected = (2 * spec.expected_sheets(number) / 3).clamp(1, MOST_AT_FIRST);
+        let mut more = if spec.time.is_some() { 1 } else { expected };
         loop {
             let coarse = self.coarse_sheets((spec, number), on, airs..airs + more)?;
             levels.coarse.extend(coarse);
@@ -141,7 +143,11 @@ impl Flyer<'_> {
             let left = (limit - variances.by_pairs).max(0.5 * BY_PAIRS * limit);
             // No more than as many again, because the variance is not known well yet.
             let needed = airs as f64 * ((variances.by_area + variances.by_pitch) / left - 1.0);
-            more = (needed.ceil().max(0.0) as u64).min(airs);
+            more = (needed.ceil() as u64).clamp(1, airs);
+            if let Some(time) = spec.time {
+                let of_each = begun.elapsed().as_secs_f64() / airs as f64;
+                more = more.min(((time / of_each) as u64).saturating_sub(airs)).max(1);
+            }
         }
     }
 
@@ -193,7 +199,8 @@ impl Flyer<'_> {
         let beams = specs.iter().map(|spec| Ok(beam_on(spec, number, Some(&on))?.with_coarsest_mesh()));
         let beams: Vec<LayerBeam<'_>> = beams.collect::<Result<_, Error>>()?;
         let Some(first) = beams.first() else { return Ok(Vec::new()) };
-        let fits = (spec.memory_limit / first.beam().memory_of_air(&first.sheet, HIGHEST).max(1.0)) as usize;
+        let fits =
+            (spec.memory_limit / first.beam().memory_of_air(&first.sheet, LARGER_WAVES).max(1.0)) as usize;
         let abreast = beams.len().min(self.threads).min(fits).max(1);
         let (threads, stop) = (self.threads.div_ceil(abreast), self.stop);
         let found = self.watched(&beams, |done| {
@@ -237,7 +244,7 @@ fn coarsely(of_beam: &LayerBeam<'_>, by: Control<'_>) -> Result<BeamFindings, Er
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sink = Sink { window, on: None, neighbours: None };
     let beam = of_beam.beam();
-    let flown = SharedAir::of_one(&beam, &of_beam.sheet, HIGHEST).fly(vec![sink], by)?;
+    let flown = SharedAir::of_one(&beam, &of_beam.sheet, LARGER_WAVES).fly(vec![sink], by)?;
     flown.into_iter().next().ok_or_else(Error::no_fibre)?
 }
 

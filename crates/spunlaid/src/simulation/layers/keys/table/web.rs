@@ -113,12 +113,16 @@ pub(super) const KEYS: &[WebKey] = &[
                 web.error = match value {
                     Value::Text(word) if word == NONE => WantedError::OfOneSheet,
                     Value::Text(_) => WantedError::Auto,
-                    value => WantedError::Of(number(value)?),
+                    value => match number(value)? {
+                        error if error > 0.0 => WantedError::Of(error),
+                        _ => return Err(Fault::new("is never reached", "write an error like \"2 %\"")),
+                    },
                 };
                 Ok(())
             },
         })
         .or_words(&[AUTO, NONE])
+        .fixed()
         .follows("3 %; of a web so small that all of it is flown, what its own clouds give")
         .meaning(
             "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in other airs are flown \
@@ -138,6 +142,7 @@ pub(super) const KEYS: &[WebKey] = &[
             },
         })
         .or_words(&[NONE])
+        .fixed()
         .follows("`none`: no limit")
         .meaning(
             "Time by the clock after which no more sheets are begun to reach web.error. The result then depends on the \
