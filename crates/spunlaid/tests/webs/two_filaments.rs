@@ -30,9 +30,23 @@ fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
 /// over all neighbours at z and the belt v that passes meanwhile, with the pitch p and [`overlap`] T.
 #[test]
 fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
+    // In single airs the sum is up to a tenth off, and 3 % too high in the mean of twelve.
+    const AIRS: u64 = 4;
+    let mut off = [0.0; 2];
+    for seed in 1..=AIRS {
+        for (off, ratio) in off.iter_mut().zip(expected_over_found(seed)) {
+            *off += (ratio - 1.0) / AIRS as f64;
+        }
+    }
+    assert!(off.iter().all(|off| off.abs() < 0.05), "10 and 20 mm: {off:?}");
+}
+
+/// The CV of the sum over that of the map, over patches of 10 and 20 mm.
+fn expected_over_found(seed: u64) -> [f64; 2] {
     const COUNT: usize = 64;
     let sheet = Sheet { patches: vec![10e-3, 20e-3], ..sheet(COUNT, 2000) };
     let mut case = case_in("von-karman");
+    case.run.seed = seed;
     // With coarser waves the sum is 4 to 6 % too high.
     case.air.lateral = Lateral::VonKarman { cutoff: 15.0 };
     let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Isa::detect(), 2);
@@ -66,7 +80,7 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
         .flat_map(|neighbour| (0..LAGS).map(move |lag| (neighbour, lag)))
         .map(|(neighbour, lag)| (neighbour, lag, covariance(neighbour, lag)))
         .collect();
-    for side in [10, 20] {
+    [10, 20].map(|side| {
         let patch = side as f64 * sheet.cell;
         let term = |(neighbour, lag, covariance): &(usize, usize, [f64; 2])| {
             // The nearest of them on the ring of the sheet; the belt runs before and after.
@@ -79,6 +93,7 @@ fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
         let alone: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour == 0).map(term).sum();
         let shared: f64 = covariances.iter().filter(|(neighbour, ..)| *neighbour != 0).map(term).sum();
         let (expected, found) = ((alone + shared).sqrt(), cv(&laid.map, side));
-        assert!((expected / found - 1.0).abs() < 0.05, "{side} mm: {expected} for {found}");
-    }
+        println!("{seed}: {side} mm: {expected} for {found}");
+        expected / found
+    })
 }
