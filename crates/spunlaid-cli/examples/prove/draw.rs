@@ -72,7 +72,7 @@ const fn base(
 }
 
 /// What decides how long a computation takes or how much memory it may have, and is no number of the line.
-const FIXED: [&str; 18] = [
+const FIXED: [&str; 20] = [
     "run.duration",
     "run.time_step",
     "run.replicates",
@@ -88,6 +88,8 @@ const FIXED: [&str; 18] = [
     "web.width",
     "web.length",
     "web.cell",
+    "web.error",
+    "web.time",
     "web.memory_limit",
     "web.window",
     "web.flown",

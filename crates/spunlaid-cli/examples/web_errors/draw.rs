@@ -13,10 +13,12 @@ pub enum Family {
 }
 
 /// What decides how long a web takes or how it is read, and what has other values in it than numbers and words.
-const FIXED: [&str; 9] = [
+const FIXED: [&str; 11] = [
     "web.width",
     "web.length",
     "web.cell",
+    "web.error",
+    "web.time",
     "web.memory_limit",
     "web.window",
     "fibre.element_length",
