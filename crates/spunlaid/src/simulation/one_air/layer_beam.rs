@@ -101,8 +101,8 @@ impl LayerBeam<'_> {
         self
     }
 
-    /// The same filaments in elements as long as the eddies allow, in the longest steps that are stable, with rarer looks
-    /// and half the start.
+    /// The same filaments in elements as long as the eddies allow, in the longest steps that are stable, with rarer
+    /// looks and half the start.
     pub(super) fn with_coarsest_mesh(mut self) -> Self {
         self.few.iter_mut().for_each(FewPlan::filled_sparsely);
         let Some(line) = self.case.line else { return self };

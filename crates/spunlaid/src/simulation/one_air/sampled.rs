@@ -19,8 +19,8 @@ const PITCH: f64 = 1.0 / 8.0;
 /// flights tell the rest.
 const AREA: f64 = 0.2;
 pub(super) const FINE: f64 = 0.1;
-/// Pairs of neighbours whose own patches are looked at, at most: of the sheet, of webs that are compared, and of each of
-/// many coarse sheets.
+/// Pairs of neighbours whose own patches are looked at, at most: of the sheet, of webs that are compared, and of each
+/// of many coarse sheets.
 const PAIRS: usize = 64;
 const PAIRS_OF_COMPARED: usize = 12;
 const PAIRS_OF_COARSE: usize = 4;

@@ -284,8 +284,8 @@ fn analytic_faster_air_of_one_pattern_is_the_same_field_earlier() {
     assert!(of_slow.at_pace_of([&slow, &forgetful], &room).is_none());
 }
 
-/// A field of a larger cut-off is that of a smaller one and smaller eddies: what it has beside the other one has nothing
-/// in common with it. Without common phases the two would have nothing in common.
+/// A field of a larger cut-off is that of a smaller one and smaller eddies. Without common phases the two would have
+/// nothing in common.
 #[test]
 fn analytic_fields_of_two_cut_offs_have_their_larger_waves_in_common() {
     const LARGER: f64 = 4.0;

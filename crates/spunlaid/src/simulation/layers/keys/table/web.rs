@@ -145,8 +145,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .follows("`none`: no limit")
         .meaning(
-            "Time by the clock after which no more sheets are begun to reach web.error. The result then depends on the \
-             speed of the machine.",
+            "Time by the clock after which no more sheets are begun to reach web.error. The result then depends on \
+             the speed of the machine.",
         )
         .label("Time limit of the wanted error"),
     positive("web.memory_limit", Dimension::Memory, (1e7, 1e13))
