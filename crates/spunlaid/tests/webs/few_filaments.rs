@@ -112,8 +112,7 @@ fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
     }
 }
 
-/// A web of which little is wanted to be known takes one coarse sheet; the bits are the same on any number of threads, and
-/// a smaller error goes on from there.
+/// A web of which little is wanted to be known takes one coarse sheet; the bits are the same on any number of threads.
 #[test]
 fn identical_two_levels_on_any_number_of_threads() {
     let text = WEB.replace("\"30 mm\"", "\"100 mm\"").replace("length = \"20 mm\"", "length = \"100 mm\"");

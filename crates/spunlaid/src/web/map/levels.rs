@@ -6,8 +6,8 @@
 //!
 //! Most of the error of a CV is that the flown sheet holds few clouds, and a coarse flight has nearly the same clouds
 //! as a fine one in the same air. So the area is flown coarsely, and the common part gives the error of the coarse
-//! mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of a
-//! control variate.                                                                            theory.md (83m), (83o)
+//! mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of
+//! a control variate.                                                                            theory.md (83m), (83o)
 
 use super::few_filaments::{SMALL, small_patch};
 use super::few_findings::{FewFilamentsCv, LayerFew};
