@@ -32,7 +32,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 const FEW: f64 = 1e9;
 /// Bytes of all fibres that stay in memory until their turn. Beyond them a fibre with the rows of a record puts what it
 /// has into the file, from which it is read back: that takes longer.
-pub(super) const ROOM: usize = 1 << 25;
+pub(super) const ROOM: usize = 1 << 24;
 /// Most rows of a record. Small ones take the system twice the time.
 const RECORD: usize = 1 << 10;
 /// Number of rows in a row group, which is held in memory.
