@@ -70,18 +70,36 @@ pub struct Flights {
     pub interrupted: AtomicBool,
 }
 
-/// The rows of a fibre that are in memory only.
+/// The rows of a fibre that are in memory only, as records.
 #[derive(Debug, Default)]
 struct Held {
-    samples: Vec<Sample>,
-    points: Vec<LaidPoint>,
+    samples: Vec<Vec<Sample>>,
+    points: Vec<Vec<LaidPoint>>,
+}
+
+/// Adds rows to records, which are full but for the last one. One long list would be copied as it grows, and leave gaps.
+fn add_to<R: Copy>(records: &mut Vec<Vec<R>>, mut rows: &[R]) {
+    while !rows.is_empty() {
+        let room = records.last().map_or(0, |last| RECORD - last.len());
+        if room == 0 {
+            records.push(Vec::new());
+        }
+        let (now, later) = rows.split_at(rows.len().min(if room == 0 { RECORD } else { room }));
+        records.last_mut().into_iter().for_each(|last| last.extend_from_slice(now));
+        rows = later;
+    }
+}
+
+/// Bytes of the rows of records.
+fn bytes_of<R>(records: &[Vec<R>]) -> usize {
+    records.iter().map(|record| size_of_val(&record[..])).sum()
 }
 
 /// What is recorded at an instant, or of a laid point.
 trait Row: Copy {
     const KIND: u64;
 
-    fn held(held: &mut Held) -> &mut Vec<Self>;
+    fn held(held: &mut Held) -> &mut Vec<Vec<Self>>;
 
     /// A record of some.
     fn numbers(rows: &[Self]) -> Vec<f64>;
@@ -92,7 +110,7 @@ trait Row: Copy {
 impl Row for Sample {
     const KIND: u64 = SAMPLES;
 
-    fn held(held: &mut Held) -> &mut Vec<Self> {
+    fn held(held: &mut Held) -> &mut Vec<Vec<Self>> {
         &mut held.samples
     }
 
@@ -118,7 +136,7 @@ impl Row for Sample {
 impl Row for LaidPoint {
     const KIND: u64 = POINTS;
 
-    fn held(held: &mut Held) -> &mut Vec<Self> {
+    fn held(held: &mut Held) -> &mut Vec<Vec<Self>> {
         &mut held.points
     }
 
@@ -287,33 +305,32 @@ impl Flights {
         }
         let full = {
             let (held, bytes) = &mut *lock(&self.held);
-            let rows = R::held(held.entry(replicate).or_default());
-            rows.extend_from_slice(some);
+            let records = R::held(held.entry(replicate).or_default());
+            add_to(records, some);
             *bytes += size_of_val(some);
-            let is_full = *bytes > ROOM && rows.len() >= RECORD;
-            let full = if is_full { std::mem::take(rows) } else { Vec::new() };
-            *bytes -= size_of_val(&full[..]);
+            let is_full = *bytes > ROOM && records.first().is_some_and(|record| record.len() == RECORD);
+            let full = if is_full { std::mem::take(records) } else { Vec::new() };
+            *bytes -= bytes_of(&full);
             full
         };
         // A replicate flies in one thread only, so its rows stay in their order.
         self.add(replicate, &full)
     }
 
-    fn add<R: Row>(&self, replicate: u64, rows: &[R]) -> Result<(), Error> {
-        let mut records = rows.chunks(RECORD);
-        let add = |rows| self.log.append([R::KIND, replicate], R::numbers(rows));
-        records.try_for_each(add).map_err(Error::unwritable(&self.later[0]))
+    fn add<R: Row>(&self, replicate: u64, records: &[Vec<R>]) -> Result<(), Error> {
+        let add = |rows: &Vec<R>| self.log.append([R::KIND, replicate], R::numbers(rows));
+        records.iter().try_for_each(add).map_err(Error::unwritable(&self.later[0]))
     }
 
     /// Shows all that was recorded of a replicate, and puts into the file what memory has of it.
     fn settle<R: Row>(
         &self,
         replicate: u64,
-        held: &[R],
+        held: &[Vec<R>],
         mut show: impl FnMut(&[R]) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         self.in_file(replicate).try_for_each(|rows| show(&rows?))?;
-        show(held)?;
+        held.iter().try_for_each(|rows| show(rows))?;
         self.add(replicate, held)
     }
 
@@ -321,7 +338,7 @@ impl Flights {
     fn take(&self, replicate: u64) -> Held {
         let (held, bytes) = &mut *lock(&self.held);
         let taken = held.remove(&replicate).unwrap_or_default();
-        *bytes -= size_of_val(&taken.samples[..]) + size_of_val(&taken.points[..]);
+        *bytes -= bytes_of(&taken.samples) + bytes_of(&taken.points);
         taken
     }
 
