@@ -28,6 +28,15 @@ const SMALLER: u64 = 1 << 62;
 /// Complex numbers of points: real parts and imaginary parts.
 type Complexes = [Vec<f32>; 2];
 
+/// Two windows that are made from one transform.
+pub(super) struct WindowPair<'a> {
+    pub(super) generation: usize,
+    /// Number of the pair.
+    pub(super) number: i64,
+    /// The points that are made.
+    pub(super) part: &'a Part,
+}
+
 /// The transforms of a plan.
 #[derive(Debug)]
 pub(super) struct Synthesis {
@@ -60,20 +69,19 @@ impl Synthesis {
     }
 
     /// Makes two windows of a generation, and lets `finish` make each line.
-    ///
-    /// * `pair` – number of the pair of windows
-    /// * `part` – points that are made
     pub(super) fn lines<T: Send>(
         &self,
         plan: &Plan,
         key: StreamKey,
-        (generation, pair, part): (usize, i64, &Part),
+        windows: &WindowPair<'_>,
         threads: usize,
         finish: impl Fn(usize, LineMaker<'_>) -> T + Sync,
     ) -> Vec<T> {
+        let WindowPair { generation, number, part } = *windows;
         let shape = &plan.generations[generation];
         let planes = each(threads, shape.harmonics.len(), |n| {
-            let mut random = [0, SMALLER].map(|set| Random::new(plan, key, pair, generation, n as u64 | set));
+            let mut random =
+                [0, SMALLER].map(|set| Random::new(plan, key, number, generation, n as u64 | set));
             self.plane(plan, &shape.harmonics[n], &mut random, part)
         });
         let [lines, points] = part.counts();

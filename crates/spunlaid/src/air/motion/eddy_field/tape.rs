@@ -2,7 +2,7 @@
 
 use super::Plan;
 use super::lattice::{BRICK, NEEDED, Part, READ, REPEATED, row_size};
-use super::synthesis::Synthesis;
+use super::synthesis::{Synthesis, WindowPair};
 use super::transform::{ABREAST, Numbers};
 use super::windows::{BLOCKS, FieldWindows, Rest};
 use crate::air::motion::StreamKey;
@@ -127,7 +127,8 @@ impl Tape {
         while pair * (windows.total() as i64) < samples.end {
             let rest = std::mem::take(&mut self.rest);
             let nothing = Rest::default();
-            let made = synthesis.lines(plan, key, (generation, pair, &self.part), threads, |y, line| {
+            let of_pair = WindowPair { generation, number: pair, part: &self.part };
+            let made = synthesis.lines(plan, key, &of_pair, threads, |y, line| {
                 windows.join(synthesis.isa, line, rest.get(y).unwrap_or(&nothing))
             });
             let (mut blocks, mut left) = (Vec::new(), Vec::new());
