@@ -7,10 +7,12 @@ use crate::ground::error::Place;
 use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::keys::{NUMBERS, WEB};
 use crate::simulation::layers::too_small;
-use crate::simulation::{LaydownSource, LayerSpec, SAME, WebKey, WebSpec};
+use crate::simulation::{Flown, LaydownSource, LayerSpec, SAME, WantedError, WebKey, WebSpec};
 use crate::web::map::{Filaments, holes};
 use crate::web::{Defect, Edges, Row, Sheet};
 
+/// Keys of webs whose filaments fly.
+const OF_FLIGHTS: [&str; 3] = ["web.flown", "web.error", "web.time"];
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;
 
@@ -31,12 +33,21 @@ impl Reading<'_> {
     /// Refuses layers that cannot be flown in one air, and what only flights have.
     pub(super) fn check_sources(&mut self, prefixes: &[String], web: &WebSpec) {
         if !web.flies() {
-            if self.is_written("web.flown") && prefixes.iter().any(|prefix| self.has_numbers(prefix)) {
+            let has_numbers = prefixes.iter().any(|prefix| self.has_numbers(prefix));
+            for key in OF_FLIGHTS {
+                if !has_numbers || !self.is_written(key) {
+                    continue;
+                }
                 let fault =
                     Fault::needs("laydown.case", "leave it out: filaments of known numbers do not fly");
-                self.key_values.reject("web.flown", fault);
+                self.key_values.reject(key, fault);
             }
             return;
+        }
+        if web.flown == Flown::All && matches!(web.error, WantedError::Of(_)) {
+            let message = "has no effect where every filament is flown (web.flown = \"all\")";
+            self.key_values
+                .reject("web.error", Fault::new(message, "leave one of the two out, or write \"auto\""));
         }
         for (prefix, layer) in prefixes.iter().zip(&web.layers) {
             let laydown = format!("{prefix}laydown");
