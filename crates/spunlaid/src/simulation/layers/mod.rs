@@ -38,7 +38,7 @@ pub struct WebSpec {
     pub seed: u64,
     /// How many filaments of a web in one air are flown.
     pub flown: Flown,
-    /// How surely a web in one air is told.
+    /// The error that the CV of a web in one air may have.
     pub error: WantedError,
     /// Time after which no more sheets are begun for it [s]; None without a limit.
     pub time: Option<f64>,

@@ -101,7 +101,7 @@ impl Flyer<'_> {
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 let told = match &asked {
                     Some(on) if told.doubt().is_none() => {
-                        let first = FineSheet { on, layer: &layer, flown: &flown, told };
+                        let first = FineSheet { on, layer: &layer, flown: &flown, few: told };
                         self.until_sure(spec, number, first)?
                     }
                     _ => told,

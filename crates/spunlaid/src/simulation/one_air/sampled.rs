@@ -15,8 +15,8 @@ use std::sync::atomic::AtomicBool;
 
 /// Distance of the filaments that are flown, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
-/// Area whose clouds tell the CV over patches of 10 mm within some 4 % [m²], and the one that is flown where coarse
-/// flights tell the rest.
+/// Area whose clouds give the CV over patches of 10 mm within some 4 % [m²], and the one that is flown where coarse
+/// flights add the rest.
 const AREA: f64 = 0.2;
 pub(super) const FINE: f64 = 0.1;
 /// Pairs of neighbours whose own patches are looked at, at most: of the sheet, of webs that are compared, and of each

@@ -35,7 +35,7 @@ const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
 /// What is expected before anything is flown: relative variance of a CV that an area of 1 m² leaves open, and the part
-/// of it that coarse filaments do not tell.
+/// of it that coarse filaments do not give.
 const EXPECTED: f64 = 4e-4;
 const NOT_TOLD: f64 = 0.05;
 
@@ -45,7 +45,7 @@ pub(super) struct FineSheet<'a> {
     pub(super) on: &'a FlownSheet,
     pub(super) layer: &'a LayerBeam<'a>,
     pub(super) flown: &'a BeamFindings,
-    pub(super) told: LayerFew,
+    pub(super) few: LayerFew,
 }
 
 impl WebSpec {
@@ -112,11 +112,12 @@ impl Flyer<'_> {
         first: FineSheet<'_>,
     ) -> Result<LayerFew, Error> {
         let begun = Instant::now();
-        let Some(wanted) = spec.wanted_error(number) else { return Ok(first.told) };
+        let Some(wanted) = spec.wanted_error(number) else { return Ok(first.few) };
         let on = first.on;
-        let of_pairs = on.with_area(first.told.fine_area.max(FINE));
-        let alone = first.told.clone();
-        let Some(pair) = self.pair((spec, number), first)? else { return Ok(alone) };
+        let of_pairs = on.with_area(first.few.fine_area.max(FINE));
+        // If nothing can be combined, the fine sheet stands alone, and its error may be larger than the wanted one.
+        let alone = LayerFew { wanted: Some(wanted), ..first.few.clone() };
+        let Some(pair) = self.pair(spec, number, first)? else { return Ok(alone) };
         let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
         // Numbers of the airs in which coarse sheets and pairs fly.
         let (mut airs, mut pairs) = (1, 1);
@@ -124,20 +125,20 @@ impl Flyer<'_> {
         let expected = (2 * spec.expected_sheets(number) / 3).clamp(1, MOST_AT_FIRST);
         let mut more = if spec.time.is_some() { 1 } else { expected };
         loop {
-            let coarse = self.coarse_sheets((spec, number), on, airs..airs + more)?;
+            let coarse = self.coarse_sheets(spec, number, on, airs..airs + more)?;
             levels.coarse.extend(coarse);
             airs += more;
             let Some(variances) = levels.variances() else { return Ok(alone) };
             let (limit, area) = (wanted * wanted, AREA * airs as f64);
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             if variances.whole() <= limit || area >= MOST_AREA || is_late {
-                let told = levels.combine().unwrap_or(alone);
-                return Ok(LayerFew { wanted: Some(wanted), ..told });
+                let combined = levels.combine().unwrap_or(alone);
+                return Ok(LayerFew { wanted: Some(wanted), ..combined });
             }
             if variances.by_pairs > BY_PAIRS * limit {
                 let other = spec.in_air(PAIRS | pairs);
                 pairs += 1;
-                let pair = self.fine_sheet((&other, number), &of_pairs)?;
+                let pair = self.fine_sheet(&other, number, &of_pairs)?;
                 levels.pairs.extend(pair);
             }
             let left = (limit - variances.by_pairs).max(0.5 * BY_PAIRS * limit);
@@ -152,26 +153,24 @@ impl Flyer<'_> {
     }
 
     /// Flies another sheet both ways.
-    fn fine_sheet(&self, (spec, number): (&WebSpec, usize), on: &FlownSheet) -> Result<Option<Pair>, Error> {
+    fn fine_sheet(&self, spec: &WebSpec, number: usize, on: &FlownSheet) -> Result<Option<Pair>, Error> {
         let layer = beam_on(spec, number, Some(on))?;
-        let Some(few) = &layer.few else { return Ok(None) };
         let flown = self.fly_layer(&layer, spec, None)?;
-        let (beam, sheet) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
-        let curves = few.curves(&layer.sheet, &beam, &flown)?;
-        let told = few.tell(sheet, (&beam, &flown), Some(&curves), (self.threads, self.stop))?;
-        self.pair((spec, number), FineSheet { on, layer: &layer, flown: &flown, told })
+        let Some(few) = look_at(&layer, &layer.sheet, &flown, (self.threads, self.stop))? else {
+            return Ok(None);
+        };
+        self.pair(spec, number, FineSheet { on, layer: &layer, flown: &flown, few })
     }
 
     /// Flies a fine sheet coarsely too; None if the coarse filaments have not laid all of it.
-    fn pair(&self, (spec, number): (&WebSpec, usize), first: FineSheet<'_>) -> Result<Option<Pair>, Error> {
-        let FineSheet { on, layer, flown, told } = first;
+    fn pair(&self, spec: &WebSpec, number: usize, first: FineSheet<'_>) -> Result<Option<Pair>, Error> {
+        let FineSheet { on, layer, flown, few } = first;
         let Some(line) = layer.beam().case.line else { return Ok(None) };
         let coarse = beam_on(spec, number, Some(&on.coarse()))?.with_coarsest_mesh();
         // It begins to lay earlier, because its start is shorter.
         let earlier = layer.beam().case.run.spin_up() - coarse.beam().case.run.spin_up();
         let longer = (earlier * line.belt_speed + FARTHER * line.distance).max(0.0);
-        let coarse = coarse.longer_by(longer);
-        let coarse = [coarse];
+        let coarse = [coarse.longer_by(longer)];
         let (threads, stop) = (self.threads, self.stop);
         let laid = self.watched(&coarse, |done| {
             coarsely(&coarse[0], Control { threads, isa: Isa::detect(), stop, done })
@@ -183,14 +182,15 @@ impl Flyer<'_> {
             return Ok(None);
         }
         let laid = BeamFindings { back: flown.back, ..laid };
-        let coarse = tell(&coarse[0], (&layer.sheet, &laid), (self.threads, self.stop))?;
-        Ok(coarse.map(|coarse| Pair { fine: told, coarse }))
+        let coarse = look_at(&coarse[0], &with_larger_cells(&layer.sheet), &laid, (threads, stop))?;
+        Ok(coarse.map(|coarse| Pair { fine: few, coarse }))
     }
 
-    /// Flies coarse sheets in airs of their own, side by side.
+    /// Flies coarse sheets side by side, each in another air.
     fn coarse_sheets(
         &self,
-        (spec, number): (&WebSpec, usize),
+        spec: &WebSpec,
+        number: usize,
         on: &FlownSheet,
         airs: std::ops::Range<u64>,
     ) -> Result<Vec<LayerFew>, Error> {
@@ -210,7 +210,7 @@ impl Flyer<'_> {
                 let beam = beams[i].beam();
                 let of_sheet = Laid::new([&beam, &beam], &laid)?;
                 let (sheet, laid) = of_sheet.sheet(&beams[i].sheet, &of_sheet.during)?;
-                tell(&beams[i], (&sheet, &laid), (threads, stop))
+                look_at(&beams[i], &with_larger_cells(&sheet), &laid, (threads, stop))
             })
         })?;
         Ok(found.into_iter().flatten().collect())
@@ -248,16 +248,17 @@ fn coarsely(of_beam: &LayerBeam<'_>, by: Control<'_>) -> Result<BeamFindings, Er
     flown.into_iter().next().ok_or_else(Error::no_fibre)?
 }
 
-/// The CV of a coarse sheet; None if all of its filaments are flown.
-fn tell(
+/// The CV of a sheet from its few filaments; None if all of its filaments are flown.
+fn look_at(
     of_beam: &LayerBeam<'_>,
-    (sheet, laid): (&Sheet, &BeamFindings),
+    sheet: &Sheet,
+    laid: &BeamFindings,
     by: (usize, &AtomicBool),
 ) -> Result<Option<LayerFew>, Error> {
     let Some(few) = &of_beam.few else { return Ok(None) };
-    let (sheet, beam) = (with_larger_cells(sheet), of_beam.beam());
-    let curves = few.curves(&sheet, &beam, laid)?;
-    few.tell((&sheet, blocks_on(&sheet)), (&beam, laid), Some(&curves), by).map(Some)
+    let beam = of_beam.beam();
+    let curves = few.curves(sheet, &beam, laid)?;
+    few.tell((sheet, blocks_on(sheet)), (&beam, laid), Some(&curves), by).map(Some)
 }
 
 /// The same sheet in cells twice as large, if its patches are whole numbers of them.

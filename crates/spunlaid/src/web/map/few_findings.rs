@@ -75,10 +75,14 @@ pub struct LayerFew {
     pub lost: u64,
     /// Size of the sheet that they laid, across and along [m].
     pub sheet: [f64; 2],
-    /// Area that tells the CV: of this sheet, and of others that were flown more coarsely [m²].
+    /// Area whose clouds give the CV: of this sheet, and of others that were flown more coarsely [m²].
     pub area: f64,
     /// The part of it that was flown as finely as this sheet [m²].
     pub fine_area: f64,
+    /// Number of filaments on other sheets that gave the CV and were not lost.
+    pub on_other_sheets: u64,
+    /// Number of those that were lost.
+    pub lost_on_other_sheets: u64,
     /// The standard error of the CV that was wanted, as a fraction of it; None if one sheet is enough.
     pub wanted: Option<f64>,
     /// Distance of neighbours in a row [m].

@@ -284,7 +284,7 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
     let square = sum(&|few| few.cv * few.cv, 1);
     let cv = square.sqrt();
     // The errors of sums of squares, as one of their root. What layers have in common at random is as much as their
-    // waves are alike: at most, their sampling errors add up. Over many sheets in airs of their own they do not.
+    // waves are alike: at most, their sampling errors add up. Sheets in other airs have nothing in common.
     let is_of_levels =
         laid.flown.iter().all(|layer| layer.few.as_ref().is_some_and(LayerFew::is_of_two_levels));
     let chance = |few: &FewFilamentsCv| few.cv * few.by_chance.unwrap_or(f64::NAN);
@@ -377,8 +377,11 @@ fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
     let count = |(layer, flown): (&Layer, &LayerFlown)| {
         flown.few.as_ref().map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
     };
-    let of = web.layers.iter().zip(&laid.flown).map(count).sum();
-    let lost = Some(laid.flown.iter().map(|layer| layer.lost).sum()).filter(|lost| *lost > 0);
+    let others = laid.few().map(|few| few.on_other_sheets + few.lost_on_other_sheets).sum::<u64>();
+    let of = web.layers.iter().zip(&laid.flown).map(count).sum::<u64>() + others;
+    let lost = laid.flown.iter().map(|layer| layer.lost).sum::<u64>()
+        + laid.few().map(|few| few.lost_on_other_sheets).sum::<u64>();
+    let lost = Some(lost).filter(|lost| *lost > 0);
     lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
 }
 

@@ -52,24 +52,24 @@ impl Variances {
 struct OfPatch {
     cv: f64,
     variances: Variances,
-    /// How far every second filament is off, as a share of the CV.
+    /// How far every second filament is off, as a fraction of the CV.
     of_halves: f64,
 }
 
 /// A sheet as one of many.
 #[derive(Clone, Copy)]
-struct Share<'a> {
+struct Sheet<'a> {
     few: &'a LayerFew,
-    /// Of the area of all.
-    share: f64,
+    /// Its fraction of the area of all.
+    fraction: f64,
 }
 
 impl Levels {
     /// Combines the sheets: the first fine sheet with the CV of all. None without a pair.
     pub(crate) fn combine(&self) -> Option<LayerFew> {
         let first = &self.pairs.first()?.fine;
-        let mut told = first.clone();
-        for (number, cv) in told.cvs.iter_mut().enumerate() {
+        let mut combined = first.clone();
+        for (number, cv) in combined.cvs.iter_mut().enumerate() {
             let Some(OfPatch { cv: of_all, variances, of_halves }) = self.combine_over(number) else {
                 continue;
             };
@@ -82,9 +82,14 @@ impl Levels {
                 ..cv.with_square(of_all * of_all)
             };
         }
-        told.area = self.coarse().map(|sheet| area(sheet.few)).sum();
-        told.fine_area = self.pairs.iter().map(|pair| area(&pair.fine)).sum();
-        Some(told)
+        combined.area = self.coarse().map(|sheet| area(sheet.few)).sum();
+        combined.fine_area = self.pairs.iter().map(|pair| area(&pair.fine)).sum();
+        let fine = self.pairs.iter().skip(1).map(|pair| &pair.fine);
+        for sheet in fine.chain(self.coarse().map(|sheet| sheet.few)) {
+            combined.on_other_sheets += sheet.filaments;
+            combined.lost_on_other_sheets += sheet.lost;
+        }
+        Some(combined)
     }
 
     /// The parts of the error of the CV over the patches that the eye judges first.
@@ -95,10 +100,10 @@ impl Levels {
     }
 
     /// All coarse sheets.
-    fn coarse(&self) -> impl Iterator<Item = Share<'_>> {
+    fn coarse(&self) -> impl Iterator<Item = Sheet<'_>> {
         let all = || self.pairs.iter().map(|pair| &pair.coarse).chain(&self.coarse);
         let whole: f64 = all().map(area).sum();
-        all().map(move |few| Share { few, share: area(few) / whole })
+        all().map(move |few| Sheet { few, fraction: area(few) / whole })
     }
 
     /// The CV over patches of one side, and its error.
@@ -115,24 +120,25 @@ impl Levels {
         let (mut of_fine, mut of_coarse, mut of_both) = (0.0, 0.0, 0.0);
         let mut degrees = 0.0;
         for pair in &self.pairs {
-            let share = area(&pair.fine) / whole;
+            let fraction = area(&pair.fine) / whole;
             let (a, b) = (blocks(&pair.fine)?, blocks(&pair.coarse)?);
             if a.len() != b.len() {
                 return None;
             }
             let means = Covariance::of_means(&a, &b, pair.fine.blocks_across);
-            fine += share * square(&pair.fine)?;
-            common += share * square(&pair.coarse)?;
-            of_fine += share * share * means.variances[0];
-            of_coarse += share * share * means.variances[1];
-            of_both += share * share * means.covariance;
+            fine += fraction * square(&pair.fine)?;
+            common += fraction * square(&pair.coarse)?;
+            of_fine += fraction * fraction * means.variances[0];
+            of_coarse += fraction * fraction * means.variances[1];
+            of_both += fraction * fraction * means.covariance;
             degrees += means.degrees;
         }
         let (mut all, mut of_all) = (0.0, 0.0);
-        for Share { few, share } in self.coarse() {
+        for Sheet { few, fraction } in self.coarse() {
             let blocks = blocks(few)?;
-            all += share * square(few)?;
-            of_all += share * share * Covariance::of_means(&blocks, &blocks, few.blocks_across).variances[0];
+            all += fraction * square(few)?;
+            of_all +=
+                fraction * fraction * Covariance::of_means(&blocks, &blocks, few.blocks_across).variances[0];
         }
         let coefficient = if of_coarse > 0.0 { (of_both / of_coarse).clamp(0.0, MOST) } else { 0.0 };
         let left = (of_fine - 2.0 * coefficient * of_both + coefficient * coefficient * of_coarse).max(0.0);
@@ -154,17 +160,17 @@ impl Levels {
     /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
     /// distance is the same on all of them.
     fn by_pitch(&self, patch: f64, at: impl Fn(&LayerFew) -> Option<usize>) -> Option<(f64, f64)> {
-        let (mut squares, mut off, mut shares) = (0.0, 0.0, 0.0);
-        for Share { few, share } in self.coarse() {
+        let (mut squares, mut off, mut fractions) = (0.0, 0.0, 0.0);
+        for Sheet { few, fraction } in self.coarse() {
             let of_halves = few.cvs[at(few)?].of_halves;
-            squares += share * of_halves * of_halves;
-            off += share * of_halves;
-            shares += share * share;
+            squares += fraction * of_halves * of_halves;
+            off += fraction * of_halves;
+            fractions += fraction * fraction;
         }
         let first = &self.pairs.first()?.fine;
         let small = if patch < small_patch(first.pitch) { SMALL } else { 0.0 };
         // The error falls faster than the pitch.
-        Some((off, (0.25 * off * off).max(squares * shares) + small * small))
+        Some((off, (0.25 * off * off).max(squares * fractions) + small * small))
     }
 }
 
@@ -311,9 +317,9 @@ mod tests {
             for _ in 0..TRIALS {
                 let levels = levels(&mut random, in_common);
                 let square = |few: &LayerFew| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
-                let told = levels.combine().unwrap();
-                sum += square(&told);
-                squares += square(&told).powi(2);
+                let combined = levels.combine().unwrap();
+                sum += square(&combined);
+                squares += square(&combined).powi(2);
                 alone += square(&levels.pairs[0].fine).powi(2);
                 reported += 4.0 * levels.variances().unwrap().whole();
             }
