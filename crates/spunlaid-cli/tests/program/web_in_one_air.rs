@@ -131,7 +131,8 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
     assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
-    let sentence = "40 were flown, evenly across, on a sheet of 160\u{202f}mm × 625\u{202f}mm, and as many";
+    let sentence = "Of all filaments, 40 were flown, evenly across, on a sheet of \
+        160\u{202f}mm × 625\u{202f}mm, and as many";
     assert!(page.contains(sentence), "no {sentence}");
 
     // The same bits from any number of threads, and from the folder.
