@@ -77,7 +77,8 @@ struct Held {
     points: Vec<Vec<LaidPoint>>,
 }
 
-/// Adds rows to records, which are full but for the last one. One long list would be copied as it grows, and leave gaps.
+/// Adds rows to records, which are full but for the last one. One long list would be copied as it grows, and would
+/// leave gaps in memory.
 fn add_to<R: Copy>(records: &mut Vec<Vec<R>>, mut rows: &[R]) {
     while !rows.is_empty() {
         let room = records.last().map_or(0, |last| RECORD - last.len());
