@@ -7,10 +7,12 @@
 //! ```
 
 mod kept;
+mod pinned;
 pub mod setting;
 mod web_of_few;
 
 pub use kept::KEPT_OUTCOMES;
+pub use pinned::{CvSoFar, LOOKS, LaidStretch, Look, PinnedWeb, Seen};
 pub use setting::{ChangedWeb, judged_by};
 
 use self::kept::{numbers_of, outcomes_of};
