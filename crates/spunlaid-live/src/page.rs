@@ -7,8 +7,9 @@ const CSS: &str = "text/css; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
 /// Name, kind and text of each file. The page itself has no name.
-const FILES: [(&str, &str, &str); 11] = [
+const FILES: [(&str, &str, &str); 12] = [
     ("", HTML, include_str!("../assets/live.html")),
+    ("base.css", CSS, include_str!("../assets/base.css")),
     ("live.css", CSS, include_str!("../assets/live.css")),
     ("uPlot.min.css", CSS, include_str!("../assets/uplot/uPlot.min.css")),
     ("uPlot.iife.min.js", SCRIPT, include_str!("../assets/uplot/uPlot.iife.min.js")),
