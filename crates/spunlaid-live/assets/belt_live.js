@@ -280,8 +280,7 @@ class Belt {
       }
     }
     pen.restore();
-    if (!laid.map) this.paintCurtain(pen, laid, view);
-    else this.paintRest(pen, view);
+    this.paintCurtain(pen, laid, view);
   }
 
   paintMap(pen, laid, { scale, width, height, top }) {
@@ -293,27 +292,21 @@ class Belt {
   }
 
   /** The filaments on their way down, from about their holes to where each landed last. */
-  paintCurtain(pen, { ends, homes }, { scale, height, top }) {
+  paintCurtain(pen, { ends, homes, map }, { scale, height, top }) {
     pen.save();
     pen.strokeStyle = this.colours.lines;
-    pen.globalAlpha = 0.8;
+    pen.globalAlpha = map ? 0.35 : 0.8;
     pen.lineWidth = 1;
     pen.beginPath();
     ends.forEach((end, i) => {
       if (!end) return;
       const home = (homes[i].sum / homes[i].count) * scale;
-      const [x, y] = [end[0] * scale, Math.min(height, CURTAIN + (top - end[1]) * scale)];
+      const [x, y] = [end[0] * scale, map ? CURTAIN : Math.min(height, CURTAIN + Math.max(1, (top - end[1]) * scale))];
       pen.moveTo(home, 0);
       if (Math.abs(x - home) < 80) pen.bezierCurveTo(home, 0.6 * y, x, 0.5 * y, x, y);
     });
     pen.stroke();
     pen.restore();
-  }
-
-  /** The belt stands: an edge in place of the curtain. */
-  paintRest(pen, { width }) {
-    pen.fillStyle = this.colours.muted;
-    pen.fillRect(0, CURTAIN - 1, width, 1);
   }
 
   tag(pen, text, x, y) {

@@ -16,8 +16,11 @@ function changed({ change, standard_error: error }) {
   const [value, by] = [100 * change, 100 * error];
   const places = error > 0 ? decimals(by, 1) : 1;
   const sign = value > 0 ? "+" : value < 0 ? "−" : "";
-  return `${sign}${Math.abs(value).toFixed(places)}${error > 0 ? ` ± ${by.toFixed(places)}` : ""} %`;
+  return `${sign}${Math.abs(value).toFixed(places)}${error > 0 ? ` ± ${by.toFixed(places)}` : ""} %`.replaceAll(" ", "\u00a0");
 }
+
+/** The step of which the effect is known, `+20 %`. */
+const step = ({ step: by }, sign = 1) => `${sign * by < 0 ? "−" : "+"}${Math.round(100 * Math.abs(by))} %`;
 
 class Knobs {
   /** `set(name, value)` is called when a knob is turned; it returns the stamp that the answer will have. */
@@ -63,8 +66,7 @@ class Knobs {
     const slider = element("input", { type: "range", min: 0, max: NOTCHES, step: 1 });
     slider.setAttribute("aria-label", knob.label);
     const tick = element("i");
-    const effect = element("button", { type: "button", hidden: true });
-    const was = element("span");
+    const [effect, was] = [element("span"), element("span")];
     const wrong = element("p", { className: "wrong", id: `${id}-wrong`, hidden: true });
     wrong.setAttribute("role", "alert");
     const control = { knob, row, text, slider, tick, effect, was, wrong };
@@ -90,10 +92,6 @@ class Knobs {
       else this.show(control);
     });
     text.addEventListener("input", () => this.accept(control));
-    effect.addEventListener("click", () => {
-      control.turnedTo = this.rounded(control.knob, control.knob.value * (1 + control.knob.effect.step));
-      this.send(control);
-    });
     this.all.set(knob.name, control);
     this.show(control);
     return row;
@@ -141,10 +139,24 @@ class Knobs {
     const moved = Math.abs(knob.value - knob.was) > 1e-9 * Math.abs(knob.was);
     row.classList.toggle("moved", moved);
     was.textContent = moved ? `before ${this.written(knob, knob.was)}` : "";
-    effect.hidden = !knob.effect;
-    if (!knob.effect) return;
-    effect.textContent = `+${Math.round(100 * knob.effect.step)} %: CV ${changed(knob.effect)}`;
-    effect.title = `Turn it by +${Math.round(100 * knob.effect.step)} %`;
+    effect.textContent = knob.effect ? `${step(knob.effect)}: CV ${changed(knob.effect)}` : "";
+  }
+
+  /** The step that lowers the CV most of all that are known not to be chance; those that can be turned today come first. */
+  first() {
+    const isSure = ({ change, standard_error: error }) => Math.abs(change) > 2 * error;
+    const known = [...this.all.values()].filter(({ knob }) => knob.effect && isSure(knob.effect));
+    const today = known.filter(({ knob }) => knob.turned === "running");
+    const of = today.length > 0 ? today : known;
+    return of.sort((a, b) => Math.abs(b.knob.effect.change) - Math.abs(a.knob.effect.change))[0] ?? null;
+  }
+
+  /** Turns a knob by the step of which the effect is known, up or down, so that the CV falls. */
+  turnFirst() {
+    const control = this.first();
+    const { value, effect } = control.knob;
+    control.turnedTo = this.rounded(control.knob, value * (1 - Math.sign(effect.change) * effect.step));
+    this.send(control);
   }
 
   /** While a thumb moves: its value, and what the known effect of a step lets expect. */

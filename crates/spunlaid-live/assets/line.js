@@ -36,6 +36,9 @@ const link = new Link({
   knobs({ title, knobs: all }) {
     const moved = knobs.take(all);
     page.knobs = all;
+    const first = knobs.first();
+    byId("first").hidden = !first;
+    if (first) say("first", `Change first: ${first.knob.label} ${step(first.knob.effect, -Math.sign(first.knob.effect.change))}`);
     byId("title").textContent = title;
     document.title = `${title} – spunlaid live`;
     // What another page has turned; what moves along with one's own knob is no news.
@@ -153,6 +156,7 @@ function found(told) {
     page.settling.push({ at: (performance.now() - page.since) / 1000, ...number });
   }
   showNumbers();
+  status();
   drawSettling();
 }
 
@@ -219,8 +223,7 @@ function showWork(work) {
     item.querySelector("b").style.width = `${100 * share}%`;
     item.className = order === at ? "is-now" : "";
   }
-  const percent = work ? `${Math.round(100 * work.share)} %` : "";
-  say("work", work ? `${work.words}: ${percent}` : "");
+  say("share", work ? `${Math.round(100 * work.share)} %` : "");
 }
 
 function status() {
@@ -230,7 +233,9 @@ function status() {
   const price = now.price ? ` This value ${now.price}.` : "";
   if (now.stands && now.work) return say("status", `It stands: press Go.${price}`);
   if (now.work) return say("status", `${now.work.words}.${price}`);
-  say("status", `Complete: spunlaid web gives these numbers of this file, bit-identical.${price}`);
+  const best = judged();
+  const isComplete = (best?.now ?? best?.before)?.is_complete;
+  say("status", isComplete ? `Complete: spunlaid web gives bit-identical numbers for this file.${price}` : price.trim());
 }
 
 function showPlant(plant) {
@@ -360,7 +365,7 @@ function slide() {
   write(byId("headline").textContent, 1010, 120, "700 44px", ink);
   write(byId("change").textContent, 1010, 176, "600 34px", getComputedStyle(byId("change")).color);
   write(`${byId("title").textContent} · ${byId("status").textContent}`, 1010, 224, "24px", muted);
-  const step = Math.min(44, 740 / Math.max(1, page.knobs.length));
+  const step = Math.min(52, 700 / Math.max(1, page.knobs.length));
   page.knobs.forEach((knob, i) => {
     const moved = knob.value !== knob.was;
     const weight = moved ? "700 " : "";
@@ -386,6 +391,7 @@ byId("picture").addEventListener("click", slide);
 byId("pin").addEventListener("click", () => ask({ do: "pin" }));
 byId("reset").addEventListener("click", () => ask({ do: "reset" }));
 byId("back").addEventListener("click", goBack);
+byId("first").addEventListener("click", () => knobs.turnFirst());
 byId("note-close").addEventListener("click", () => note(""));
 byId("save").addEventListener("click", () => {
   saved("", false);
@@ -403,7 +409,7 @@ addEventListener("keydown", (e) => {
   goBack();
 });
 
-addEventListener("resize", drawSettling);
+new ResizeObserver(drawSettling).observe(byId("settling"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawSettling);
 
 let last = 0;
@@ -421,7 +427,7 @@ requestAnimationFrame(tick);
 
 addEventListener("error", (e) => seen.errors.push(String(e.message)));
 window.spunlaidLive = {
-  seen,
+  seen: Object.defineProperty(seen, "drawn", { get: () => belt.drawn }),
   belt,
   knobs,
   get state() { return page.state; },
