@@ -31,22 +31,29 @@ class Laid {
   }
 
   clear() {
-    this.generation = null;
+    this.generation = -1;
     this.tiles = new Map();
     this.ends = [];
     this.homes = [];
     [this.moved, this.ahead, this.width] = [0, 0, 0];
   }
 
+  /** Whether another web begins with these points: its belt starts again. */
+  isNewWeb({ generation, width, moved, layer, filaments }) {
+    const isSame = generation === this.generation && layer === this.layer && width === this.width;
+    return !isSame || moved < this.moved || filaments.length !== this.ends.length;
+  }
+
   /** Draws new points of the filaments. */
-  take({ generation, width, moved, filaments }, colour) {
-    if (generation !== this.generation || width !== this.width || filaments.length !== this.ends.length) {
+  take(frame, colour) {
+    const { generation, layer, width, moved, filaments } = frame;
+    if (this.isNewWeb(frame)) {
       this.clear();
-      [this.generation, this.width] = [generation, width];
+      Object.assign(this, { generation, layer, width });
       this.ends = filaments.map(() => null);
       this.homes = filaments.map(() => ({ sum: 0, count: 0 }));
     }
-    this.moved = Math.max(this.moved, moved);
+    this.moved = moved;
     const scale = TILE[0] / width;
     const folded = (x) => ((x % width) + width) % width;
     for (const [i, points] of filaments.entries()) {
@@ -160,12 +167,12 @@ class Belt {
     this.canvas.addEventListener("keydown", (e) => e.key.startsWith("Arrow") && e.preventDefault());
   }
 
-  take(frame) {
-    const laid = frame.layer === 0 ? this.before : this.now;
+  /** `isNow` – whether points are those of the web as it is now; a map says it itself. */
+  take(frame, isNow) {
+    const laid = (frame.kind === 0 ? isNow : frame.layer === 1) ? this.now : this.before;
     if (frame.kind === 0) {
-      if (laid.generation !== frame.generation) [this.at, this.offset] = [0, 0];
+      if (laid.isNewWeb(frame)) [this.at, this.offset] = [0, 0];
       laid.take(frame, this.colours.lines);
-      if (laid === this.now && laid.map?.generation !== frame.generation) laid.map = null;
     } else [laid.map, laid.image] = [frame, null];
     this.stale = true;
   }
@@ -178,9 +185,10 @@ class Belt {
     this.stale = true;
   }
 
-  /** The line is as it was before: nothing of its own lies on the belt. */
-  clearNow() {
-    this.now = new Laid();
+  /** Takes what is older than a change of the knobs off the belt of now. */
+  clearNow(generation) {
+    if (this.now.generation < generation) this.now.clear();
+    if (this.now.map?.generation < generation) this.now.map = null;
     this.stale = true;
   }
 

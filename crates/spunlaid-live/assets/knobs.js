@@ -19,8 +19,8 @@ function changed({ change, standard_error: error }) {
   return `${sign}${Math.abs(value).toFixed(places)}${error > 0 ? ` ± ${by.toFixed(places)}` : ""} %`.replaceAll(" ", "\u00a0");
 }
 
-/** The step of which the effect is known, `+20 %`. */
-const step = ({ step: by }, sign = 1) => `${sign * by < 0 ? "−" : "+"}${Math.round(100 * Math.abs(by))} %`;
+/** The step of which the effect is known, `+20 %`, or the other way. */
+const step = ({ words }, sign = 1) => (sign < 0 ? words.replace(/^[+-]/, (c) => (c === "+" ? "−" : "+")) : words.replace("-", "−"));
 
 class Knobs {
   /** `set(name, value)` is called when a knob is turned; it returns the stamp that the answer will have. */
@@ -88,10 +88,15 @@ class Knobs {
     text.addEventListener("change", () => {
       // A bare number is one in the unit of the knob.
       const written = text.value.trim().replace("−", "-");
+      control.isEdited = false;
       if (written !== "") this.ask(control, Number.isNaN(Number(written)) ? written : Number(written));
       else this.show(control);
     });
-    text.addEventListener("input", () => this.accept(control));
+    text.addEventListener("input", () => {
+      control.isEdited = true;
+      this.accept(control);
+    });
+    text.addEventListener("blur", () => (control.isEdited = false));
     this.all.set(knob.name, control);
     this.show(control);
     return row;
@@ -129,8 +134,8 @@ class Knobs {
     const { knob, row, text, slider, tick, effect, was } = control;
     control.turnedTo = control.asked = null;
     control.isLate = false;
-    if (text !== document.activeElement || text.value.trim() === "" || control.shown === text.value) text.value = this.written(knob, knob.value);
     control.shown = this.written(knob, knob.value);
+    if (!control.isEdited) text.value = control.shown;
     // A slider whose notch rounds to this value stays there, or it would stick under the arrow keys.
     if (this.valueAt(knob, Number(slider.value)) !== knob.value) slider.value = Math.round(NOTCHES * this.shareOf(knob, knob.value));
     slider.setAttribute("aria-valuetext", control.shown);
@@ -178,6 +183,7 @@ class Knobs {
 
   ask(control, value) {
     this.accept(control);
+    control.isEdited = false;
     control.asked = value;
     control.stamp = this.set(control.knob.name, value);
   }
@@ -200,7 +206,8 @@ class Knobs {
     if (!control) return;
     control.stamp = null;
     this.accept(control);
-    if (control.isLate && control !== this.held && !control.timer) this.show(control);
+    const isThere = control.isLate || control.asked === control.knob.value;
+    if (isThere && control !== this.held && !control.timer) this.show(control);
   }
 
   /** Marks a value that is not possible, with the reason below it. Box and slider keep it. */
@@ -226,20 +233,20 @@ class Knobs {
 
   /** Takes back what is being turned, written or was refused; returns whether there was any. */
   takeBack() {
-    const open = [...this.all.values()].filter((c) => c.timer || c === this.held || !c.wrong.hidden || c.text.value !== c.shown);
+    const open = [...this.all.values()].filter((c) => c.timer || c === this.held || !c.wrong.hidden || c.isEdited);
     for (const control of open) {
       clearTimeout(control.timer);
       control.timer = null;
       this.accept(control);
-      control.text.value = "";
+      control.isEdited = false;
       this.show(control);
     }
     return open.length > 0;
   }
 
-  /** Whether a box shows what the program says. */
-  rests(box) {
-    return [...this.all.values()].some(({ text, shown }) => text === box && text.value === shown);
+  /** Whether a box has text that nobody has asked for yet. */
+  isEdited(box) {
+    return [...this.all.values()].some((control) => control.text === box && control.isEdited);
   }
 
   /** The connection is gone: what was asked will not be answered. */

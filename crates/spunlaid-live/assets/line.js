@@ -3,7 +3,7 @@
 const SIDE = 0.01;
 const STAGES = ["before", "sketch", "complete"];
 
-const page = { state: null, knobs: null, patches: new Map(), settling: [], since: 0, stage: null, connected: false, moved: false };
+const page = { state: null, knobs: null, patches: new Map(), settling: [], since: 0, isTurned: false, connected: false, moved: false };
 const asked = { at: -Infinity };
 /** For checks: how it goes. */
 const seen = { frames: 0, sent: [], errors: [] };
@@ -50,9 +50,10 @@ const link = new Link({
   found,
   frame(frame) {
     seen.frames += 1;
+    // Of a web that is no more looked at; the map of before stays.
     const isOld = frame.generation < (page.state?.generation ?? 0);
-    if (frame.layer === 1 && isOld) return;
-    belt.take(frame);
+    if (isOld && (frame.kind === 0 || frame.layer === 1)) return;
+    belt.take(frame, page.state?.work?.stage === "sketch");
   },
   applied: ({ stamp }) => knobs.applied(stamp),
   refused({ about, problems }) {
@@ -100,9 +101,11 @@ function state(told) {
   page.state = told;
   if (last && told.generation < last.generation) restart();
   if (last && told.pinned !== last.pinned) pinned();
+  page.isTurned = told.now !== told.pinned;
+  if (!page.isTurned) for (const patch of page.patches.values()) patch.now = patch.change = null;
   if (!last || told.generation !== last.generation) {
     [page.settling.old, page.since] = [true, performance.now()];
-    if (told.generation === told.pinned) belt.clearNow();
+    belt.clearNow(told.generation);
   }
   say("command", told.command);
   if (!last || (byId("name").value === last.save_name)) byId("name").value = told.save_name;
@@ -122,8 +125,7 @@ function state(told) {
 function restart() {
   page.patches.clear();
   page.settling = [];
-  belt.before = new Laid();
-  belt.clearNow();
+  [belt.before, belt.now] = [new Laid(), new Laid()];
 }
 
 /** What is now has become what was before. */
@@ -138,22 +140,21 @@ function pinned() {
 
 function found(told) {
   if (!page.state || told.generation < page.state.generation) return;
-  page.stage = told.stage;
-  page.area = told.area_m2;
   for (const patch of told.patches) {
     const kept = page.patches.get(patch.side_m) ?? { side: patch.side_m };
     if (patch.before) kept.before = patch.before;
-    // A number gives way to a newer one only; where the line is as before there is none.
+    // A number gives way to a newer one only.
     if (patch.now) [kept.now, kept.of] = [patch.now, told.generation];
     if (patch.change) [kept.change, kept.changeOf] = [patch.change, told.generation];
-    if (told.stage === "before") kept.now = kept.change = null;
     page.patches.set(patch.side_m, kept);
   }
   const shown = judged();
-  const number = shown && (told.stage === "before" ? shown.before : shown.of === told.generation && shown.now);
-  if (number) {
+  const number = shown && (page.isTurned ? shown.of === told.generation && shown.now : shown.before);
+  const isNew = page.settling.old || JSON.stringify(number) !== page.settling.last;
+  if (number && isNew) {
     if (page.settling.old) page.settling = [];
     page.settling.push({ at: (performance.now() - page.since) / 1000, ...number });
+    page.settling.last = JSON.stringify(number);
   }
   showNumbers();
   status();
@@ -218,7 +219,9 @@ function headline(best, generation) {
 function showWork(work) {
   for (const item of byId("stages").children) {
     const order = STAGES.indexOf(item.dataset.stage);
-    const at = work ? STAGES.indexOf(work.stage) : STAGES.length;
+    // What the knobs do is tried when all is complete.
+    const at = work && STAGES.includes(work.stage) ? STAGES.indexOf(work.stage) : STAGES.length;
+    item.hidden = item.dataset.stage === "sketch" && !page.isTurned;
     const share = order < at ? 1 : order === at ? work.share : 0;
     item.querySelector("b").style.width = `${100 * share}%`;
     item.className = order === at ? "is-now" : "";
@@ -230,20 +233,22 @@ function status() {
   const { state: now } = page;
   if (!page.connected) return say("status", page.moved ? "Open the new address that the program printed." : "No connection with the program.");
   if (!now) return say("status", "Connecting …");
-  const price = now.price ? ` This value ${now.price}.` : "";
-  if (now.stands && now.work) return say("status", `It stands: press Go.${price}`);
-  if (now.work) return say("status", `${now.work.words}.${price}`);
   const best = judged();
-  const isComplete = (best?.now ?? best?.before)?.is_complete;
-  say("status", isComplete ? `Complete: spunlaid web gives bit-identical numbers for this file.${price}` : price.trim());
+  const isComplete = page.isTurned ? best?.now?.is_complete && best.of === now.generation : best?.before?.is_complete;
+  const parts = [isComplete ? "Complete: spunlaid web gives bit-identical numbers for this line." : ""];
+  if (now.stands) parts.push("It stands: press Go.");
+  else if (now.work) parts.push(`${now.work.words}.`);
+  if (now.price) parts.push(`This value ${now.price}.`);
+  say("status", parts.filter(Boolean).join(" "));
 }
 
 function showPlant(plant) {
   byId("plant").tBodies[0].replaceChildren(
     ...plant.map(({ label, now, was }) => {
-      const row = element("tr", { className: now === was ? "" : "moved" });
+      const isMoved = was !== null && now !== was;
+      const row = element("tr", { className: isMoved ? "moved" : "" });
       const cell = element("td", { textContent: now });
-      if (now !== was) cell.prepend(element("span", { className: "was", textContent: `${was} → ` }));
+      if (isMoved) cell.prepend(element("span", { className: "was", textContent: `${was} → ` }));
       row.append(element("th", { scope: "row", textContent: label[0].toUpperCase() + label.slice(1) }), cell);
       return row;
     }),
@@ -334,7 +339,7 @@ function drawSettling() {
   pen.lineWidth = 2;
   line(...settling.map((n) => [x(n.at), y(100 * n.cv)]));
   for (const n of settling) pen.fillRect(x(n.at) - 2, y(100 * n.cv) - 2, 4, 4);
-  if (!before || page.stage === "before") return;
+  if (!before || !page.isTurned) return;
   pen.fillStyle = pen.strokeStyle = colour("trail");
   pen.setLineDash([5, 4]);
   pen.lineWidth = 1.5;
@@ -400,11 +405,10 @@ byId("save").addEventListener("click", () => {
 copies(byId("copy"), byId("command"));
 
 addEventListener("keydown", (e) => {
-  const writes = e.target.matches?.("input:not([type=range])");
   // Escape takes back what is not done yet; where there is nothing, all knobs go back to before.
   if (e.key === "Escape" && e.target !== byId("name") && !knobs.takeBack()) ask({ do: "reset" });
   const undoes = (e.ctrlKey || e.metaKey) && !e.shiftKey && e.key.toLowerCase() === "z";
-  if (!undoes || (writes && !knobs.rests(e.target))) return;
+  if (!undoes || e.target === byId("name") || knobs.isEdited(e.target)) return;
   e.preventDefault();
   goBack();
 });
