@@ -10,6 +10,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { violations } from "./axe.mjs";
+import { checkLine } from "./line.mjs";
 
 const { chromium } = createRequire(join(process.env.PACKAGES, "package.json"))("playwright-core");
 const { values: options, positionals } = parseArgs({
@@ -64,9 +65,9 @@ function computed(pid) {
 /** Resident memory [MB]. */
 const resident = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]) / 1024;
 
-async function open(browser, address, { scheme = "light", width = 1280, alone = false } = {}) {
+async function open(browser, address, { scheme = "light", width = 1280, height = 860, alone = false } = {}) {
   const where = `${scheme}, ${width} px`;
-  const page = await browser.newPage({ viewport: { width, height: 860 }, colorScheme: scheme });
+  const page = await browser.newPage({ viewport: { width, height }, colorScheme: scheme });
   page.on("pageerror", (error) => failures.push(`${where}: script error: ${error.message}`));
   page.on("console", (message) => {
     // The browser itself complains where nobody answers.
@@ -348,7 +349,8 @@ const browser = await chromium.launch({
 });
 let lines = [];
 try {
-  lines = [...(await checkMistakes(browser)), ...(await checkKeyboard(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
+  lines = await checkLine(browser, { program, folder, expect, start, open, print, shot, wait, computed, isRed });
+  lines = [...lines, ...(await checkMistakes(browser)), ...(await checkKeyboard(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
 } catch (error) {
   failures.push(`the check itself: ${error.message}`);
 } finally {

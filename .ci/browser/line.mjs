@@ -1,0 +1,217 @@
+// What a person must see on the page of `spunlaid live line.toml`: a web that grows, a knob that changes it, a change that becomes
+// sure or stays grey, and a file that gives the numbers of the page.
+
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { violations } from "./axe.mjs";
+
+/** A small sheet of few filaments with long elements: a web in seconds. */
+const SMALL = ["web.width=0.15 m", "web.length=0.15 m", "web.error=20 %", "web.cell=1 mm", "belt.distance=250 mm", "fibre.element_length=8 mm"];
+const LINE = ["--polymer", "pp", "--throughput", "0.5 g/min", "--dtex", "2 dtex", "--basis-weight", "20 g/m²", "--holes-per-metre", "500"];
+/** The knob that is turned by hand, and its label. */
+const KNOB = "depth";
+
+/** Writes the line into the folder. */
+function writeLine({ program, folder }) {
+  execFileSync(program, ["new", "--web", "line.toml", ...LINE, "--air-speed", "60 m/s"], { cwd: folder });
+  const path = join(folder, "line.toml");
+  let text = readFileSync(path, "utf8");
+  for (const [key, value] of SMALL.map((set) => set.split("="))) {
+    const [table, name] = key.split(".");
+    const line = `${name} = "${value}"`;
+    const there = new RegExp(`(\\[${table}\\][^[]*?\n)${name} = [^\n]*`);
+    text = there.test(text) ? text.replace(there, `$1${line}`) : text.replace(`[${table}]\n`, `[${table}]\n${line}\n`);
+  }
+  writeFileSync(path, text);
+}
+
+const knobOf = (page, part) => page.locator(`[data-knob="${KNOB}"] ${part}`);
+const isReady = (what) => (page, ms = 180000) => page.waitForFunction(what, null, { timeout: ms });
+const isKnown = isReady(() => spunlaidLive.judged?.before?.is_complete);
+const isChanged = isReady(() => spunlaidLive.judged?.change && spunlaidLive.state.now !== spunlaidLive.state.pinned);
+const isComplete = isReady(() => spunlaidLive.judged?.now?.is_complete && spunlaidLive.judged.of === spunlaidLive.state.generation);
+
+/** Whether a page is seen, as its browser says. */
+const show = (page, visible) =>
+  page.evaluate((visible) => {
+    for (const [name, value] of [["visibilityState", visible ? "visible" : "hidden"], ["hidden", !visible]]) {
+      Object.defineProperty(document, name, { value, configurable: true });
+    }
+    document.dispatchEvent(new Event("visibilitychange", { bubbles: true }));
+  }, visible);
+
+/** Keeps all headlines and whether a number has ever gone. */
+const watchNumbers = (page) =>
+  page.evaluate(() => {
+    window.headlines = new Set();
+    new MutationObserver(() => window.headlines.add(document.getElementById("headline").textContent)).observe(
+      document.getElementById("headline"),
+      { childList: true, characterData: true, subtree: true },
+    );
+  });
+
+/** A thumb that is held is not moved and sends nothing while it moves; then the change comes, and the picture follows. */
+async function turnByHand(page, { expect, print, wait }) {
+  const box = await knobOf(page, "input[type=range]").boundingBox();
+  const sent = () => page.evaluate(() => spunlaidLive.seen.sent.length);
+  const [first, picture] = [await sent(), await print(page, "belt")];
+  const value = Number(await knobOf(page, "input[type=range]").inputValue());
+  const at = (share) => page.mouse.move(box.x + 8 + share * (box.width - 16), box.y + box.height / 2);
+  await at(value / 400);
+  await page.mouse.down();
+  for (let i = 1; i <= 12; i++) {
+    await at(value / 400 + 0.015 * i);
+    await wait(30);
+  }
+  expect((await sent()) === first, "something is sent while a thumb moves");
+  await page.waitForFunction((n) => spunlaidLive.seen.sent.length === n, first + 1);
+  const held = await knobOf(page, "input[type=range]").inputValue();
+  await page.waitForFunction(() => spunlaidLive.state.now !== spunlaidLive.state.pinned);
+  await wait(300);
+  expect((await knobOf(page, "input[type=range]").inputValue()) === held, "the program has moved a thumb that is held");
+  await page.mouse.up();
+  await isChanged(page);
+  expect((await sent()) === first + 1, "the release of a thumb at rest sends its value again");
+  expect((await print(page, "belt")) !== picture, "the picture does not change with the knob");
+  const change = await page.locator("#change").innerText();
+  expect(/^[+−]?[\d.]+\s±\s[\d.]+\s% against before$/.test(change), `the headline says of the change: ${change}`);
+}
+
+/** A value that is not possible turns red with its reason; Escape takes it back, and only it. */
+async function refuse(page, { expect, isRed, wait }) {
+  const box = knobOf(page, ".top input");
+  const [before, now] = [await box.inputValue(), await page.evaluate(() => spunlaidLive.state.now)];
+  await box.fill("10 g");
+  await box.press("Enter");
+  const beside = knobOf(page, ".wrong");
+  await beside.waitFor();
+  expect((await isRed(box, "borderTopColor")) && (await isRed(beside, "color")), "a knob that is refused is not red");
+  await box.press("Escape");
+  await wait(200);
+  expect((await box.inputValue()) === before && (await beside.isHidden()), "Escape does not take a refused value back");
+  expect((await page.evaluate(() => spunlaidLive.state.now)) === now, "Escape on a refused value resets the line");
+}
+
+/** The saved line, laid by the program, has the numbers of the page. */
+async function save(page, { expect, program, folder }) {
+  await page.locator("#name").fill("turned.toml");
+  await page.locator("#save").click();
+  await page.waitForFunction(() => document.getElementById("saved").textContent.includes("turned.toml"));
+  const run = ["web", "turned.toml", "--json", "--no-advice", "--quiet"];
+  const { web } = JSON.parse(execFileSync(program, run, { cwd: folder, maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] }));
+  const shown = await page.evaluate(() => [...spunlaidLive.patches.values()].map(({ side, now }) => [side, now?.cv, now?.standard_error]));
+  const known = shown.filter(([, cv]) => cv !== undefined);
+  expect(known.length > 3, `the page knows the CV of ${known.length} patches only`);
+  for (const [side, cv, error] of known) {
+    const patch = web.patches.find(({ patch_m: other }) => Math.abs(other / side - 1) < 1e-6);
+    const same = patch?.cv === cv && (patch.cv_whole_error ?? patch.cv_standard_error) === error;
+    expect(same, `over ${1e3 * side} mm the page says ${cv} ± ${error}, the saved line ${JSON.stringify(patch)}`);
+  }
+  return known.length;
+}
+
+/** Escape resets, Ctrl+Z brings the answer back. */
+async function undo(page, { expect, wait }) {
+  const now = await page.evaluate(() => spunlaidLive.state.now);
+  await page.locator("#belt").focus();
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => spunlaidLive.state.now === spunlaidLive.state.pinned);
+  await wait(200);
+  expect((await page.locator("#change").innerText()) === "", "after a reset there is a change");
+  await page.locator(`#answers [data-to="${now}"]`).click();
+  await page.waitForFunction((number) => spunlaidLive.state.now === number, now);
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction((number) => spunlaidLive.state.now !== number, now);
+}
+
+/** While no page can be seen nothing is computed; a page that is seen again goes on. */
+async function hide(page, other, { expect, live, computed, wait }) {
+  await show(other, false);
+  const slider = knobOf(page, "input[type=range]");
+  await slider.focus();
+  for (let i = 0; i < 8; i++) await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction(() => spunlaidLive.state.work?.stage === "sketch" && spunlaidLive.state.work.share > 0);
+  await show(page, false);
+  await wait(1500);
+  const drawn = await page.evaluate(() => spunlaidLive.seen.drawn);
+  const [before, share] = [computed(live.pid), await page.evaluate(() => JSON.stringify(spunlaidLive.state.work))];
+  await wait(2000);
+  const used = computed(live.pid) - before;
+  expect(used < 0.1, `while no page can be seen, ${used.toFixed(2)} s are computed in 2 s`);
+  expect((await page.evaluate(() => JSON.stringify(spunlaidLive.state.work))) === share, "work goes on while no page can be seen");
+  expect((await page.evaluate(() => spunlaidLive.seen.drawn)) === drawn, "a hidden page draws");
+  await show(page, true);
+  await page.waitForFunction((share) => JSON.stringify(spunlaidLive.state.work) !== share, share, { timeout: 60000 });
+}
+
+/** Another page shows the same line, and says which knob was turned here. */
+async function twoPages(page, other, { expect }) {
+  const box = knobOf(page, ".top input");
+  const label = await knobOf(page, "label").innerText();
+  await box.fill("12 mm");
+  await box.press("Enter");
+  await other.waitForFunction(() => !document.getElementById("note").hidden);
+  const note = await other.locator("#note-text").innerText();
+  expect(note.toLowerCase().includes(label.toLowerCase()) && note.includes("12 mm"), `the other page says: ${note}`);
+  expect(await page.locator("#note").isHidden(), "a page speaks of its own knob as of another page's");
+}
+
+async function looks(page, other, phone, { expect }) {
+  for (const [seen, where] of [[page, "1280 px"], [other, "dark"], [phone, "400 px"]]) {
+    for (const violation of await violations(seen)) expect(false, `${where}: ${violation}`);
+    const beyond = await seen.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    expect(beyond <= 0, `${where}: the page is ${beyond} px wider than its window`);
+  }
+  const below = await page.evaluate(() => document.documentElement.scrollHeight - innerHeight);
+  expect(below <= 0, `at 1280 × 800 the page is ${below} px longer than its window`);
+  await phone.evaluate(() => scrollTo(0, 600));
+  const top = await phone.locator("#headline").evaluate((e) => e.getBoundingClientRect().top);
+  expect(top >= 0 && top < 60, "on a phone the headline does not stay on top");
+}
+
+/** `tools` are those of `live.mjs`. */
+export async function checkLine(browser, tools) {
+  const { expect, start, open, print, shot, wait, folder } = tools;
+  writeLine(tools);
+  const began = performance.now();
+  const { live, address } = await start(join(folder, "line.toml"));
+  const page = await open(browser, address, { height: 800 });
+  await watchNumbers(page);
+  const first = await print(page, "belt");
+  await isReady(() => spunlaidLive.judged?.before)(page);
+  const seconds = ((performance.now() - began) / 1000).toFixed(1);
+  expect((await print(page, "belt")) !== first, "nothing comes down on the belt");
+  await isKnown(page);
+  await turnByHand(page, tools);
+  await shot(page, "line-sketch");
+  const answer = await page.locator("h1").innerText();
+  await refuse(page, tools);
+  await isComplete(page);
+  await shot(page, "line-complete");
+  const patches = await save(page, tools);
+  const headlines = await page.evaluate(() => [...window.headlines]);
+  expect(headlines.every((text) => /^CV [\d.]+( ± [\d.]+)? % over/.test(text)), `a number flickers: ${headlines.join("; ")}`);
+  const whole = await print(page, "belt");
+  await page.locator("#split").click();
+  await wait(300);
+  expect((await print(page, "belt")) !== whole, "before does not come beside it");
+  const [slide] = await Promise.all([page.waitForEvent("download"), page.locator("#picture").click()]);
+  expect(slide.suggestedFilename().endsWith(".png"), `the picture is ${slide.suggestedFilename()}`);
+  await undo(page, tools);
+
+  const other = await open(browser, address, { scheme: "dark", height: 800 });
+  const phone = await open(browser, address, { width: 400 });
+  await wait(500);
+  await looks(page, other, phone, tools);
+  await shot(other, "line-dark");
+  await shot(phone, "line-phone");
+  await phone.close();
+  await wait(3100);
+  await twoPages(page, other, tools);
+  await hide(page, other, { ...tools, live });
+  await other.close();
+  await page.close();
+  live.kill();
+  return [`a line: first number after ${seconds} s, ${answer.replace(/\s+/g, " ")}; ${patches} numbers as those of the saved file`];
+}
