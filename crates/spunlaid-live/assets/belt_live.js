@@ -1,7 +1,7 @@
 // The web on its belt: filaments that land, and maps of webs that are complete, before and now.
 
-/** Pixels of a tile across and along, on which landed filaments are drawn once. */
-const TILE = [960, 480];
+/** Pixels along a tile, on which landed filaments are drawn once; across it has those of the canvas. */
+const TILE = 256;
 /** Height of the picture in which the filaments come down [px]. */
 const CURTAIN = 28;
 /** Time in which the belt follows what has been computed [ms]. */
@@ -27,11 +27,12 @@ function readLineFrame(buffer) {
 class Laid {
   constructor() {
     this.map = null;
-    this.clear();
+    this.clear(0);
   }
 
-  clear() {
-    this.generation = -1;
+  /** `across` – pixels across the tiles that will come. */
+  clear(across) {
+    [this.generation, this.across] = [-1, across];
     this.tiles = new Map();
     this.ends = [];
     this.homes = [];
@@ -45,16 +46,16 @@ class Laid {
   }
 
   /** Draws new points of the filaments. */
-  take(frame, colour) {
+  take(frame, colour, across) {
     const { generation, layer, width, moved, filaments } = frame;
     if (this.isNewWeb(frame)) {
-      this.clear();
+      this.clear(across);
       Object.assign(this, { generation, layer, width });
       this.ends = filaments.map(() => null);
       this.homes = filaments.map(() => ({ sum: 0, count: 0 }));
     }
     this.moved = moved;
-    const scale = TILE[0] / width;
+    const scale = this.across / width;
     const folded = (x) => ((x % width) + width) % width;
     for (const [i, points] of filaments.entries()) {
       if (points.length === 0) continue;
@@ -68,31 +69,31 @@ class Laid {
       this.ends[i] = path.at(-1);
       this.drawPath(path, scale, colour);
     }
-    const oldest = Math.floor(((this.moved - 4 * width) * scale) / TILE[1]);
+    const oldest = Math.floor(((this.moved - 4 * width) * scale) / TILE);
     for (const tile of this.tiles.keys()) if (tile < oldest) this.tiles.delete(tile);
   }
 
   drawPath(path, scale, colour) {
     const along = path.map((point) => point[1] * scale);
-    const [first, last] = [Math.floor(Math.min(...along) / TILE[1]), Math.floor(Math.max(...along) / TILE[1])];
+    const [first, last] = [Math.floor(Math.min(...along) / TILE), Math.floor(Math.max(...along) / TILE)];
     for (let index = first; index <= last; index++) {
       const pen = this.tile(index).getContext("2d");
       pen.strokeStyle = colour;
       pen.globalAlpha = 0.62;
-      pen.lineWidth = 1.5;
+      pen.lineWidth = Math.max(0.75, this.across / 640);
       pen.lineJoin = "round";
       pen.beginPath();
       path.forEach(([x, y], j) => {
         const jumps = j === 0 || Math.abs(x - path[j - 1][0]) > 0.5 * this.width;
         // The newest is on top, as on the belt.
-        pen[jumps ? "moveTo" : "lineTo"](x * scale, (index + 1) * TILE[1] - y * scale);
+        pen[jumps ? "moveTo" : "lineTo"](x * scale, (index + 1) * TILE - y * scale);
       });
       pen.stroke();
     }
   }
 
   tile(index) {
-    if (!this.tiles.has(index)) this.tiles.set(index, element("canvas", { width: TILE[0], height: TILE[1] }));
+    if (!this.tiles.has(index)) this.tiles.set(index, element("canvas", { width: this.across, height: TILE }));
     return this.tiles.get(index);
   }
 
@@ -104,7 +105,7 @@ class Laid {
       pen.globalCompositeOperation = "source-in";
       pen.globalAlpha = 1;
       pen.fillStyle = colour;
-      pen.fillRect(0, 0, ...TILE);
+      pen.fillRect(0, 0, this.across, TILE);
       pen.restore();
     }
   }
@@ -172,7 +173,7 @@ class Belt {
     const laid = (frame.kind === 0 ? isNow : frame.layer === 1) ? this.now : this.before;
     if (frame.kind === 0) {
       if (laid.isNewWeb(frame)) [this.at, this.offset] = [0, 0];
-      laid.take(frame, this.colours.lines);
+      laid.take(frame, this.colours.lines, Math.max(300, this.canvas.width));
     } else [laid.map, laid.image] = [frame, null];
     this.stale = true;
   }
@@ -187,7 +188,7 @@ class Belt {
 
   /** Takes what is older than a change of the knobs off the belt of now. */
   clearNow(generation) {
-    if (this.now.generation < generation) this.now.clear();
+    if (this.now.generation < generation) this.now.clear(0);
     if (this.now.map?.generation < generation) this.now.map = null;
     this.stale = true;
   }
@@ -281,9 +282,10 @@ class Belt {
         pen.fillRect(0, 0, width, height);
         pen.globalAlpha = 1;
       }
-      const long = TILE[1] / (TILE[0] / width);
+      const long = (TILE * width) / laid.across;
       for (const [index, tile] of laid.tiles) {
-        const y = CURTAIN + view.top * view.scale - (index + 1) * long;
+        // At whole pixels, so that nothing is drawn between them.
+        const y = Math.round(CURTAIN + view.top * view.scale) - (index + 1) * long;
         if (y < height && y + long > 0) pen.drawImage(tile, 0, y, width, long);
       }
     }
@@ -294,9 +296,17 @@ class Belt {
   paintMap(pen, laid, { scale, width, height, top }) {
     if (!laid.map) return;
     laid.image ??= imageOf(laid.map, [rgb(this.colours.paper), rgb(this.colours.web)]);
-    const long = laid.map.rows * laid.map.pixel;
-    const first = Math.floor((top - (height - CURTAIN) / scale) / long);
-    for (let k = first; k * long < top; k++) pen.drawImage(laid.image, 0, CURTAIN + (top - (k + 1) * long) * scale, width, long * scale);
+    const { rows, columns, pixel } = laid.map;
+    const long = rows * pixel;
+    const shown = (height - CURTAIN) / scale;
+    for (let k = Math.floor((top - shown) / long); k * long < top; k++) {
+      // What is seen of this repetition, in rows from its newest.
+      const newest = (k + 1) * long;
+      const first = Math.max(0, Math.floor((newest - top) / pixel));
+      const last = Math.min(rows, Math.ceil((newest - top + shown) / pixel));
+      const y = CURTAIN + (top - newest + first * pixel) * scale;
+      pen.drawImage(laid.image, 0, first, columns, last - first, 0, y, width, (last - first) * pixel * scale);
+    }
   }
 
   /** The filaments on their way down, from about their holes to where each landed last. */

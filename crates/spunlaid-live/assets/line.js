@@ -96,6 +96,16 @@ function say(id, text) {
   if (byId(id).textContent !== text) byId(id).textContent = text;
 }
 
+const shownLast = new Map();
+
+/** Whether something differs from what was shown at a place last: nothing is made again that stays. */
+function isNews(place, ...what) {
+  const text = JSON.stringify(what);
+  const differs = shownLast.get(place) !== text;
+  shownLast.set(place, text);
+  return differs;
+}
+
 function state(told) {
   const last = page.state;
   page.state = told;
@@ -180,6 +190,7 @@ function showNumbers() {
   const best = judged();
   if (!best) return;
   const { generation } = page.state;
+  if (!isNews("numbers", [...page.patches.values()], generation)) return;
   const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
   byId("patches").replaceChildren(
     ...rows.map((patch) => {
@@ -243,6 +254,7 @@ function status() {
 }
 
 function showPlant(plant) {
+  if (!isNews("plant", plant)) return;
   byId("plant").tBodies[0].replaceChildren(
     ...plant.map(({ label, now, was }) => {
       const isMoved = was !== null && now !== was;
@@ -257,10 +269,8 @@ function showPlant(plant) {
 
 function showAnswers(answers) {
   const place = byId("answers");
-  const text = JSON.stringify(answers);
   byId("back").disabled = previous() === null;
-  if (place.dataset.shown === text) return;
-  place.dataset.shown = text;
+  if (!isNews("answers", answers)) return;
   const focused = document.activeElement?.dataset.to;
   place.replaceChildren(
     ...answers.map((answer) => {
@@ -290,6 +300,7 @@ function goBack() {
 }
 
 function showNotes(notes) {
+  if (!isNews("notes", notes)) return;
   const place = byId("notes");
   place.hidden = notes.length === 0;
   place.firstElementChild.textContent = notes.length === 1 ? "One note" : `${notes.length} notes`;
@@ -419,8 +430,8 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawSettli
 let last = 0;
 function tick(now) {
   requestAnimationFrame(tick);
-  // Thirty pictures a second: the belt is no film.
-  if (document.hidden || now - last < 30) return;
+  // Twenty pictures a second: the belt is no film.
+  if (document.hidden || now - last < 45) return;
   last = now;
   belt.tick(now);
   const { newest } = belt;
