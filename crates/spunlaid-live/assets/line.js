@@ -255,14 +255,17 @@ function status() {
 
 function showPlant(plant) {
   if (!isNews("plant", plant)) return;
-  byId("plant").tBodies[0].replaceChildren(
+  byId("plant").replaceChildren(
     ...plant.map(({ label, now, was }) => {
       const isMoved = was !== null && now !== was;
-      const row = element("tr", { className: isMoved ? "moved" : "" });
-      const cell = element("td", { textContent: now });
-      if (isMoved) cell.prepend(element("span", { className: "was", textContent: `${was} → ` }));
-      row.append(element("th", { scope: "row", textContent: label[0].toUpperCase() + label.slice(1) }), cell);
-      return row;
+      const place = element("div", { className: isMoved ? "moved" : "", title: isMoved ? `${label}: ${was} before` : label });
+      const value = element("dd", { textContent: now });
+      // Where both have one unit it is written once.
+      const unit = now.slice(now.indexOf(" "));
+      const short = isMoved && was.endsWith(unit) ? was.slice(0, -unit.length) : was;
+      if (isMoved) value.prepend(element("span", { className: "was", textContent: `${short} → ` }));
+      place.append(element("dt", { textContent: label[0].toUpperCase() + label.slice(1) }), value);
+      return place;
     }),
   );
 }
@@ -349,7 +352,10 @@ function drawSettling() {
   pen.globalAlpha = 1;
   pen.lineWidth = 2;
   line(...settling.map((n) => [x(n.at), y(100 * n.cv)]));
-  for (const n of settling) pen.fillRect(x(n.at) - 2, y(100 * n.cv) - 2, 4, 4);
+  for (const n of settling) {
+    pen.fillRect(x(n.at) - 2, y(100 * n.cv) - 2, 4, 4);
+    pen.fillRect(x(n.at) - 0.5, y(band(n)[1]), 1, y(band(n)[0]) - y(band(n)[1]));
+  }
   if (!before || !page.isTurned) return;
   pen.fillStyle = pen.strokeStyle = colour("trail");
   pen.setLineDash([5, 4]);
