@@ -94,14 +94,14 @@ impl RecentMotion {
 
 /// How far a page is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PageProgress {
+pub(crate) struct PageProgress {
     samples: u32,
     laid: u32,
 }
 
 /// An instant.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     pub(super) generation: u32,
     pub(super) stands: bool,
     pub(super) behind: bool,

@@ -81,7 +81,7 @@ impl Session {
     ///
     /// # Errors
     /// The case cannot be read or flown.
-    pub(super) fn new(
+    fn new(
         document: Document,
         remark: Option<String>,
         folder: PathBuf,

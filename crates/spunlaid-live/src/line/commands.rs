@@ -3,10 +3,10 @@
 use super::Session;
 use super::knobs::value_of;
 use super::known_web::KnownWeb;
-use super::stand_in::{Turn, read_line};
 use crate::message::{Answer, Command, KeyValue, complaints};
 use crate::save;
 use spunlaid::ground::Error;
+use spunlaid::input::{Turn, read_line};
 
 /// Webs that are remembered, with the present one and that of comparison.
 const REMEMBERED: usize = 8;

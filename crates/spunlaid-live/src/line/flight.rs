@@ -2,12 +2,11 @@
 
 use super::Heard;
 use super::laid::Laid;
-use super::stand_in::{LineFile, Turn, TurnedLine, read_line};
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{PinnedWeb, Seen};
 use spunlaid::ground::threads::look_while;
 use spunlaid::ground::{Control, Effect, Error, Isa};
-use spunlaid::input::{Resources, WebSpec};
+use spunlaid::input::{LineFile, Resources, Turn, TurnedLine, WebSpec, read_line};
 use spunlaid::simulation::{Flights, Flyer};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -43,14 +42,14 @@ pub(super) enum Work {
 }
 
 /// What is heard of a job.
-pub(super) struct News {
+pub(crate) struct News {
     /// Number of the job.
     pub(super) of: u64,
     pub(super) what: What,
 }
 
 /// See [`News`].
-pub(super) enum What {
+pub(crate) enum What {
     /// How far it is, from 0 to 1.
     Share(f64),
     /// Something is seen of a coarse web.
@@ -62,7 +61,7 @@ pub(super) enum What {
 }
 
 /// How a job ends.
-pub(super) enum End {
+pub(crate) enum End {
     Settled(Box<TurnedLine>),
     Laid(Box<Laid>),
     /// All that it leads to has been heard.
@@ -75,7 +74,6 @@ struct Pilot {
     name: String,
     resources: Resources,
     pinned: Option<PinnedWeb>,
-    threads: usize,
     news: SyncSender<Heard>,
 }
 
@@ -84,7 +82,7 @@ struct Pilot {
 /// * `name` – what messages call the line, and from where the files in it are read
 pub(super) fn fly(file: Arc<LineFile>, name: String, jobs: &Receiver<Job>, news: SyncSender<Heard>) {
     let threads = thread::available_parallelism().map_or(1, usize::from);
-    let mut pilot = Pilot { file, name, resources: Resources::default(), pinned: None, threads, news };
+    let mut pilot = Pilot { file, name, resources: Resources::default(), pinned: None, news };
     for Job { number, work, stop } in jobs {
         let done = AtomicU64::new(0);
         let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
@@ -142,7 +140,7 @@ impl Pilot {
     /// Tries changes of a line, the cheapest first.
     fn try_changes(&mut self, number: u64, text: &str, tried: &[usize], by: Control<'_>) -> Result<(), Error> {
         let name = &self.name;
-        let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes(resources));
+        let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes());
         let changes = self.resources.settle(read, |resources| resources.fly(by))?;
         let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
         let mut left: Vec<(usize, Change)> = changes.into_iter().enumerate().collect();

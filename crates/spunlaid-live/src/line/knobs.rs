@@ -1,11 +1,11 @@
 //! Knobs as pages have them: values in the unit of the knob.
 
 use super::known_web::{DIGITS, KnownWeb};
-use super::stand_in::Knob;
 use crate::message::KeyValue;
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::Change;
 use spunlaid::ground::{Effect, Fault};
+use spunlaid::input::Knob;
 
 /// Digits that a slider has.
 const SLIDER_DIGITS: usize = 3;

@@ -3,9 +3,9 @@
 use super::flight::steps;
 use super::laid::Laid;
 use super::plan::WebState;
-use super::stand_in::{Knob, PlantNumber, Turn, TurnedLine, plant_numbers};
+use super::stand_in::{PlantNumber, plant_numbers};
 use spunlaid::experiment::advice::Look;
-use spunlaid::input::WebSpec;
+use spunlaid::input::{Knob, Turn, TurnedLine, WebSpec};
 use std::sync::Arc;
 
 /// See the [module](self).

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A web that has been laid.
 #[derive(Clone, Debug)]
-pub(super) struct Laid {
+pub(crate) struct Laid {
     /// Its CV over patches of each size; none where it is not known.
     pub(super) patches: Vec<LaidPatch>,
     /// What must be known before these numbers are believed, in words.
@@ -19,7 +19,7 @@ pub(super) struct Laid {
 
 /// The CV over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LaidPatch {
+pub(crate) struct LaidPatch {
     /// Side of the patches [m].
     pub(super) side: f64,
     /// The CV and its standard error by all causes, or by chance where another one is not known; the error is NaN where

@@ -42,7 +42,7 @@ const DEVIATIONS: f64 = 4.0;
 
 /// A map without the head of its message.
 #[derive(Debug)]
-pub(super) struct MapBody {
+pub(crate) struct MapBody {
     columns: u16,
     /// Rows, side of a pixel, scale, greys.
     bytes: Vec<u8>,
@@ -93,7 +93,7 @@ fn points(generation: u32, stretch: &LaidStretch) -> Vec<u8> {
 
 /// What pages see of a line. It is cheap to clone.
 #[derive(Clone, Debug, Default)]
-pub(super) struct BeltPicture {
+pub(crate) struct BeltPicture {
     pub(super) generation: u32,
     /// The maps of the web of comparison and of the present one, with the numbers of the webs.
     pub(super) maps: [Option<(u32, Arc<MapBody>)>; 2],
@@ -121,7 +121,7 @@ impl BeltPicture {
 
 /// How far a page is.
 #[derive(Debug, Default)]
-pub(super) struct Had {
+pub(crate) struct Had {
     /// Web of the map of comparison; generation and web of the present one.
     maps: [Option<(u32, u32)>; 2],
     /// Messages of points; none of a page that has just connected, which gets those from now on.
