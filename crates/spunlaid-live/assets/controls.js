@@ -4,9 +4,6 @@ const NOTCHES = 1000;
 /** Largest part of a value by which three digits round it. */
 const ROUNDED = 5.1e-3;
 
-/** A new element of the page with these properties. */
-const element = (tag, properties = {}) => Object.assign(document.createElement(tag), properties);
-
 /** A label of the table of keys: `*italics*`, `_{subscripts}`. */
 function labelled(place, label) {
   for (const part of label.split(/(\*[^*]+\*|_\{[^}]+\})/)) {

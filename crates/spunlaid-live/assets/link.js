@@ -1,39 +1,21 @@
-// The connection with the program: messages as JSON, frames as bytes.
+// The connection with the program, messages as JSON and frames as bytes; and what the pages of a fibre and a line both do.
 
-/** Reads a frame; src/live/frame.rs describes its bytes. */
-function readFrame(buffer) {
-  const view = new DataView(buffer);
-  const bits = view.getUint8(4);
-  const count = view.getUint8(5);
-  const nodes = Array.from({ length: count }, (_, i) => view.getUint16(22 + 2 * i, true));
-  const numbers = new Float32Array(buffer, 48);
-  let at = 0;
-  const take = (length) => numbers.subarray(at, (at += length));
-  return {
-    generation: view.getUint32(0, true),
-    stands: Boolean(bits & 1),
-    behind: Boolean(bits & 2),
-    fed: Boolean(bits & 4),
-    time: view.getFloat64(8, true),
-    speed: view.getFloat32(16, true),
-    firstSample: view.getUint32(40, true),
-    firstPoint: view.getUint32(44, true),
-    shapes: nodes.map((n) => take(3 * n)),
-    samples: take(4 * view.getUint16(6, true)),
-    points: take(2 * view.getUint16(20, true)),
-  };
-}
+const byId = (id) => document.getElementById(id);
+
+/** A new element of the page with these properties. */
+const element = (tag, properties = {}) => Object.assign(document.createElement(tag), properties);
 
 class Link {
   /**
    * `hear` has a function for each kind of message (`settings`, `state`, `measured`, `applied`, …), `frame` for frames,
-   * `open` and `closed` for the connection.
+   * `open` and `closed` for the connection. `read` makes a frame of bytes.
    */
-  constructor(hear) {
-    this.hear = hear;
-    this.stamp = 0;
+  constructor(hear, read) {
+    Object.assign(this, { hear, read, stamp: 0 });
     this.connect();
     document.addEventListener("visibilitychange", () => this.look());
+    // A page that wakes up does not wait for the next try.
+    for (const woken of ["visibilitychange", "pageshow", "online"]) addEventListener(woken, () => this.wake());
   }
 
   connect() {
@@ -46,14 +28,20 @@ class Link {
       this.look();
     });
     this.socket.addEventListener("message", ({ data }) => {
-      if (typeof data !== "string") return this.hear.frame(readFrame(data));
+      if (typeof data !== "string") return this.hear.frame(this.read(data));
       const message = JSON.parse(data);
       this.hear[message.is]?.(message);
     });
     this.socket.addEventListener("close", () => {
       this.hear.closed();
-      setTimeout(() => this.connect(), 1500);
+      this.retry = setTimeout(() => this.connect(), 1500);
     });
+  }
+
+  wake() {
+    if (document.visibilityState !== "visible" || this.socket.readyState !== WebSocket.CLOSED) return;
+    clearTimeout(this.retry);
+    this.connect();
   }
 
   look() {
@@ -70,4 +58,19 @@ class Link {
     this.ask({ do: "set", key, value, stamp: this.stamp });
     return this.stamp;
   }
+}
+
+/** Lets a button copy the text of a place; where that is not allowed, the text is marked. */
+function copies(button, place) {
+  const { textContent } = button;
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(place.textContent);
+      button.textContent = "Copied";
+    } catch {
+      getSelection().selectAllChildren(place);
+      button.textContent = "Marked: press Ctrl+C";
+    }
+    setTimeout(() => (button.textContent = textContent), 2500);
+  });
 }

@@ -1,7 +1,5 @@
 // Puts the parts of the page together.
 
-const byId = (id) => document.getElementById(id);
-
 const page = { state: null, frame: null, drawn: null, numbers: null, measured: null, before: null, connected: false, moved: false, dirty: false };
 /** For checks: how it goes. */
 const seen = { frames: 0, drawn: 0, latency: [], errors: [] };
@@ -62,7 +60,7 @@ const link = new Link({
   exists({ name }) {
     if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
   },
-});
+}, readFrame);
 
 /** What became of a name under which the case was to be saved. */
 function saved(text, wrong) {
@@ -280,17 +278,7 @@ byId("save").addEventListener("click", () => {
   saved("", false);
   link.ask({ do: "save", name: byId("name").value, replace: false });
 });
-byId("copy").addEventListener("click", async () => {
-  const command = byId("command");
-  try {
-    await navigator.clipboard.writeText(command.textContent);
-    byId("copy").textContent = "Copied";
-  } catch {
-    getSelection().selectAllChildren(command);
-    byId("copy").textContent = "Marked: press Ctrl+C";
-  }
-  setTimeout(() => (byId("copy").textContent = "Copy"), 2500);
-});
+copies(byId("copy"), byId("command"));
 
 // Time
 

@@ -4,6 +4,30 @@ const STRETCHES = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 /** Samples of the trail behind the free end. */
 const TRAIL = 160;
 
+/** Reads a frame; src/live/frame.rs describes its bytes. */
+function readFrame(buffer) {
+  const view = new DataView(buffer);
+  const bits = view.getUint8(4);
+  const count = view.getUint8(5);
+  const nodes = Array.from({ length: count }, (_, i) => view.getUint16(22 + 2 * i, true));
+  const numbers = new Float32Array(buffer, 48);
+  let at = 0;
+  const take = (length) => numbers.subarray(at, (at += length));
+  return {
+    generation: view.getUint32(0, true),
+    stands: Boolean(bits & 1),
+    behind: Boolean(bits & 2),
+    fed: Boolean(bits & 4),
+    time: view.getFloat64(8, true),
+    speed: view.getFloat32(16, true),
+    firstSample: view.getUint32(40, true),
+    firstPoint: view.getUint32(44, true),
+    shapes: nodes.map((n) => take(3 * n)),
+    samples: take(4 * view.getUint16(6, true)),
+    points: take(2 * view.getUint16(20, true)),
+  };
+}
+
 /** The smallest of 1, 2 or 5 times a power of ten that is not below a value. */
 function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-6)));

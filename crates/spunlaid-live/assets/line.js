@@ -1,0 +1,440 @@
+// The page of a line: state, numbers, answers, file.
+
+const SIDE = 0.01;
+const STAGES = ["before", "sketch", "complete"];
+
+const page = { state: null, knobs: null, patches: new Map(), settling: [], since: 0, isTurned: false, connected: false, moved: false };
+const asked = { at: -Infinity };
+/** For checks: how it goes. */
+const seen = { frames: 0, sent: [], errors: [] };
+
+const belt = new Belt(byId("belt"));
+const knobs = new Knobs(byId("knobs"), byId("groups"), (name, value) => {
+  ask();
+  note("");
+  seen.sent.push([name, value]);
+  return link.set(name, value);
+});
+
+/** Remembers that what changes next was asked for here; sends a message. */
+function ask(message) {
+  asked.at = performance.now();
+  if (message) link.ask(message);
+}
+
+const link = new Link({
+  open() {
+    [page.connected, page.moved] = [true, false];
+    note("");
+    status();
+  },
+  closed() {
+    page.connected = false;
+    knobs.forget();
+    offline();
+  },
+  knobs({ title, knobs: all }) {
+    const moved = knobs.take(all);
+    page.knobs = all;
+    const first = knobs.first();
+    byId("first").hidden = !first;
+    if (first) say("first", `Change first: ${first.knob.label} ${step(first.knob.effect, -Math.sign(first.knob.effect.change))}`);
+    byId("title").textContent = title;
+    document.title = `${title} – spunlaid live`;
+    // What another page has turned; what moves along with one's own knob is no news.
+    if (moved.length > 0 && performance.now() - asked.at > 3000) {
+      note(`Another page has changed ${moved.map((k) => `${k.label} to ${knobs.written(k, k.value)}`).join(", ")}.`);
+    }
+  },
+  state,
+  found,
+  frame(frame) {
+    seen.frames += 1;
+    // Of a web that is no more looked at; the map of before stays.
+    const isOld = frame.generation < (page.state?.generation ?? 0);
+    if (isOld && (frame.kind === 0 || frame.layer === 1)) return;
+    belt.take(frame, page.state?.work?.stage === "sketch");
+  },
+  applied: ({ stamp }) => knobs.applied(stamp),
+  refused({ about, problems }) {
+    const why = problems.map(({ text }) => text).join(" ");
+    if (about.is === "setting" && knobs.refuse(about.stamp, why)) return;
+    if (about.is === "name") saved(why, true);
+    else note(why);
+  },
+  saved: ({ name }) => saved(`saved as ${name}`, false),
+  exists({ name }) {
+    if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
+  },
+}, readLineFrame);
+
+/** A note over the belt; none for an empty text. */
+function note(text) {
+  byId("note").hidden = !text;
+  byId("note-text").textContent = text;
+}
+
+function saved(text, wrong) {
+  byId("saved").textContent = text;
+  byId("saved").classList.toggle("wrong", wrong);
+  byId("name").setAttribute("aria-invalid", String(wrong));
+}
+
+async function offline() {
+  page.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+  if (page.connected) return;
+  note(
+    page.moved
+      ? "The program was started again and has another address. Open the new address that it printed."
+      : "The program does not answer. It was ended, or this machine was asleep; the page tries again. The numbers are the last ones.",
+  );
+  status();
+}
+
+/** Text of an element, changed only where it differs: a screen reader speaks what is new. */
+function say(id, text) {
+  if (byId(id).textContent !== text) byId(id).textContent = text;
+}
+
+function state(told) {
+  const last = page.state;
+  page.state = told;
+  if (last && told.generation < last.generation) restart();
+  if (last && told.pinned !== last.pinned) pinned();
+  page.isTurned = told.now !== told.pinned;
+  if (!page.isTurned) for (const patch of page.patches.values()) patch.now = patch.change = null;
+  if (!last || told.generation !== last.generation) {
+    [page.settling.old, page.since] = [true, performance.now()];
+    belt.clearNow(told.generation);
+  }
+  say("command", told.command);
+  if (!last || (byId("name").value === last.save_name)) byId("name").value = told.save_name;
+  say("play", told.stands ? "Go" : "Pause");
+  byId("play").setAttribute("aria-pressed", String(!told.stands));
+  const isNew = told.trouble && told.trouble !== last?.trouble;
+  if (isNew) note(told.trouble);
+  showPlant(told.plant);
+  showAnswers(told.answers);
+  showNotes(told.notes);
+  showWork(told.work);
+  showNumbers();
+  status();
+}
+
+/** The program was started again and counts anew. */
+function restart() {
+  page.patches.clear();
+  page.settling = [];
+  [belt.before, belt.now] = [new Laid(), new Laid()];
+}
+
+/** What is now has become what was before. */
+function pinned() {
+  for (const patch of page.patches.values()) {
+    if (patch.now) patch.before = patch.now;
+    patch.now = patch.change = null;
+  }
+  page.settling = [];
+  belt.pin();
+}
+
+function found(told) {
+  if (!page.state || told.generation < page.state.generation) return;
+  for (const patch of told.patches) {
+    const kept = page.patches.get(patch.side_m) ?? { side: patch.side_m };
+    if (patch.before) kept.before = patch.before;
+    // A number gives way to a newer one only.
+    if (patch.now) [kept.now, kept.of] = [patch.now, told.generation];
+    if (patch.change) [kept.change, kept.changeOf] = [patch.change, told.generation];
+    page.patches.set(patch.side_m, kept);
+  }
+  const shown = judged();
+  const number = shown && (page.isTurned ? shown.of === told.generation && shown.now : shown.before);
+  const isNew = page.settling.old || JSON.stringify(number) !== page.settling.last;
+  if (number && isNew) {
+    if (page.settling.old) page.settling = [];
+    page.settling.push({ at: (performance.now() - page.since) / 1000, ...number });
+    page.settling.last = JSON.stringify(number);
+  }
+  showNumbers();
+  status();
+  drawSettling();
+}
+
+/** The patches of the headline: those nearest 10 mm. */
+function judged() {
+  const off = ({ side }) => Math.abs(Math.log(side / SIDE));
+  return [...page.patches.values()].reduce((best, patch) => (!best || off(patch) < off(best) ? patch : best), null);
+}
+
+/** A CV with its error, in per cent. */
+function cvText({ cv, standard_error: error }) {
+  const places = error > 0 ? Math.max(1, decimals(100 * error, 2)) : 1;
+  return [(100 * cv).toFixed(places), error > 0 ? ` ± ${(100 * error).toFixed(places)}` : ""];
+}
+
+const changeText = (change) => changed({ change: change.value, standard_error: change.standard_error });
+const verdict = (change) => (!change.is_sure ? "unsure" : change.value < 0 ? "better" : "worse");
+
+function showNumbers() {
+  const best = judged();
+  if (!best) return;
+  const { generation } = page.state;
+  const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
+  byId("patches").replaceChildren(
+    ...rows.map((patch) => {
+      const row = element("tr", { className: patch === best ? "judged" : "" });
+      row.append(element("th", { scope: "row", textContent: `${plain(1e3 * patch.side, 3)} mm` }));
+      row.append(numberCell(patch.before, false), numberCell(patch.now, patch.of !== generation));
+      const cell = element("td", { textContent: patch.change ? changeText(patch.change) : "–" });
+      if (patch.change) cell.className = patch.changeOf === generation ? verdict(patch.change) : "old";
+      row.append(cell);
+      return row;
+    }),
+  );
+  headline(best, generation);
+}
+
+function numberCell(number, isOld) {
+  if (!number) return element("td", { textContent: "–" });
+  const [value, error] = cvText(number);
+  const cell = element("td", { textContent: value, className: isOld ? "old" : "" });
+  cell.append(element("span", { textContent: error, className: "error" }));
+  return cell;
+}
+
+function headline(best, generation) {
+  const number = best.now ?? best.before;
+  if (!number) return;
+  say("headline", `CV ${cvText(number).join("")} % over ${plain(1e3 * best.side, 3)} mm`);
+  byId("headline").className = best.now && best.of !== generation ? "old" : "";
+  const { change } = best;
+  const place = byId("change");
+  say("change", change ? `${changeText(change)} against before` : "");
+  place.className = !change ? "" : best.changeOf !== generation ? "old" : verdict(change);
+  place.title = !change || change.is_sure ? "" : "Not significant yet: the change may as well be none";
+}
+
+/** What is computed, how far it is, and what that means for the numbers. */
+function showWork(work) {
+  for (const item of byId("stages").children) {
+    const order = STAGES.indexOf(item.dataset.stage);
+    // What the knobs do is tried when all is complete.
+    const at = work && STAGES.includes(work.stage) ? STAGES.indexOf(work.stage) : STAGES.length;
+    item.hidden = item.dataset.stage === "sketch" && !page.isTurned;
+    const share = order < at ? 1 : order === at ? work.share : 0;
+    item.querySelector("b").style.width = `${100 * share}%`;
+    item.className = order === at ? "is-now" : "";
+  }
+  say("share", work ? `${Math.round(100 * work.share)} %` : "");
+}
+
+function status() {
+  const { state: now } = page;
+  if (!page.connected) return say("status", page.moved ? "Open the new address that the program printed." : "No connection with the program.");
+  if (!now) return say("status", "Connecting …");
+  const best = judged();
+  const isComplete = page.isTurned ? best?.now?.is_complete && best.of === now.generation : best?.before?.is_complete;
+  const parts = [isComplete ? "Complete: spunlaid web gives bit-identical numbers for this line." : ""];
+  if (now.stands) parts.push("It stands: press Go.");
+  else if (now.work) parts.push(`${now.work.words}.`);
+  if (now.price) parts.push(`This value ${now.price}.`);
+  say("status", parts.filter(Boolean).join(" "));
+}
+
+function showPlant(plant) {
+  byId("plant").tBodies[0].replaceChildren(
+    ...plant.map(({ label, now, was }) => {
+      const isMoved = was !== null && now !== was;
+      const row = element("tr", { className: isMoved ? "moved" : "" });
+      const cell = element("td", { textContent: now });
+      if (isMoved) cell.prepend(element("span", { className: "was", textContent: `${was} → ` }));
+      row.append(element("th", { scope: "row", textContent: label[0].toUpperCase() + label.slice(1) }), cell);
+      return row;
+    }),
+  );
+}
+
+function showAnswers(answers) {
+  const place = byId("answers");
+  const text = JSON.stringify(answers);
+  byId("back").disabled = previous() === null;
+  if (place.dataset.shown === text) return;
+  place.dataset.shown = text;
+  const focused = document.activeElement?.dataset.to;
+  place.replaceChildren(
+    ...answers.map((answer) => {
+      const { number, label, is_complete: isComplete, is_now: isNow } = answer;
+      const button = element("button", { type: "button", textContent: `${label} · ${isComplete ? "" : "about "}${cvText(answer).join("")} %` });
+      button.dataset.to = number;
+      if (isNow) button.setAttribute("aria-current", "true");
+      button.addEventListener("click", () => ask({ do: "back", to: number }));
+      return button;
+    }),
+  );
+  place.querySelector(`[data-to="${focused}"]`)?.focus();
+  place.scrollLeft = place.scrollWidth;
+}
+
+/** The answer before the present one. */
+function previous() {
+  const { answers } = page.state ?? { answers: [] };
+  const at = answers.findIndex((answer) => answer.is_now);
+  const target = at < 0 ? answers.at(-1) : answers[at - 1];
+  return target ? target.number : null;
+}
+
+function goBack() {
+  const to = previous();
+  if (to !== null) ask({ do: "back", to });
+}
+
+function showNotes(notes) {
+  const place = byId("notes");
+  place.hidden = notes.length === 0;
+  place.firstElementChild.textContent = notes.length === 1 ? "One note" : `${notes.length} notes`;
+  place.lastElementChild.replaceChildren(...notes.map((textContent) => element("li", { textContent })));
+}
+
+/** The number and its error over the seconds since the change. */
+function drawSettling() {
+  const canvas = byId("settling");
+  const [ratio, width, height] = [devicePixelRatio || 1, canvas.clientWidth, canvas.clientHeight];
+  const { settling } = page;
+  if (!width || settling.length === 0 || document.hidden) return;
+  [canvas.width, canvas.height] = [width * ratio, height * ratio];
+  const pen = canvas.getContext("2d");
+  pen.scale(ratio, ratio);
+  const css = getComputedStyle(document.documentElement);
+  const colour = (name) => css.getPropertyValue(`--${name}`).trim();
+  const before = judged()?.before;
+  const all = before ? [...settling, before] : settling;
+  const band = ({ cv, standard_error: error }) => [100 * (cv - error), 100 * (cv + error)];
+  let [low, high] = [Math.min(...all.map((n) => band(n)[0])), Math.max(...all.map((n) => band(n)[1]))];
+  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20].find((s) => (high - low) / s <= 4) ?? 50;
+  [low, high] = [step * Math.floor(low / step), step * Math.ceil(high / step)];
+  const end = Math.max(4, settling.at(-1).at);
+  const [left, bottom] = [36, height - 18];
+  const x = (at) => left + (width - left - 8) * Math.sqrt(at / end);
+  const y = (value) => 6 + ((bottom - 6) * (high - value)) / (high - low || 1);
+  pen.font = "11px system-ui, sans-serif";
+  [pen.fillStyle, pen.strokeStyle] = [colour("muted"), colour("rule")];
+  const line = (...points) => {
+    pen.beginPath();
+    points.forEach((point) => pen.lineTo(...point));
+    pen.stroke();
+  };
+  for (let value = low; value <= high + 1e-9; value += step) {
+    if (bottom > 60 || value === low || value + step > high) pen.fillText(`${Number(value.toFixed(1))} %`, 0, y(value) + 4);
+    line([left, y(value)], [width - 8, y(value)]);
+  }
+  for (const at of [0.5, 1, 2, 5, 10, 20, 60, 120, 300].filter((t) => t <= end && t > end / 60)) pen.fillText(`${at} s`, x(at) - 8, height - 3);
+  pen.fillStyle = pen.strokeStyle = colour("accent");
+  pen.globalAlpha = 0.22;
+  pen.beginPath();
+  settling.forEach((n) => pen.lineTo(x(n.at), y(band(n)[1])));
+  [...settling].reverse().forEach((n) => pen.lineTo(x(n.at), y(band(n)[0])));
+  pen.fill();
+  pen.globalAlpha = 1;
+  pen.lineWidth = 2;
+  line(...settling.map((n) => [x(n.at), y(100 * n.cv)]));
+  for (const n of settling) pen.fillRect(x(n.at) - 2, y(100 * n.cv) - 2, 4, 4);
+  if (!before || !page.isTurned) return;
+  pen.fillStyle = pen.strokeStyle = colour("trail");
+  pen.setLineDash([5, 4]);
+  pen.lineWidth = 1.5;
+  line([left, y(100 * before.cv)], [width - 8, y(100 * before.cv)]);
+  pen.setLineDash([]);
+  pen.fillText("before", width - 46, y(100 * before.cv) - 4);
+}
+
+/** The belt with its scale, the CV and the settings of the line, for a slide. */
+function slide() {
+  const canvas = element("canvas", { width: 1920, height: 1080 });
+  const pen = canvas.getContext("2d");
+  const { ink, muted, panel } = belt.colours;
+  pen.fillStyle = panel;
+  pen.fillRect(0, 0, 1920, 1080);
+  pen.save();
+  pen.translate(60, 60);
+  pen.beginPath();
+  pen.rect(0, 0, 900, 960);
+  pen.clip();
+  pen.scale(1.8, 1.8);
+  if (belt.width > 0) belt.paint(pen, 500, 960 / 1.8);
+  pen.restore();
+  const write = (text, x, y, font, colour) => {
+    [pen.font, pen.fillStyle] = [`${font} system-ui, sans-serif`, colour];
+    pen.fillText(text, x, y, 1860 - x);
+  };
+  write(byId("headline").textContent, 1010, 120, "700 44px", ink);
+  write(byId("change").textContent, 1010, 176, "600 34px", getComputedStyle(byId("change")).color);
+  write(`${byId("title").textContent} · ${byId("status").textContent}`, 1010, 224, "24px", muted);
+  const step = Math.min(52, 700 / Math.max(1, page.knobs.length));
+  page.knobs.forEach((knob, i) => {
+    const moved = knob.value !== knob.was;
+    const weight = moved ? "700 " : "";
+    write(knob.label, 1010, 290 + i * step, `${weight}${0.6 * step}px`, ink);
+    const text = `${knobs.written(knob, knob.value)}${moved ? `, before ${knobs.written(knob, knob.was)}` : ""}`;
+    write(text, 1440, 290 + i * step, `${weight}${0.6 * step}px`, ink);
+  });
+  write("spunlaid live", 1010, 1014, "22px", muted);
+  canvas.toBlob((blob) => {
+    const link = element("a", { href: URL.createObjectURL(blob), download: `${byId("title").textContent.replace(/\.toml$/, "")}_live.png` });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  });
+}
+
+byId("play").addEventListener("click", () => link.ask({ do: page.state?.stands ? "go" : "pause" }));
+byId("split").addEventListener("click", () => {
+  belt.split = !belt.split;
+  belt.stale = true;
+  byId("split").setAttribute("aria-pressed", String(belt.split));
+});
+byId("picture").addEventListener("click", slide);
+byId("pin").addEventListener("click", () => ask({ do: "pin" }));
+byId("reset").addEventListener("click", () => ask({ do: "reset" }));
+byId("back").addEventListener("click", goBack);
+byId("first").addEventListener("click", () => knobs.turnFirst());
+byId("note-close").addEventListener("click", () => note(""));
+byId("save").addEventListener("click", () => {
+  saved("", false);
+  link.ask({ do: "save", name: byId("name").value, replace: false });
+});
+copies(byId("copy"), byId("command"));
+
+addEventListener("keydown", (e) => {
+  // Escape takes back what is not done yet; where there is nothing, all knobs go back to before.
+  if (e.key === "Escape" && e.target !== byId("name") && !knobs.takeBack()) ask({ do: "reset" });
+  const undoes = (e.ctrlKey || e.metaKey) && !e.shiftKey && e.key.toLowerCase() === "z";
+  if (!undoes || e.target === byId("name") || knobs.isEdited(e.target)) return;
+  e.preventDefault();
+  goBack();
+});
+
+new ResizeObserver(drawSettling).observe(byId("settling"));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawSettling);
+
+let last = 0;
+function tick(now) {
+  requestAnimationFrame(tick);
+  // Thirty pictures a second: the belt is no film.
+  if (document.hidden || now - last < 30) return;
+  last = now;
+  belt.tick(now);
+  const { newest } = belt;
+  const view = belt.split && newest === belt.now ? "before | now" : newest.map ? "complete" : newest.tiles.size > 0 ? `${newest.ends.length} filaments, ${plain(newest.width * Math.max(newest.moved, 0), 2)} m²` : "";
+  say("shown", view);
+}
+requestAnimationFrame(tick);
+
+addEventListener("error", (e) => seen.errors.push(String(e.message)));
+window.spunlaidLive = {
+  seen: Object.defineProperty(seen, "drawn", { get: () => belt.drawn }),
+  belt,
+  knobs,
+  get state() { return page.state; },
+  get patches() { return page.patches; },
+  get judged() { return judged(); },
+};
