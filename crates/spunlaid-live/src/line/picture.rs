@@ -148,3 +148,69 @@ impl Picture for BeltPicture {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map(columns: usize, rows: usize) -> Map {
+        let cells = (0..columns * rows).map(|i| if i % columns == 0 { 3000 } else { 1000 }).collect();
+        Map { columns, rows, cell: 1e-3, quantum: 1e-9, closed: [false; 2], cells }
+    }
+
+    fn f32_at(bytes: &[u8], at: usize) -> f32 {
+        f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+    }
+
+    #[test]
+    fn a_map_is_laid_out_as_described_and_its_greys_are_its_weights() {
+        let message = MapBody::new(&map(4, 3)).message(7, 1);
+        assert_eq!(message[..8], [7, 0, 0, 0, 1, 1, 4, 0]);
+        assert_eq!((message[8..12].to_vec(), f32_at(&message, 12)), (vec![3, 0, 0, 0], 1e-3));
+        // The mean is 1500 quanta, the standard deviation 866.
+        let most = f32_at(&message, 16);
+        assert!((most - (1.0 + 4.0 * 866.0254 / 1500.0)).abs() < 1e-5, "{most}");
+        for (grey, weight) in message[20..].iter().zip([3000.0, 1000.0, 1000.0, 1000.0].iter().cycle()) {
+            assert!((f32::from(*grey) / 255.0 * most - weight / 1500.0).abs() < 0.5 * most / 255.0 + 1e-6);
+        }
+        assert_eq!(message.len(), 20 + 12);
+        let large = MapBody::new(&map(1000, 20)).message(0, 0);
+        assert_eq!((u16::from_le_bytes([large[6], large[7]]), f32_at(&large, 12)), (333, 3e-3));
+    }
+
+    #[test]
+    fn points_are_laid_out_as_described() {
+        let filaments = vec![vec![[0.1, 0.2], [0.3, 0.4]], vec![], vec![[0.5, 0.6]]];
+        let stretch = LaidStretch { layer: 2, width: 0.25, belt: 0.5, filaments };
+        let message = points(258, &stretch);
+        assert_eq!(message[..8], [2, 1, 0, 0, 0, 2, 3, 0]);
+        assert_eq!((f32_at(&message, 8), f32_at(&message, 12)), (0.25, 0.5));
+        assert_eq!(message[16..24], [2, 0, 0, 0, 1, 0, 0, 0]);
+        let all: Vec<f32> = (24..message.len()).step_by(4).map(|at| f32_at(&message, at)).collect();
+        assert_eq!(all, [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
+    }
+
+    #[test]
+    fn a_page_gets_the_last_maps_and_points_from_then_on() {
+        let mut picture = BeltPicture::default();
+        let stretch = LaidStretch { width: 1.0, ..LaidStretch::default() };
+        picture.add(&stretch);
+        let body = Arc::new(MapBody::new(&map(4, 3)));
+        picture.maps = [Some((1, Arc::clone(&body))), Some((2, body))];
+        let kinds = |picture: &BeltPicture, had: &mut Had| -> Vec<[u8; 2]> {
+            picture.messages(had).iter().map(|bytes| [bytes[4], bytes[5]]).collect()
+        };
+        let (mut had, mut other) = (Had::default(), Had::default());
+        assert_eq!(kinds(&picture, &mut had), [[1, 0], [1, 1]]);
+        picture.add(&stretch);
+        assert_eq!(kinds(&picture, &mut had), [[0, 0]]);
+        assert_eq!(kinds(&picture, &mut had), [[0; 2]; 0]);
+        // A new generation of the same webs, as after going back: the page has forgotten the present one.
+        picture.generation = 1;
+        assert_eq!(kinds(&picture, &mut had), [[1, 1]]);
+        // One that lags far behind gets what is left.
+        kinds(&picture, &mut other);
+        (0..2 * STRETCHES).for_each(|_| picture.add(&stretch));
+        assert_eq!(kinds(&picture, &mut other).len(), STRETCHES);
+    }
+}

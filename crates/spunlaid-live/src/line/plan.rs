@@ -62,3 +62,55 @@ pub(super) fn next(known: &Known, failed: &[Task]) -> Option<Task> {
     ];
     tasks.into_iter().find(|(is_wanted, task)| *is_wanted && !failed.contains(task)).map(|(_, task)| task)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn web(number: u32, is_laid: bool) -> WebState {
+        WebState { number, is_settled: true, is_laid }
+    }
+
+    /// All tasks until nothing is left to do.
+    fn tasks(mut known: Known) -> Vec<Task> {
+        let mut all = Vec::new();
+        while let Some(task) = next(&known, &[]) {
+            all.push(task);
+            match task {
+                Task::Settle(number) => {
+                    let web = if number == known.before.number { &mut known.before } else { &mut known.now };
+                    web.is_settled = true;
+                }
+                Task::Pin(_) => known.is_pinned = true,
+                Task::Compare { .. } => known.is_compared = true,
+                Task::Lay(number) if number == known.before.number => known.before.is_laid = true,
+                Task::Lay(_) => known.now.is_laid = true,
+                Task::Try(_) => known.is_tried = true,
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn the_first_numbers_come_first_and_what_is_known_is_not_done_again() {
+        let (before, is_pinned, is_compared, is_tried) = (web(1, false), false, false, false);
+        let known = Known { before, now: before, is_pinned, is_compared, is_tried };
+        assert_eq!(tasks(known), [Task::Pin(1), Task::Lay(1), Task::Try(1)]);
+        let turned = Known { now: web(2, false), ..known };
+        let compare = Task::Compare { before: 1, now: 2 };
+        assert_eq!(tasks(turned), [Task::Pin(1), compare, Task::Lay(1), Task::Lay(2), Task::Try(1)]);
+        let back = Known { before: web(1, true), now: web(2, true), is_pinned: true, is_tried: true, ..turned };
+        assert_eq!(tasks(Known { is_compared: true, ..back }), []);
+        assert_eq!(tasks(back), [compare]);
+        let unsettled = WebState { is_settled: false, ..web(2, false) };
+        assert_eq!(tasks(Known { now: unsettled, ..back }), [Task::Settle(2), compare, Task::Lay(2)]);
+    }
+
+    #[test]
+    fn what_has_failed_is_left_out_with_all_that_needs_it() {
+        let (before, now) = (web(1, false), WebState { is_settled: false, ..web(2, false) });
+        let known = Known { before, now, is_pinned: false, is_compared: false, is_tried: false };
+        assert_eq!(next(&known, &[Task::Settle(2), Task::Pin(1)]), Some(Task::Lay(1)));
+        assert_eq!(next(&known, &[Task::Settle(2), Task::Pin(1), Task::Lay(1)]), None);
+    }
+}
