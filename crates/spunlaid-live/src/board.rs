@@ -1,9 +1,9 @@
-//! The board between the flight and its pages: what all pages see, of which each gets the latest only, and
-//! answers to one of them. The flight never waits for a page.
+//! The board between a session and its pages: what all pages see, of which each gets the latest only, and
+//! answers to one of them. The session never waits for a page.
 
-use super::frame::Frame;
 use spunlaid::ground::threads::lock;
 use std::collections::{BTreeMap, VecDeque};
+use std::fmt::Debug;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Most pages at a time.
@@ -17,20 +17,31 @@ pub(super) type PageId = u64;
 /// A text that all pages see, as JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Topic {
-    Settings,
+    /// What can be changed: the settings of a case, the knobs of a line.
+    Keys,
     State,
-    Statistics,
+    /// What was found so far: statistics of fibres, numbers of a web.
+    Numbers,
 }
 
 impl Topic {
-    const ALL: [Self; 3] = [Self::Settings, Self::State, Self::Statistics];
+    const ALL: [Self; 3] = [Self::Keys, Self::State, Self::Numbers];
+}
+
+/// What pages see move.
+pub(super) trait Picture: Debug + Send + Sync + 'static {
+    /// How far a page is.
+    type Had: Default;
+
+    /// The binary messages for a page that has had so much.
+    fn messages(&self, had: &mut Self::Had) -> Vec<Vec<u8>>;
 }
 
 /// Something for a page.
 #[derive(Clone, Debug)]
-pub(super) enum News {
+pub(super) enum News<P> {
     Text(Arc<str>),
-    Frame(Arc<Frame>),
+    Picture(Arc<P>),
     /// A whole frame of the protocol, as the socket answers a ping.
     Raw(Vec<u8>),
     /// The page leaves.
@@ -55,35 +66,35 @@ impl<T> Notice<T> {
 #[derive(Debug, Default)]
 pub(super) struct Bookmark {
     texts: [u64; Topic::ALL.len()],
-    frame: u64,
+    picture: u64,
 }
 
 #[derive(Debug)]
-struct Notices {
+struct Notices<P> {
     texts: [Notice<Arc<str>>; Topic::ALL.len()],
-    frame: Notice<Arc<Frame>>,
+    picture: Notice<Arc<P>>,
     /// What waits for each page.
-    pages: BTreeMap<PageId, VecDeque<News>>,
+    pages: BTreeMap<PageId, VecDeque<News<P>>>,
     next_page: PageId,
 }
 
 /// See the [module](self).
 #[derive(Debug)]
-pub(super) struct Board {
-    notices: Mutex<Notices>,
+pub(super) struct Board<P> {
+    notices: Mutex<Notices<P>>,
     changed: Condvar,
 }
 
-impl Board {
-    pub(super) fn new(frame: Frame) -> Self {
+impl<P> Board<P> {
+    pub(super) fn new(picture: P) -> Self {
         let texts = Topic::ALL.map(|_| Notice { latest: "".into(), changes: 1 });
-        let frame = Notice { latest: Arc::new(frame), changes: 1 };
-        let notices = Notices { texts, frame, pages: BTreeMap::new(), next_page: 0 };
+        let picture = Notice { latest: Arc::new(picture), changes: 1 };
+        let notices = Notices { texts, picture, pages: BTreeMap::new(), next_page: 0 };
         Self { notices: Mutex::new(notices), changed: Condvar::new() }
     }
 
     /// The notices; they are whole even after a thread that had them has panicked.
-    fn notices(&self) -> MutexGuard<'_, Notices> {
+    fn notices(&self) -> MutexGuard<'_, Notices<P>> {
         lock(&self.notices)
     }
 
@@ -98,9 +109,9 @@ impl Board {
         *self.notices().texts[topic as usize].latest == *text
     }
 
-    /// Shows a frame to all pages.
-    pub(super) fn show_frame(&self, frame: Frame) {
-        self.notices().frame.show(Arc::new(frame));
+    /// Shows a picture to all pages.
+    pub(super) fn show_picture(&self, picture: P) {
+        self.notices().picture.show(Arc::new(picture));
         self.changed.notify_all();
     }
 
@@ -131,8 +142,8 @@ impl Board {
     }
 
     /// Puts something up for a page as soon as there is room; `false` if the page is closed.
-    pub(super) fn post(&self, page: PageId, news: News) -> bool {
-        let full = |notices: &mut Notices| notices.pages.get(&page).is_some_and(|all| all.len() >= WAITING);
+    pub(super) fn post(&self, page: PageId, news: News<P>) -> bool {
+        let full = |notices: &mut Notices<P>| notices.pages.get(&page).is_some_and(|all| all.len() >= WAITING);
         let notices = self.changed.wait_while(self.notices(), full);
         let mut notices = notices.unwrap_or_else(PoisonError::into_inner);
         let Some(waiting) = notices.pages.get_mut(&page) else { return false };
@@ -141,8 +152,8 @@ impl Board {
         true
     }
 
-    /// Waits for something that a page has not had: what waits for it first, then texts, then the frame.
-    pub(super) fn next(&self, page: PageId, mark: &mut Bookmark) -> News {
+    /// Waits for something that a page has not had: what waits for it first, then texts, then the picture.
+    pub(super) fn next(&self, page: PageId, mark: &mut Bookmark) -> News<P> {
         let mut notices = self.notices();
         loop {
             let Some(waiting) = notices.pages.get_mut(&page) else { return News::End };
@@ -156,9 +167,9 @@ impl Board {
                     return News::Text(Arc::clone(&notice.latest));
                 }
             }
-            if mark.frame != notices.frame.changes {
-                mark.frame = notices.frame.changes;
-                return News::Frame(Arc::clone(&notices.frame.latest));
+            if mark.picture != notices.picture.changes {
+                mark.picture = notices.picture.changes;
+                return News::Picture(Arc::clone(&notices.picture.latest));
             }
             notices = self.changed.wait(notices).unwrap_or_else(PoisonError::into_inner);
         }
@@ -167,17 +178,13 @@ impl Board {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fibres::Fibres;
-    use super::super::frame::RecentMotion;
     use super::*;
-    use spunlaid::input::{read_case, starter_case};
 
-    fn board() -> Board {
-        let fibres = Fibres::new(read_case((starter_case(), "a.toml"), &[]).unwrap().0).unwrap();
-        Board::new(Frame::new(fibres.snapshot(), &RecentMotion::new()))
+    fn board() -> Board<u8> {
+        Board::new(7)
     }
 
-    fn text(news: News) -> String {
+    fn text(news: News<u8>) -> String {
         let News::Text(text) = news else { panic!("{news:?}") };
         text.to_string()
     }
@@ -186,16 +193,16 @@ mod tests {
     fn a_page_gets_its_answers_first_and_the_latest_of_all_else() {
         let board = board();
         let (page, mut mark) = (board.open().unwrap(), Bookmark::default());
-        for (topic, shown) in [(Topic::State, "old"), (Topic::State, "new"), (Topic::Settings, "keys")] {
+        for (topic, shown) in [(Topic::State, "old"), (Topic::State, "new"), (Topic::Keys, "keys")] {
             board.show_text(topic, shown.to_owned());
         }
         board.answer(page, "answer".to_owned());
         assert!(board.shows(Topic::State, "new") && !board.shows(Topic::State, "old"));
         let texts = [(); 4].map(|()| text(board.next(page, &mut mark)));
         assert_eq!(texts, ["answer", "keys", "new", ""]);
-        assert!(matches!(board.next(page, &mut mark), News::Frame(_)));
+        assert!(matches!(board.next(page, &mut mark), News::Picture(_)));
         // Nothing comes twice.
-        board.show_text(Topic::Statistics, "now".to_owned());
+        board.show_text(Topic::Numbers, "now".to_owned());
         assert_eq!(text(board.next(page, &mut mark)), "now");
     }
 

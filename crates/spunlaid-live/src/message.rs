@@ -1,6 +1,9 @@
 //! The requests of a page, as JSON. The messages to the pages are written where their content is known.
 
+use super::board::PageId;
 use serde::{Deserialize, Serialize};
+use spunlaid::ground::Error;
+use spunlaid::ground::error::{Place, Problem};
 
 /// Size of the largest message that is read [bytes].
 pub(super) const LARGEST: usize = 1 << 18;
@@ -21,13 +24,17 @@ pub(super) enum Command {
     Go {},
     /// Go on by one recorded instant and stop.
     Step {},
-    /// Start the fibres anew, straight and at rest.
+    /// Start the fibres anew, straight and at rest; of a line all knobs as in the web of comparison.
     Reset {},
     /// Begin the statistics anew.
     Forget {},
+    /// The present web becomes the one with which others are compared.
+    Pin {},
+    /// The knobs of an earlier answer.
+    Back { to: u32 },
     /// Whether the page can be seen.
     Look { visible: bool },
-    /// Write the case as a file into the folder where the program was started.
+    /// Write the case or the line as a file into the folder where the program was started.
     Save { name: String, replace: bool },
 }
 
@@ -88,6 +95,23 @@ pub(super) enum Subject {
     Other,
 }
 
+/// A message of a page.
+#[derive(Debug)]
+pub(super) struct PageRequest {
+    pub(super) page: PageId,
+    pub(super) command: Command,
+}
+
+impl PageRequest {
+    /// Whether a later message sets the same key: of values that come at once only the last one counts.
+    pub(super) fn is_replaced_by(&self, later: &Self) -> bool {
+        match (&self.command, &later.command) {
+            (Command::Set { key, .. }, Command::Set { key: other, .. }) => key == other,
+            _ => false,
+        }
+    }
+}
+
 impl Command {
     /// What its refusal would be about.
     pub(super) const fn subject(&self) -> Subject {
@@ -106,6 +130,24 @@ pub(super) struct Complaint {
     pub(super) line: Option<usize>,
     /// In words.
     pub(super) text: String,
+}
+
+pub(super) fn complaint(text: impl Into<String>) -> Vec<Complaint> {
+    vec![Complaint { line: None, text: text.into() }]
+}
+
+/// The problems of an error, each with its line.
+pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
+    let Error::Rejected(problems) = error else {
+        return complaint(error.to_string());
+    };
+    let mistake = |problem: &Problem| {
+        let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
+        let mut problem = problem.clone();
+        problem.place = Place::Code;
+        Complaint { line, text: problem.to_string() }
+    };
+    problems.iter().take(20).map(mistake).collect()
 }
 
 impl Answer {
@@ -160,6 +202,8 @@ mod tests {
             (r#"{"do":"step"}"#, Command::Step {}),
             (r#"{"do":"reset"}"#, Command::Reset {}),
             (r#"{"do":"forget"}"#, Command::Forget {}),
+            (r#"{"do":"pin"}"#, Command::Pin {}),
+            (r#"{"do":"back","to":1}"#, Command::Back { to: 1 }),
             (r#"{"do":"look","visible":false}"#, Command::Look { visible: false }),
             (
                 r#"{"do":"save","name":"a","replace":true}"#,
@@ -183,6 +227,8 @@ mod tests {
             r#"{"do":"set","key":"air.velocity","value":1e999,"stamp":7}"#,
             r#"{"do":"set","key":"air.velocity","value":1,"stamp":-7}"#,
             r#"{"do":"pace","pace":"double"}"#,
+            r#"{"do":"back","to":-1}"#,
+            r#"{"do":"pin","to":1}"#,
             &deep,
         ] {
             let Err(Answer::Refused { problems, .. }) = read(text) else {

@@ -6,21 +6,55 @@ const HTML: &str = "text/html; charset=utf-8";
 const CSS: &str = "text/css; charset=utf-8";
 const SCRIPT: &str = "text/javascript; charset=utf-8";
 
-/// Name, kind and text of each file. The page itself has no name.
-const FILES: [(&str, &str, &str); 12] = [
-    ("", HTML, include_str!("../assets/live.html")),
+/// Which page is served.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Page {
+    /// Fibres that fly.
+    Fibre,
+    /// The web of a line.
+    Line,
+}
+
+/// Name, kind and text of a file. The page itself has no name.
+type PageFile = (&'static str, &'static str, &'static str);
+
+/// Files of all pages.
+const SHARED: [PageFile; 2] = [
     ("base.css", CSS, include_str!("../assets/base.css")),
+    ("link.js", SCRIPT, include_str!("../assets/link.js")),
+];
+
+/// Files of the page of a fibre.
+const FIBRE: [PageFile; 10] = [
+    ("", HTML, include_str!("../assets/live.html")),
     ("live.css", CSS, include_str!("../assets/live.css")),
     ("uPlot.min.css", CSS, include_str!("../assets/uplot/uPlot.min.css")),
     ("uPlot.iife.min.js", SCRIPT, include_str!("../assets/uplot/uPlot.iife.min.js")),
     ("camera.js", SCRIPT, spunlaid_results::products::run::CAMERA),
     ("scene.js", SCRIPT, spunlaid_results::products::run::SCENE),
-    ("link.js", SCRIPT, include_str!("../assets/link.js")),
     ("view.js", SCRIPT, include_str!("../assets/view.js")),
     ("plots.js", SCRIPT, include_str!("../assets/plots.js")),
     ("controls.js", SCRIPT, include_str!("../assets/controls.js")),
     ("live.js", SCRIPT, include_str!("../assets/live.js")),
 ];
+
+/// Files of the page of a line.
+const LINE: [PageFile; 5] = [
+    ("", HTML, include_str!("../assets/line.html")),
+    ("line.css", CSS, include_str!("../assets/line.css")),
+    ("belt_live.js", SCRIPT, include_str!("../assets/belt_live.js")),
+    ("knobs.js", SCRIPT, include_str!("../assets/knobs.js")),
+    ("line.js", SCRIPT, include_str!("../assets/line.js")),
+];
+
+impl Page {
+    const fn files(self) -> &'static [PageFile] {
+        match self {
+            Self::Fibre => &FIBRE,
+            Self::Line => &LINE,
+        }
+    }
+}
 
 /// What every answer says: nothing is stored, nothing from elsewhere is loaded, no other page may show this one.
 pub(super) const HEADERS: [(&str, &str); 5] = [
@@ -36,8 +70,8 @@ pub(super) const HEADERS: [(&str, &str); 5] = [
 ];
 
 /// The answer with a file.
-pub(super) fn file(name: Option<&str>) -> Response {
-    match FILES.iter().find(|(other, ..)| Some(*other) == name) {
+pub(super) fn file(page: Page, name: Option<&str>) -> Response {
+    match page.files().iter().chain(&SHARED).find(|(other, ..)| Some(*other) == name) {
         // Page and program are of one version.
         Some((_, kind, text)) => {
             let body = text.replace("{{ version }}", env!("CARGO_PKG_VERSION"));
@@ -53,15 +87,18 @@ mod tests {
 
     #[test]
     fn the_page_asks_for_files_that_are_there_and_for_nothing_elsewhere() {
-        let html = FILES[0].2;
-        for part in html.split(['"']).filter(|part| part.ends_with(".js") || part.ends_with(".css")) {
-            assert!(FILES.iter().any(|(name, ..)| *name == part), "{part}");
-        }
-        for (name, _, text) in FILES {
-            // uPlot's licence line names its place.
-            let foreign = text.match_indices("://").filter(|(at, _)| !text[..*at].ends_with("ws"));
-            let allowed = if name.starts_with("uPlot") { 1 } else { 0 };
-            assert!(foreign.count() <= allowed, "{name}");
+        for page in [Page::Fibre, Page::Line] {
+            let html = page.files()[0].2;
+            let of_page = || page.files().iter().chain(&SHARED);
+            for part in html.split(['"']).filter(|part| part.ends_with(".js") || part.ends_with(".css")) {
+                assert!(of_page().any(|(name, ..)| *name == part), "{part}");
+            }
+            for (name, _, text) in of_page() {
+                // uPlot's licence line names its place.
+                let foreign = text.match_indices("://").filter(|(at, _)| !text[..*at].ends_with("ws"));
+                let allowed = if name.starts_with("uPlot") { 1 } else { 0 };
+                assert!(foreign.count() <= allowed, "{name}");
+            }
         }
     }
 }

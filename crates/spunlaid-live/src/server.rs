@@ -1,12 +1,11 @@
-//! The server: hands out the page, and carries messages and frames between pages and the flight. Each
+//! The server: hands out the page, and carries messages and pictures between pages and their session. Each
 //! connection has a thread of its own, so that one that is slow or silent keeps nobody waiting.
 
-use super::board::{Board, Bookmark, News, PageId};
+use super::board::{Board, Bookmark, News, PageId, Picture};
 use super::guard::Guard;
 use super::http::{self, Request, Response};
-use super::message::{self, Answer, Command, LARGEST};
+use super::message::{self, Answer, Command, LARGEST, PageRequest};
 use super::page;
-use super::session::PageRequest;
 use spunlaid::ground::threads::lock;
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Write};
@@ -29,10 +28,13 @@ const PIECE: usize = 1 << 14;
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// What all connections share.
-pub(super) struct Server {
+///
+/// * `M` – what the session hears
+pub(super) struct Server<M, P> {
     pub(super) guard: Guard,
-    pub(super) requests: SyncSender<PageRequest>,
-    pub(super) board: Arc<Board>,
+    pub(super) page: page::Page,
+    pub(super) requests: SyncSender<M>,
+    pub(super) board: Arc<Board<P>>,
     pub(super) strangers: Strangers,
 }
 
@@ -75,7 +77,7 @@ impl Reaction {
     }
 }
 
-impl Server {
+impl<M: From<PageRequest> + Send + 'static, P: Picture> Server<M, P> {
     /// Serves until the program ends.
     pub(super) fn serve(self, listener: &TcpListener) {
         let server = Arc::new(self);
@@ -130,7 +132,7 @@ impl Server {
         // The first part of the path is the token.
         let file = request.path.splitn(3, '/').nth(2);
         if file != Some("flight") {
-            return Reaction::Answer(page::file(file));
+            return Reaction::Answer(page::file(self.page, file));
         }
         let upgrades = request.lists("connection", "upgrade") && request.lists("upgrade", "websocket");
         let known = request.method == "GET" && request.only("sec-websocket-version") == Some("13");
@@ -171,7 +173,7 @@ impl Server {
 
     /// Hands on what a page asks. If many pages ask much, they wait.
     fn ask(&self, page: PageId, command: Command) -> io::Result<()> {
-        self.requests.send(PageRequest { page, command }).map_err(|_| ErrorKind::BrokenPipe.into())
+        self.requests.send(PageRequest { page, command }.into()).map_err(|_| ErrorKind::BrokenPipe.into())
     }
 
     /// Reads the messages of a page, until it leaves.
@@ -204,19 +206,19 @@ impl Server {
 
 /// The stream of a page as its reader has it. What the protocol answers by itself, a ping and the end, is
 /// written between the messages of the writer.
-struct PageStream<'a> {
+struct PageStream<'a, P> {
     stream: &'a TcpStream,
     page: PageId,
-    board: &'a Board,
+    board: &'a Board<P>,
 }
 
-impl Read for PageStream<'_> {
+impl<P> Read for PageStream<'_, P> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
         self.stream.read(bytes)
     }
 }
 
-impl Write for PageStream<'_> {
+impl<P> Write for PageStream<'_, P> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let posted = self.board.post(self.page, News::Raw(bytes.to_vec()));
         if posted { Ok(bytes.len()) } else { Err(ErrorKind::BrokenPipe.into()) }
@@ -228,7 +230,7 @@ impl Write for PageStream<'_> {
 }
 
 /// Writes what there is for a page, until it leaves.
-fn write(stream: &mut TcpStream, page: PageId, board: &Board) -> tungstenite::Result<()> {
+fn write<P: Picture>(stream: &mut TcpStream, page: PageId, board: &Board<P>) -> tungstenite::Result<()> {
     let (mut mark, mut had) = (Bookmark::default(), Default::default());
     let mut bytes = Vec::new();
     loop {
@@ -238,9 +240,10 @@ fn write(stream: &mut TcpStream, page: PageId, board: &Board) -> tungstenite::Re
                 let payload = text.as_bytes().to_vec();
                 Frame::message(payload, OpCode::Data(Data::Text), true).format(&mut bytes)?;
             }
-            News::Frame(latest) => {
-                let payload = latest.bytes(&mut had);
-                Frame::message(payload, OpCode::Data(Data::Binary), true).format(&mut bytes)?;
+            News::Picture(latest) => {
+                for payload in latest.messages(&mut had) {
+                    Frame::message(payload, OpCode::Data(Data::Binary), true).format(&mut bytes)?;
+                }
             }
             News::Raw(frame) => bytes = frame,
             News::End => return Ok(()),

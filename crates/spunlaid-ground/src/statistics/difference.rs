@@ -62,6 +62,36 @@ impl Difference {
     pub fn is_beyond_chance(&self) -> bool {
         self.value.abs() > self.half_width()
     }
+
+    /// Whether the confidence interval of this probability, as 0.95, leaves out zero. Degrees of freedom that are not
+    /// whole count as fewer.
+    pub fn is_beyond(&self, probability: f64) -> bool {
+        let ratio = (self.value / self.standard_error).abs();
+        let degrees = if self.degrees.is_nan() { 1.0 } else { self.degrees.clamp(1.0, MANY) };
+        self.value != 0.0 && (self.standard_error == 0.0 || within(ratio, degrees as u32) > probability)
+    }
+}
+
+/// Degrees of freedom from which on more of them change nothing.
+const MANY: f64 = 10_000.0;
+
+/// Probability that the size of Student's t is less.
+///
+/// Source: Abramowitz & Stegun 26.7.3 and 26.7.4.
+fn within(t: f64, degrees: u32) -> f64 {
+    let angle = libm::atan(t / f64::from(degrees).sqrt());
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    let is_odd = degrees % 2 == 1;
+    // The powers of the cosine below the degrees of freedom, every second one.
+    let (mut term, mut sum) = (if is_odd { cos } else { 1.0 }, 0.0);
+    let mut power = degrees % 2;
+    while power + 2 <= degrees {
+        sum += term;
+        let [above, below] = [power + 1, power + 2].map(f64::from);
+        term *= cos * cos * above / below;
+        power += 2;
+    }
+    if is_odd { std::f64::consts::FRAC_2_PI * (angle + sin * sum) } else { sin * sum }
 }
 
 /// The difference of two positive values, with the standard errors of their logarithms. The error of the difference is
@@ -116,6 +146,23 @@ mod tests {
             difference.value - difference.half_width()
         );
         assert!(difference.is_beyond_chance());
+    }
+
+    #[test]
+    fn published_quantiles_of_students_t() {
+        for degrees in (1..40).chain([100, 10_000]) {
+            let half = within(super::super::student_t_95(degrees), degrees as u32);
+            assert!((half - 0.95).abs() < 2e-6, "{degrees}: {half}");
+        }
+        // Abramowitz & Stegun, table 26.10: 99 %.
+        for (degrees, t) in [(1, 63.657), (2, 9.925), (5, 4.032), (15, 2.947), (60, 2.660)] {
+            let half = within(t, degrees);
+            assert!((half - 0.99).abs() < 2e-5, "{degrees}: {half}");
+        }
+        let difference = |value: f64| Difference { value, standard_error: 1.0, degrees: 15.5 };
+        assert!(difference(-2.9).is_beyond(0.987) && !difference(2.6).is_beyond(0.987));
+        assert!(Difference::exact(1e-9).is_beyond(0.987) && !Difference::exact(0.0).is_beyond(0.987));
+        assert!(!difference(f64::NAN).is_beyond(0.987));
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod common;
 mod fits;
 mod flights;
 mod levels;
+mod looks;
 mod mechanics;
 #[path = "../../tests/common/scans.rs"]
 mod pictures;
@@ -27,6 +28,9 @@ fn main() {
     }
     if asked("levels") {
         return levels::savings();
+    }
+    if asked("looks") {
+        return looks::shares();
     }
     if asked("advice") {
         return advice::changes();

@@ -2,7 +2,10 @@
 
 use super::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use crate::ground::{Control, Effect, Error};
+pub use crate::simulation::one_air::LaidStretch;
+use crate::simulation::one_air::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
 use crate::simulation::{Compared, Flyer, WebSpec};
+use crate::web::LayerFew;
 
 /// Areas of the sheets at which a flight is looked at [m²].
 pub const LOOKS: [f64; 3] = [0.04, 0.1, 0.2];
@@ -14,19 +17,6 @@ pub enum Seen {
     Laid(LaidStretch),
     /// The sheet has grown to one of the [`LOOKS`].
     Look(Look),
-}
-
-/// What the flown filaments of a layer have laid in a short time.
-#[derive(Clone, Debug, Default)]
-pub struct LaidStretch {
-    /// Number of the layer, from 0.
-    pub layer: usize,
-    /// Width of the sheet, which goes on at its edges [m].
-    pub width: f64,
-    /// How far the belt has moved [m].
-    pub belt: f64,
-    /// New points of each filament: across the belt from the left edge of the sheet, and along it [m].
-    pub filaments: Vec<Vec<[f32; 2]>>,
 }
 
 /// The CV over patches of one size.
@@ -51,47 +41,105 @@ pub struct Look {
     pub changes: Vec<Effect<f64>>,
 }
 
-/// A web that has been flown coarsely, with what its filaments say at each look.
+/// A web that has been flown coarsely, with what its filaments have laid.
 #[derive(Debug)]
 pub struct PinnedWeb {
     spec: WebSpec,
+    layers: Vec<PinnedLayer>,
 }
 
 impl PinnedWeb {
-    /// Flies a few filaments of a web coarsely.
+    /// Flies a few filaments of a web coarsely, one layer after another.
     ///
     /// * `see` – gets what is seen of the flight
     ///
     /// # Errors
     /// If the web cannot be flown, if all of its filaments have to be flown, or if it is stopped.
     pub fn fly(spec: &WebSpec, see: &mut dyn FnMut(Seen), by: Control<'_>) -> Result<Self, Error> {
-        for area in LOOKS {
-            let cvs = fly_at(area, &[spec], by)?.pop().map(|web| cvs_of(&web)).unwrap_or_default();
-            see(Seen::Look(Look { area, cvs, changes: Vec::new() }));
+        let mut looks = Looks::new(spec);
+        let mut layers = Vec::new();
+        for number in 0..spec.layers.len() {
+            let mut seen = |seen| {
+                let found = |area, [_, layers]: [Vec<LayerFew>; 2]| {
+                    let cvs = cvs_of(&WebOfFew::new(spec, layers));
+                    Look { area, cvs, changes: Vec::new() }
+                };
+                looks.take(seen, found).into_iter().for_each(&mut *see);
+            };
+            layers.push(PinnedLayer::fly(spec, number, &LOOKS, &mut seen, by)?);
         }
-        Ok(Self { spec: spec.clone() })
+        Ok(Self { spec: spec.clone(), layers })
     }
 
-    /// Flies a changed web in the gusts of this one.
+    /// Flies a changed web in the gusts of this one, one layer after another.
     ///
     /// # Errors
     /// As of [`PinnedWeb::fly`].
     pub fn compare(&self, spec: &WebSpec, see: &mut dyn FnMut(Seen), by: Control<'_>) -> Result<(), Error> {
+        let mut looks = Looks::new(spec);
+        for layer in &self.layers {
+            let mut seen = |seen| {
+                let found = |area, [pinned, layers]: [Vec<LayerFew>; 2]| {
+                    let pinned = WebOfFew::new(&self.spec, pinned);
+                    let changes = pinned.changes_to(&WebOfFew::new(spec, layers));
+                    Look { area, cvs: Vec::new(), changes }
+                };
+                looks.take(seen, found).into_iter().for_each(&mut *see);
+            };
+            if !layer.compare(&self.spec, spec, &LOOKS, &mut seen, by)? {
+                return self.compare_abreast(spec, see, by);
+            }
+        }
+        Ok(())
+    }
+
+    /// Flies both webs side by side in a room that is large enough for both.
+    fn compare_abreast(
+        &self,
+        spec: &WebSpec,
+        see: &mut dyn FnMut(Seen),
+        by: Control<'_>,
+    ) -> Result<(), Error> {
+        let (flyer, webs) = (Flyer::new(by.threads, by.stop, &super::unwatched), [&self.spec, spec]);
         for area in LOOKS {
-            let webs = fly_at(area, &[&self.spec, spec], by)?;
-            let [base, changed] = &webs[..] else { return Err(Error::no_fibre()) };
-            see(Seen::Look(Look { area, cvs: cvs_of(changed), changes: base.changes_to(changed) }));
+            let few = flyer.few_in_same_air((&webs, Compared { area, pitches: PITCHES }), by.done)?;
+            let mut few = few.ok_or_else(Error::no_fibre)?.into_iter();
+            let (Some(pinned), Some(changed)) = (few.next(), few.next()) else { continue };
+            let pinned = WebOfFew::new(&self.spec, pinned?);
+            let changes = pinned.changes_to(&WebOfFew::new(spec, changed?));
+            see(Seen::Look(Look { area, cvs: Vec::new(), changes }));
         }
         Ok(())
     }
 }
 
-/// What a few filaments say of webs in the same air on sheets of an area.
-fn fly_at(area: f64, webs: &[&WebSpec], by: Control<'_>) -> Result<Vec<WebOfFew>, Error> {
-    let flyer = Flyer::new(by.threads, by.stop, &super::unwatched);
-    let told = flyer.few_in_same_air((webs, Compared { area, pitches: 1.0 }), by.done)?;
-    let told = told.ok_or_else(Error::no_fibre)?;
-    webs.iter().zip(told).map(|(spec, few)| Ok(WebOfFew::new(spec, few?))).collect()
+/// What layers say of a web, look by look, until all of them have been flown.
+struct Looks {
+    layers: usize,
+    /// Of each look what the layers say: of the pinned web, and of the one that flies.
+    found: [[Vec<LayerFew>; 2]; LOOKS.len()],
+}
+
+impl Looks {
+    fn new(spec: &WebSpec) -> Self {
+        Self { layers: spec.layers.len(), found: Default::default() }
+    }
+
+    /// What is seen of the web, once all layers have been looked at.
+    ///
+    /// * `look` – makes it, of an area and the layers
+    fn take(&mut self, seen: SeenOfLayer, look: impl Fn(f64, [Vec<LayerFew>; 2]) -> Look) -> Option<Seen> {
+        match seen {
+            SeenOfLayer::Laid(stretch) => Some(Seen::Laid(stretch)),
+            SeenOfLayer::Look(LookOfLayer { number, pinned, few }) => {
+                let found = &mut self.found[number];
+                found[0].extend(pinned);
+                found[1].push(few);
+                let is_whole = found[1].len() == self.layers;
+                is_whole.then(|| Seen::Look(look(LOOKS[number], std::mem::take(found))))
+            }
+        }
+    }
 }
 
 fn cvs_of(web: &WebOfFew) -> Vec<CvSoFar> {

@@ -195,7 +195,7 @@ impl<'a> Comparison<'a> {
 
 /// Whether filaments fly as others do: they differ in nothing but the speed of a belt that is too slow to
 /// pull at them.                                                                               theory.md (75)
-fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
+pub(super) fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
     let [own, other] = [of_beam, other].map(|of_beam| of_beam.beam());
     let is_slow = |line: Line| line.belt_ratio() <= SLOW && line.contact == Contact::Stick;
     let (Some(line), Some(of_other)) = (own.case.line, other.case.line) else { return false };

@@ -5,7 +5,7 @@ use super::lane_group::{BeltStretch, Pack, Reach, side_by_side};
 use super::neighbours::Neighbours;
 use super::{Beam, BeamFindings};
 use crate::air::EddyField;
-use crate::fibre::Line;
+use crate::fibre::{LaidPoint, Line};
 use crate::ground::threads::{lock, unlock};
 use crate::ground::{Control, Error, Fault};
 use crate::simulation::observe::StretchedBalance;
@@ -121,6 +121,15 @@ impl<'a> Flying<'a> {
         let Reach { ahead, start, fed, .. } = self.reach;
         let behind = ahead - self.line.belt_ratio() * fed;
         Some(-start / self.line.belt_speed..-behind / self.line.belt_speed)
+    }
+
+    /// Hands over the filaments whose curves are kept and that are not lost: their numbers, and all points so far.
+    pub(super) fn each_curve(&self, mut see: impl FnMut(usize, &[LaidPoint])) {
+        for (_, pack) in &self.packs {
+            let pack = lock(pack);
+            let filaments = pack.iter().flat_map(Pack::filaments).filter(|filament| filament.lost.is_none());
+            filaments.for_each(|filament| see(filament.number, filament.kept.as_deref().unwrap_or_default()));
+        }
     }
 
     /// What the filaments have done.

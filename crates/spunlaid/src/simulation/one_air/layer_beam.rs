@@ -80,16 +80,15 @@ impl LayerBeam<'_> {
         Beam { case, places, depth: *depth, charge: charge.as_ref() }
     }
 
-    /// The same filaments in elements twice as long, and in steps twice as long, as far as these still follow
-    /// the eddies, with rarer looks and half the start: what this does to one web it does to another one with which
-    /// it is compared.
+    /// The same filaments in elements twice as long, or as long as these still follow the eddies, and in steps twice as
+    /// long, with rarer looks and half the start: what this does to one web it does to another one with which it is
+    /// compared.
     pub(super) fn with_coarser_mesh(mut self) -> Self {
         let mut coarse = self.case.clone();
         coarse.run.rarer_looks = LOOKS_OF_COMPARISON;
-        let element = MESH_OF_COMPARISON * coarse.fibre.rest_length();
-        if let Some(line) =
-            coarse.line.filter(|_| element <= LONGEST_ELEMENT * coarse.smallest_length_scale())
-        {
+        let fine = coarse.fibre.rest_length();
+        let element = (MESH_OF_COMPARISON * fine).min(LONGEST_ELEMENT * coarse.smallest_length_scale());
+        if let Some(line) = coarse.line.filter(|_| element > fine) {
             let looks = coarse.steps_between_looks() as f64 * coarse.run.time_step;
             coarse.fibre.span(line.distance, element);
             coarse.set_time_step((MESH_OF_COMPARISON * coarse.run.time_step).min(looks));

@@ -25,6 +25,7 @@ mod laid_curves;
 mod lane_group;
 mod layer_beam;
 mod neighbours;
+mod pinned;
 mod sampled;
 mod shared_air;
 mod two_levels;
@@ -41,6 +42,8 @@ use flying::Sink;
 pub use laid_curves::FlownWeb;
 pub use layer_beam::PlannedFlight;
 use neighbours::Neighbours;
+pub use pinned::LaidStretch;
+pub(crate) use pinned::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
 pub use sampled::Compared;
 use shared_air::SharedAir;
 

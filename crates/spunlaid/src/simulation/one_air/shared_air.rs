@@ -14,6 +14,7 @@ use crate::ground::threads::{each, lock, try_each};
 use crate::ground::{Control, Error, Vec3};
 use crate::web::{Edges, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 use std::slice::from_ref;
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
@@ -111,6 +112,16 @@ impl<'a> SharedAir<'a> {
         Self::new((from_ref(beam), sheet), (&beam.room(sheet), highest), f64::INFINITY)
     }
 
+    /// The air of one beam in a larger room.
+    pub(super) fn of_one_in(room: &Room, beam: &'a Beam<'a>, sheet: &'a Sheet) -> Self {
+        Self::new((from_ref(beam), sheet), (room, HIGHEST), f64::INFINITY)
+    }
+
+    /// Time by which the first beam advances before the next block [s].
+    pub(super) fn block(&self) -> f64 {
+        self.airs[0].block()
+    }
+
     /// The airs of beams in one room, of which those with one pattern share one.
     ///
     /// * `highest` – lateral wave number, times the length scale
@@ -147,6 +158,16 @@ impl<'a> SharedAir<'a> {
         sinks: Vec<Sink<'_>>,
         by: Control<'_>,
     ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
+        self.fly_watched(sinks, &mut |_| Ok(ControlFlow::Continue(())), by)
+    }
+
+    /// The same, but for somebody who looks at the beams after each block, and may end the flight.
+    pub(super) fn fly_watched(
+        &self,
+        sinks: Vec<Sink<'_>>,
+        watch: &mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> Result<ControlFlow<()>, Error>,
+        by: Control<'_>,
+    ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
         let (started, mut spent) = (Instant::now(), TimeSpent::default());
         let beside = self.beams.iter().zip(sinks);
         let mut flying: Vec<_> = beside.map(|(beam, sink)| Flying::new(*beam, self.sheet, sink)).collect();
@@ -176,6 +197,9 @@ impl<'a> SharedAir<'a> {
                 }
                 make(&mut groups, by.threads);
                 self.advance(&groups, &mut flying, by)?;
+                if watch(&flying)?.is_break() {
+                    break;
+                }
             }
             spent.in_parallel += begun.elapsed();
             // Beams that have lost too many do not say for how long the others fly.
@@ -311,7 +335,7 @@ impl Beam<'_> {
 
     /// After what distances the air repeats itself. Across a web that is wide everywhere it is the width;
     /// otherwise no filament meets the air of another one again.
-    fn extent_of_air(&self, sheet: &Sheet) -> Extent {
+    pub(super) fn extent_of_air(&self, sheet: &Sheet) -> Extent {
         let (air, distance) = (&self.case.air, self.case.way_of_air());
         let least = self.case.extent_of_air().y;
         let width = range(self.places.iter().map(|place| place.z));

@@ -262,7 +262,7 @@ fn look_at(
 }
 
 /// The same sheet in cells twice as large, if its patches are whole numbers of them.
-fn with_larger_cells(sheet: &Sheet) -> Sheet {
+pub(super) fn with_larger_cells(sheet: &Sheet) -> Sheet {
     let cell = 2.0 * sheet.cell;
     let is_whole = |size: &f64| ((size / cell).round() * cell / size - 1.0).abs() < 1e-6;
     let sizes = [sheet.width, sheet.length];

@@ -1,6 +1,6 @@
 //! How much time of the fibres goes by with each tick of the clock.
 
-use super::message::Pace;
+use crate::message::Pace;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 

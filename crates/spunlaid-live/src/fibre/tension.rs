@@ -2,7 +2,8 @@
 //! the page fly on.
 
 use super::Session;
-use crate::document::{Document, complaints};
+use super::document::Document;
+use crate::message::complaints;
 use spunlaid::ground::{Control, Error, Isa};
 use spunlaid::input::{CaseWithNotes, Resources};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

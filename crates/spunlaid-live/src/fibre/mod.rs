@@ -1,16 +1,34 @@
-//! The thread in which the fibres fly: hears what pages ask, flies, shows frames. It never waits for a page.
+//! Fibres that fly while their case is changed: the thread in which they do hears what pages ask, flies, shows frames.
+//! It never waits for a page.
+//!
+//! ```text
+//! document, settings   the case as text; what can be changed
+//! fibres, clock        eight fibres in one flight; how much time goes by
+//! laid, measured       statistics since the last change
+//! frame                the moving picture
+//! ```
 
+mod clock;
 mod commands;
+mod document;
+mod fibres;
+mod frame;
+mod laid;
+mod measured;
+mod settings;
 mod show;
+mod start;
 mod tension;
 
-use super::board::{Board, PageId};
-use super::clock::Clock;
-use super::document::{Document, complaints};
-use super::fibres::Fibres;
-use super::frame::{Frame, RecentMotion};
-use super::measured::Statistics;
-use super::message::{Answer, Command, Complaint, Pace};
+pub(super) use start::begin;
+
+use crate::board::{Board, PageId};
+use crate::message::{Answer, Command, Complaint, PageRequest, complaints};
+use clock::Clock;
+use document::Document;
+use fibres::Fibres;
+use frame::{Frame, RecentMotion};
+use measured::Statistics;
 use spunlaid::ground::Error;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -31,13 +49,6 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Messages that are heard between two ticks.
 const MOST_HEARD: usize = 256;
-
-/// A message of a page.
-#[derive(Debug)]
-pub(super) struct PageRequest {
-    pub(super) page: PageId,
-    pub(super) command: Command,
-}
 
 /// A flight that pages look at.
 pub(super) struct Session {
@@ -60,7 +71,7 @@ pub(super) struct Session {
     /// The pages that can be seen.
     pages: BTreeSet<PageId>,
     folder: PathBuf,
-    board: Arc<Board>,
+    board: Arc<Board<Frame>>,
     statistics_shown: Instant,
 }
 
@@ -70,7 +81,7 @@ impl Session {
     ///
     /// # Errors
     /// The case cannot be read or flown.
-    pub(super) fn new(
+    fn new(
         document: Document,
         remark: Option<String>,
         folder: PathBuf,
@@ -84,7 +95,7 @@ impl Session {
         let mut clock = Clock::new(now);
         if fibres.case().line.is_some() {
             // It comes down in some hundredths of a second, too fast for an eye.
-            clock.pace = Pace::Tenth;
+            clock.pace = crate::message::Pace::Tenth;
         }
         let mut session = Self {
             measured: Statistics::new(fibres.case(), fibres.flight()),
@@ -109,7 +120,7 @@ impl Session {
     }
 
     /// Where pages see the flight.
-    pub(super) fn board(&self) -> Arc<Board> {
+    pub(super) fn board(&self) -> Arc<Board<Frame>> {
         Arc::clone(&self.board)
     }
 
@@ -159,11 +170,8 @@ impl Session {
         let mut changed = false;
         for i in 0..heard.len() {
             let PageRequest { page, command } = &heard[i];
-            // Of several values of one key that came at once, only the last counts; each gets its answer.
-            let replaced = matches!(command, Command::Set { key, .. }
-            if heard[i + 1..].iter().any(|later| {
-                matches!(&later.command, Command::Set { key: other, .. } if other == key)
-            }));
+            // Each of several values gets its answer.
+            let replaced = heard[i + 1..].iter().any(|later| heard[i].is_replaced_by(later));
             let answer = match command {
                 Command::Set { stamp, .. } if replaced => {
                     Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })

@@ -1,6 +1,6 @@
 //! The case as text: keys are changed in it, comments stay, and it is saved.
 
-use super::message::Complaint;
+use crate::message::{Complaint, complaint, complaints};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::error::Place;
@@ -235,24 +235,6 @@ fn differences(old: &str, new: &str) -> Vec<(&'static str, String)> {
         (None, None) => None,
     };
     keys::all().iter().filter_map(differs).collect()
-}
-
-fn complaint(text: impl Into<String>) -> Vec<Complaint> {
-    vec![Complaint { line: None, text: text.into() }]
-}
-
-/// The problems of an error, each with its line.
-pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
-    let Error::Rejected(problems) = error else {
-        return complaint(error.to_string());
-    };
-    let mistake = |problem: &spunlaid::ground::Problem| {
-        let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
-        let mut problem = problem.clone();
-        problem.place = Place::Code;
-        Complaint { line, text: problem.to_string() }
-    };
-    problems.iter().take(20).map(mistake).collect()
 }
 
 #[cfg(test)]

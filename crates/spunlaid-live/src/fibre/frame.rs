@@ -21,6 +21,7 @@
 //!
 //! Samples and laid points are those that the page has not had yet.
 
+use crate::board::Picture;
 use spunlaid::fibre::{LaidPoint, Snapshot};
 use spunlaid::ground::WIDTH;
 use std::collections::VecDeque;
@@ -93,14 +94,14 @@ impl RecentMotion {
 
 /// How far a page is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct PageProgress {
+pub(crate) struct PageProgress {
     samples: u32,
     laid: u32,
 }
 
 /// An instant.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     pub(super) generation: u32,
     pub(super) stands: bool,
     pub(super) behind: bool,
@@ -145,7 +146,7 @@ impl Frame {
     }
 
     /// The bytes for a page that has had so much.
-    pub(super) fn bytes(&self, had: &mut PageProgress) -> Vec<u8> {
+    fn bytes(&self, had: &mut PageProgress) -> Vec<u8> {
         let (first_sample, samples) = self.recent_motion.samples.since(had.samples);
         let (first_point, points) = self.recent_motion.laid.since(had.laid);
         let samples: Vec<[f64; 4]> = samples.collect();
@@ -175,6 +176,14 @@ impl Frame {
             [1e3 * (md + self.belt_run), 1e3 * cd].into_iter().for_each(|x| put(x as f32));
         }
         bytes
+    }
+}
+
+impl Picture for Frame {
+    type Had = PageProgress;
+
+    fn messages(&self, had: &mut PageProgress) -> Vec<Vec<u8>> {
+        vec![self.bytes(had)]
     }
 }
 

@@ -1,10 +1,10 @@
 //! Does what pages ask, or refuses it and says why.
 
 use super::Session;
+use super::document::Document;
+use super::measured::Statistics;
 use super::tension::TensionSearch;
-use crate::document::{Document, complaints};
-use crate::measured::Statistics;
-use crate::message::{Answer, Command, KeyValue};
+use crate::message::{Answer, Command, KeyValue, complaints};
 use crate::save;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::Dimension;
@@ -46,6 +46,9 @@ impl Session {
             }
             Command::Forget {} => self.changed(),
             Command::Look { .. } => {}
+            Command::Pin {} | Command::Back { .. } => {
+                return Err(Answer::refused("the page of a fibre compares nothing; that of a line does"));
+            }
             Command::Save { name, replace } => {
                 let name = save::plain_name(name).map_err(Answer::refused)?;
                 let text = self.document.to_save();

@@ -1,9 +1,9 @@
 //! What pages see: frames, and as JSON the settings, the state and the statistics.
 
 use super::Session;
+use super::frame::Frame;
+use super::settings::{present, settings};
 use crate::board::Topic;
-use crate::frame::Frame;
-use crate::settings::{present, settings};
 use serde_json::{Value as Json, json};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Root};
@@ -22,21 +22,21 @@ impl Session {
         frame.belt_run = fed.map_or(0.0, |line| line.belt_speed * frame.time);
         frame.time = self.now();
         frame.speed = if self.stands { 0.0 } else { self.clock.speed() };
-        self.board.show_frame(frame);
+        self.board.show_picture(frame);
     }
 
     pub(super) fn tell(&mut self) {
         self.statistics_shown = Instant::now();
         let statistics = self.measured.message(self.generation, self.fibres.flight());
-        self.board.show_text(Topic::Statistics, serde_json::to_string(&statistics).unwrap_or_default());
+        self.board.show_text(Topic::Numbers, serde_json::to_string(&statistics).unwrap_or_default());
     }
 
     /// Shows settings, state, statistics and a frame.
     pub(super) fn show_all(&mut self) {
         let case = self.fibres.case();
         let offered = json!({ "is": "settings", "settings": settings(case) }).to_string();
-        if !self.board.shows(Topic::Settings, &offered) {
-            self.board.show_text(Topic::Settings, offered);
+        if !self.board.shows(Topic::Keys, &offered) {
+            self.board.show_text(Topic::Keys, offered);
         }
         self.board.show_text(Topic::State, self.state(case).to_string());
         self.tell();

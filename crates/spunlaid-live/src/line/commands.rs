@@ -1,0 +1,121 @@
+//! Does what pages ask, or refuses it and says why.
+
+use super::Session;
+use super::knobs::value_of;
+use super::known_web::KnownWeb;
+use crate::message::{Answer, Command, KeyValue, complaints};
+use crate::save;
+use spunlaid::ground::Error;
+use spunlaid::input::{Turn, read_line};
+
+/// Webs that are remembered, with the present one and that of comparison.
+const REMEMBERED: usize = 8;
+/// Relative difference up to which a knob is where it was.
+const SAME: f64 = 1e-9;
+/// Knobs of the belt: of these the last one that was turned counts, so a turn to the value of the file means something.
+const OF_BELT: [&str; 2] = ["belt_speed", "basis_weight"];
+
+impl Session {
+    /// Does what was asked.
+    ///
+    /// # Errors
+    /// The answer that refuses it.
+    pub(super) fn obey(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
+        match command {
+            Command::Set { key, value, stamp } => {
+                self.turn(key, value)?;
+                return Ok(Some(Answer::Applied { stamp: *stamp, generation: self.picture.generation }));
+            }
+            Command::Pause {} => self.stands = true,
+            Command::Go {} => {
+                self.stands = false;
+                self.forget_failures();
+            }
+            Command::Reset {} => self.show_web(self.before),
+            Command::Pin {} => {
+                self.before = self.now;
+                self.slopes.clear();
+                self.tried = None;
+                self.show_web(self.now);
+            }
+            Command::Back { to } => {
+                if !self.webs.iter().any(|web| web.number == *to) {
+                    return Err(Answer::refused("this answer is not remembered any more; turn the knobs again"));
+                }
+                self.show_web(*to);
+            }
+            Command::Save { name, replace } => return self.save(name, *replace).map(Some),
+            Command::Look { .. } => {}
+            Command::Case { .. } | Command::Pace { .. } | Command::Step {} | Command::Forget {} => {
+                return Err(Answer::refused("the page of a line knows no such message; that of a fibre does"));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Turns a knob.
+    fn turn(&mut self, name: &str, value: &KeyValue) -> Result<(), Answer> {
+        let refused = |error: Error| Answer::rejected(complaints(&error));
+        let knobs = &self.web(self.before).knobs;
+        let Some(knob) = knobs.iter().find(|knob| knob.name == name) else {
+            let names: Vec<&str> = knobs.iter().map(|knob| knob.name.as_str()).collect();
+            return Err(Answer::refused(format!("there is no knob \"{name}\"; there are {}", names.join(", "))));
+        };
+        let value = value_of(knob, value).map_err(|fault| Answer::refused(format!("{} {fault}", knob.label)))?;
+        let written = self.file.knobs().into_iter().find(|knob| knob.name == name).map(|knob| knob.value);
+        let mut turns = self.web(self.now).turns.clone();
+        turns.retain(|turn| turn.name != name);
+        let is_written = written.is_some_and(|written| (value / written - 1.0).abs() < SAME);
+        if !is_written || (OF_BELT.contains(&name) && !turns.is_empty()) {
+            turns.push(Turn { name: name.to_owned(), value });
+        }
+        let line = self.file.turned(&turns, &self.resources).map_err(refused)?;
+        if let Some(known) = self.webs.iter().find(|web| web.line.set == line.set) {
+            self.show_web(known.number);
+            return Ok(());
+        }
+        let knobs = read_line(&line.text, &self.name, &self.resources).map_err(refused)?.knobs();
+        self.last_number += 1;
+        self.webs.push(KnownWeb::new(self.last_number, turns, line, knobs));
+        self.show_web(self.last_number);
+        Ok(())
+    }
+
+    /// Makes a web the present one. The last ones that were are remembered.
+    fn show_web(&mut self, number: u32) {
+        self.now = number;
+        if let Some(place) = self.webs.iter().position(|web| web.number == number) {
+            let web = self.webs.remove(place);
+            self.webs.push(web);
+        }
+        if self.webs.len() > REMEMBERED
+            && let Some(oldest) = self.webs.iter().position(|web| web.number != self.before)
+        {
+            self.webs.remove(oldest);
+        }
+        self.picture.generation = self.picture.generation.wrapping_add(1);
+        self.forget_failures();
+    }
+
+    fn forget_failures(&mut self) {
+        self.failed.clear();
+        self.trouble = None;
+        self.no_sketch = None;
+    }
+
+    /// Writes the line with its knobs as they are.
+    fn save(&mut self, name: &str, replace: bool) -> Result<Answer, Answer> {
+        let name = save::plain_name(name).map_err(Answer::refused)?;
+        let line = &self.web(self.now).line;
+        // From another folder its files may be others, or none.
+        let is_same = read_line(&line.text, &name, &self.resources).is_ok_and(|saved| *saved.spec() == line.spec);
+        if !is_same && self.is_elsewhere {
+            let text = "the line names files beside it, which a file in this folder would not find; start \
+                `spunlaid live` in the folder of the line";
+            return Err(Answer::refused(text));
+        }
+        save::save(&self.folder, &name, &line.text, replace)?;
+        self.save_name = self.free_name();
+        Ok(Answer::Saved { name })
+    }
+}

@@ -1,0 +1,175 @@
+//! The thread that simulates webs for the session of a line: one piece of work at a time, until it is done or unwanted.
+
+use super::Heard;
+use super::laid::Laid;
+use spunlaid::experiment::Change;
+use spunlaid::experiment::advice::{PinnedWeb, Seen};
+use spunlaid::ground::threads::look_while;
+use spunlaid::ground::{Control, Effect, Error, Isa};
+use spunlaid::input::{LineFile, Resources, Turn, TurnedLine, WebSpec, read_line};
+use spunlaid::simulation::{Flights, Flyer};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+/// Time between two looks at the progress of a web.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// Something to do.
+pub(super) struct Job {
+    /// Its number; what is heard of it has the same.
+    pub(super) number: u64,
+    pub(super) work: Work,
+    /// Set when nobody waits for it any more.
+    pub(super) stop: Arc<AtomicBool>,
+}
+
+/// What is to be done.
+pub(super) enum Work {
+    /// Find the tension at the end of the spinline, with these knobs turned.
+    Settle(Vec<Turn>),
+    /// Simulate a sample of the filaments coarsely, for others to be compared with.
+    Pin(Arc<WebSpec>),
+    /// Compare a web with the pinned one.
+    Compare(Arc<WebSpec>),
+    /// Lay a web as `spunlaid web` does.
+    Lay(Arc<WebSpec>),
+    /// Try the changes of a line, given as text, other than those of these numbers.
+    Try(String, Vec<usize>),
+}
+
+/// What is heard of a job.
+pub(crate) struct News {
+    /// Number of the job.
+    pub(super) of: u64,
+    pub(super) what: What,
+}
+
+/// See [`News`].
+pub(crate) enum What {
+    /// How far it is, from 0 to 1.
+    Share(f64),
+    /// Something is seen of a coarse web.
+    Seen(Seen),
+    /// A change, its number, and what it does to the CV; nothing if it could not be tried.
+    Tried(Box<Change>, usize, Vec<Effect<f64>>),
+    /// It has ended, and what it has led to.
+    Ended(Result<End, Error>),
+}
+
+/// How a job ends.
+pub(crate) enum End {
+    Settled(Box<TurnedLine>),
+    Laid(Box<Laid>),
+    /// All that it leads to has been heard.
+    Done,
+}
+
+/// What the thread keeps from one job to the next.
+struct Pilot {
+    file: Arc<LineFile>,
+    name: String,
+    resources: Resources,
+    pinned: Option<PinnedWeb>,
+    news: SyncSender<Heard>,
+}
+
+/// Does jobs until nobody asks for more.
+///
+/// * `name` – what messages call the line, and from where the files in it are read
+pub(super) fn fly(file: Arc<LineFile>, name: String, jobs: &Receiver<Job>, news: SyncSender<Heard>) {
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let mut pilot = Pilot { file, name, resources: Resources::default(), pinned: None, news };
+    for Job { number, work, stop } in jobs {
+        let done = AtomicU64::new(0);
+        let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
+        let ended = catch_unwind(AssertUnwindSafe(|| pilot.work(number, work, by)));
+        // A fault of the program has said what it is.
+        pilot.tell(number, What::Ended(ended.unwrap_or(Err(Error::no_fibre()))));
+    }
+}
+
+impl Pilot {
+    /// Who does not listen any more hears nothing.
+    fn tell(&self, of: u64, what: What) {
+        let _ = self.news.send(Heard::Flight(News { of, what }));
+    }
+
+    fn work(&mut self, number: u64, work: Work, by: Control<'_>) -> Result<End, Error> {
+        match work {
+            Work::Settle(turns) => {
+                let file = Arc::clone(&self.file);
+                let read = |resources: &Resources| file.turned(&turns, resources);
+                let line = self.resources.settle(read, |resources| resources.fly(by))?;
+                return Ok(End::Settled(Box::new(line)));
+            }
+            Work::Pin(spec) => {
+                // The memory of the one before is free first.
+                self.pinned = None;
+                let pinned = PinnedWeb::fly(&spec, &mut |seen| self.tell(number, What::Seen(seen)), by)?;
+                self.pinned = Some(pinned);
+            }
+            Work::Compare(spec) => {
+                let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
+                pinned.compare(&spec, &mut |seen| self.tell(number, What::Seen(seen)), by)?;
+            }
+            Work::Lay(spec) => return self.lay(number, &spec, by).map(|laid| End::Laid(Box::new(laid))),
+            Work::Try(text, tried) => self.try_changes(number, &text, &tried, by)?,
+        }
+        Ok(End::Done)
+    }
+
+    /// Lays a web: the same calls as `spunlaid web`, so the numbers have the same bits.
+    fn lay(&self, number: u64, spec: &WebSpec, by: Control<'_>) -> Result<Laid, Error> {
+        let all: u64 = spec.planned_flights().iter().map(|flight| flight.steps + flight.coarse_steps).sum();
+        let flown = AtomicU64::new(0);
+        let follow = |flights: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+            let done = || flown.load(Ordering::Relaxed) + flights.done.load(Ordering::Relaxed);
+            let share = || self.tell(number, What::Share(done() as f64 / all.max(1) as f64));
+            look_while(LOOK, share, work);
+            flown.fetch_add(flights.done.load(Ordering::Relaxed), Ordering::Relaxed);
+        };
+        let mut web = Flyer::new(by.threads, by.stop, &follow).web(spec)?;
+        let findings = web.find(by)?;
+        Ok(Laid::new(&web, &findings))
+    }
+
+    /// Tries changes of a line, the cheapest first.
+    fn try_changes(&mut self, number: u64, text: &str, tried: &[usize], by: Control<'_>) -> Result<(), Error> {
+        let name = &self.name;
+        let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes());
+        let changes = self.resources.settle(read, |resources| resources.fly(by))?;
+        let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
+        let mut left: Vec<(usize, Change)> = changes.into_iter().enumerate().collect();
+        left.retain(|(place, _)| !tried.contains(place));
+        left.sort_by_key(|(_, change)| steps(&change.experiment.spec));
+        let count = left.len();
+        for (i, (place, change)) in left.into_iter().enumerate() {
+            self.tell(number, What::Share(i as f64 / count as f64));
+            let last = Mutex::new(Vec::new());
+            let mut see = |seen| {
+                if let (Seen::Look(look), Ok(mut last)) = (seen, last.lock()) {
+                    *last = look.changes;
+                }
+            };
+            match pinned.compare(&change.experiment.spec, &mut see, by) {
+                Err(Error::Interrupted) => return Err(Error::Interrupted),
+                // A change with which no line could run says nothing.
+                Err(_) => self.tell(number, What::Tried(Box::new(change), place, Vec::new())),
+                Ok(()) => {
+                    let effects = last.into_inner().unwrap_or_default();
+                    self.tell(number, What::Tried(Box::new(change), place, effects));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Steps that a web takes, about.
+pub(super) fn steps(spec: &WebSpec) -> u64 {
+    spec.planned_flights().iter().map(|flight| flight.steps + flight.coarse_steps).sum()
+}

@@ -1,0 +1,44 @@
+//! What pages get of a web that has been laid as `spunlaid web` lays it.
+
+use super::picture::MapBody;
+use spunlaid::simulation::FlownWeb;
+use spunlaid::web::map::Findings;
+use std::sync::Arc;
+
+/// A web that has been laid.
+#[derive(Clone, Debug)]
+pub(crate) struct Laid {
+    /// Its CV over patches of each size; none where it is not known.
+    pub(super) patches: Vec<LaidPatch>,
+    /// What must be known before these numbers are believed, in words.
+    pub(super) notes: Vec<String>,
+    pub(super) map: Arc<MapBody>,
+    /// Its area [m²].
+    pub(super) area: f64,
+}
+
+/// The CV over patches of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LaidPatch {
+    /// Side of the patches [m].
+    pub(super) side: f64,
+    /// The CV and its standard error by all causes, or by chance where another one is not known; the error is NaN where
+    /// none is known.
+    pub(super) cv: Option<[f64; 2]>,
+}
+
+impl Laid {
+    pub(super) fn new(web: &FlownWeb, findings: &Findings) -> Self {
+        let patch = |patch: &spunlaid::web::map::PatchFindings| LaidPatch {
+            side: patch.map.patch,
+            cv: patch.told_with_whole_error().map(|cv| [cv.cv, cv.standard_error.unwrap_or(f64::NAN)]),
+        };
+        let sheet = &web.web.sheet;
+        Self {
+            patches: findings.patches.iter().map(patch).collect(),
+            notes: web.doubts(findings).iter().map(ToString::to_string).collect(),
+            map: Arc::new(MapBody::new(&findings.laid.map)),
+            area: sheet.width * sheet.length,
+        }
+    }
+}
