@@ -219,6 +219,7 @@ class Knobs {
     control.asked = null;
     control.wrong.textContent = `${why.replace(/\.$/, "")}. The line before goes on; Escape brings it back.`;
     control.wrong.hidden = false;
+    control.was.textContent = "";
     control.text.setAttribute("aria-invalid", "true");
     control.text.setAttribute("aria-describedby", control.wrong.id);
     control.wrong.scrollIntoView({ block: "nearest" });
