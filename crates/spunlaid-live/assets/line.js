@@ -221,9 +221,9 @@ function headline(best, generation) {
   byId("headline").className = best.now && best.of !== generation ? "old" : "";
   const { change } = best;
   const place = byId("change");
-  say("change", change ? `${changeText(change)} against before` : "");
-  place.className = !change ? "" : best.changeOf !== generation ? "old" : verdict(change);
-  place.title = !change || change.is_sure ? "" : "Not significant yet: the change may as well be none";
+  const isOld = change && best.changeOf !== generation;
+  say("change", change ? `${changeText(change)} against before${change.is_sure || isOld ? "" : ", not significant"}` : "");
+  place.className = !change ? "" : isOld ? "old" : verdict(change);
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */
@@ -430,8 +430,11 @@ addEventListener("keydown", (e) => {
   goBack();
 });
 
+addEventListener("visibilitychange", drawSettling);
 new ResizeObserver(drawSettling).observe(byId("settling"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawSettling);
+
+const mapText = ({ columns, rows, pixel }) => `complete, ${plain(1e3 * columns * pixel, 3)} × ${plain(1e3 * rows * pixel, 3)} mm`;
 
 let last = 0;
 function tick(now) {
@@ -441,7 +444,7 @@ function tick(now) {
   last = now;
   belt.tick(now);
   const { newest } = belt;
-  const view = belt.split && newest === belt.now ? "before | now" : newest.map ? "complete" : newest.tiles.size > 0 ? `${newest.ends.length} filaments, ${plain(newest.width * Math.max(newest.moved, 0), 2)} m²` : "";
+  const view = belt.split && newest === belt.now ? "before | now" : newest.map ? mapText(newest.map) : newest.tiles.size > 0 ? `${newest.ends.length} filaments, ${plain(newest.width * Math.max(newest.moved, 0), 2)} m²` : "";
   say("shown", view);
 }
 requestAnimationFrame(tick);
