@@ -1,5 +1,5 @@
-// What a person must see on the page of `spunlaid live line.toml`: a web that grows, a knob that changes it, a change that becomes
-// sure or stays grey, and a file that gives the numbers of the page.
+// What a person must see on the page of `spunlaid live line.toml`: a web that grows, a knob that changes it, a change
+// that becomes significant or stays grey, and a file that gives the numbers of the page.
 
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -7,7 +7,14 @@ import { join } from "node:path";
 import { violations } from "./axe.mjs";
 
 /** A small sheet of few filaments with long elements: a web in seconds. */
-const SMALL = ["web.width=0.15 m", "web.length=0.15 m", "web.error=20 %", "web.cell=1 mm", "belt.distance=250 mm", "fibre.element_length=8 mm"];
+const SMALL = {
+  "web.width": "0.15 m",
+  "web.length": "0.15 m",
+  "web.error": "20 %",
+  "web.cell": "1 mm",
+  "belt.distance": "250 mm",
+  "fibre.element_length": "8 mm",
+};
 const LINE = ["--polymer", "pp", "--throughput", "0.5 g/min", "--dtex", "2 dtex", "--basis-weight", "20 g/m²", "--holes-per-metre", "500"];
 /** The knob that is turned by hand, and its label. */
 const KNOB = "depth";
@@ -17,7 +24,7 @@ function writeLine({ program, folder }) {
   execFileSync(program, ["new", "--web", "line.toml", ...LINE, "--air-speed", "60 m/s"], { cwd: folder });
   const path = join(folder, "line.toml");
   let text = readFileSync(path, "utf8");
-  for (const [key, value] of SMALL.map((set) => set.split("="))) {
+  for (const [key, value] of Object.entries(SMALL)) {
     const [table, name] = key.split(".");
     const line = `${name} = "${value}"`;
     const there = new RegExp(`(\\[${table}\\][^[]*?\n)${name} = [^\n]*`);
@@ -157,6 +164,13 @@ async function twoPages(page, other, { expect }) {
   expect(await page.locator("#note").isHidden(), "a page speaks of its own knob as of another page's");
 }
 
+/** Where the program has ended, the page says so, and its numbers stay. */
+async function alone(page, { expect }) {
+  const headline = await page.locator("#headline").innerText();
+  await page.waitForFunction(() => document.getElementById("note-text").textContent.includes("does not answer"));
+  expect((await page.locator("#headline").innerText()) === headline, "without the program the headline changes");
+}
+
 async function looks(page, other, phone, { expect }) {
   for (const [seen, where] of [[page, "1280 px"], [other, "dark"], [phone, "400 px"]]) {
     for (const violation of await violations(seen)) expect(false, `${where}: ${violation}`);
@@ -200,7 +214,7 @@ export async function checkLine(browser, tools) {
   expect(slide.suggestedFilename().endsWith(".png"), `the picture is ${slide.suggestedFilename()}`);
   await undo(page, tools);
 
-  const other = await open(browser, address, { scheme: "dark", height: 800 });
+  const other = await open(browser, address, { scheme: "dark", height: 800, alone: true });
   const phone = await open(browser, address, { width: 400 });
   await wait(500);
   await looks(page, other, phone, tools);
@@ -210,8 +224,11 @@ export async function checkLine(browser, tools) {
   await wait(3100);
   await twoPages(page, other, tools);
   await hide(page, other, { ...tools, live });
-  await other.close();
   await page.close();
+  await show(other, true);
+  await isKnown(other);
   live.kill();
+  await alone(other, tools);
+  await other.close();
   return [`a line: first number after ${seconds} s, ${answer.replace(/\s+/g, " ")}; ${patches} numbers as those of the saved file`];
 }

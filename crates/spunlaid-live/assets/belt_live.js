@@ -146,7 +146,8 @@ class Belt {
 
   readColours() {
     const css = getComputedStyle(document.documentElement);
-    this.colours = Object.fromEntries(["paper", "web", "lines", "ink", "muted", "panel"].map((c) => [c, css.getPropertyValue(`--${c}`).trim()]));
+    const names = ["paper", "web", "lines", "ink", "muted", "panel"];
+    this.colours = Object.fromEntries(names.map((name) => [name, css.getPropertyValue(`--${name}`).trim()]));
     for (const laid of [this.before, this.now]) {
       laid.recolour(this.colours.lines);
       laid.image = null;
@@ -160,12 +161,14 @@ class Belt {
       this.offset += pixels;
       this.stale = true;
     };
-    this.canvas.addEventListener("keydown", ({ key }) => {
-      if (key === "ArrowUp") move(-40);
-      if (key === "ArrowDown") move(40);
+    this.canvas.addEventListener("keydown", (e) => {
+      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
+      e.preventDefault();
+      move(e.key === "ArrowUp" ? -40 : 40);
     });
-    this.canvas.addEventListener("pointermove", (e) => e.buttons === 1 && e.pointerType === "mouse" && move(e.movementY));
-    this.canvas.addEventListener("keydown", (e) => e.key.startsWith("Arrow") && e.preventDefault());
+    this.canvas.addEventListener("pointermove", ({ buttons, pointerType, movementY }) => {
+      if (buttons === 1 && pointerType === "mouse") move(movementY);
+    });
   }
 
   /** `isNow` – whether points are those of the web as it is now; a map says it itself. */

@@ -5,22 +5,37 @@ const NOTCHES = 400;
 const REST = 150;
 const GROUPS = [["running", "While the line runs"], ["stopped", "At a stop"], ["rebuilt", "Built"]];
 
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
 /** A number with so many significant digits, and a minus sign as long as a plus. */
 const plain = (value, digits) => String(Number(value.toPrecision(digits))).replace("-", "−");
 
 /** The decimals that an error allows: one digit, two if the first is 1; at most so many. */
-const decimals = (error, most) => Math.max(0, Math.min(most, (/^1/.test(error.toExponential()) ? 1 : 0) - Math.floor(Math.log10(error))));
+function decimals(error, most) {
+  const more = error.toExponential().startsWith("1") ? 1 : 0;
+  return Math.max(0, Math.min(most, more - Math.floor(Math.log10(error))));
+}
 
 /** A relative change in per cent, `+5 ± 2 %`. */
 function changed({ change, standard_error: error }) {
   const [value, by] = [100 * change, 100 * error];
   const places = error > 0 ? decimals(by, 1) : 1;
   const sign = value > 0 ? "+" : value < 0 ? "−" : "";
-  return `${sign}${Math.abs(value).toFixed(places)}${error > 0 ? ` ± ${by.toFixed(places)}` : ""} %`.replaceAll(" ", "\u00a0");
+  const text = `${sign}${Math.abs(value).toFixed(places)}${error > 0 ? ` ± ${by.toFixed(places)}` : ""} %`;
+  return text.replaceAll(" ", "\u00a0");
 }
 
-/** The step of which the effect is known, `+20 %`, or the other way. */
-const step = ({ words }, sign = 1) => (sign < 0 ? words.replace(/^[+-]/, (c) => (c === "+" ? "−" : "+")) : words.replace("-", "−"));
+/** The step of which the effect is known, `+20 %` or `+10 K`, or the same step the other way. */
+function stepText({ words }, sign = 1) {
+  const isDown = /^[-−]/.test(words) !== sign < 0;
+  return `${isDown ? "−" : "+"}${words.slice(1)}`;
+}
+
+/** How many such steps lead from one value to another. Temperatures have steps in kelvin. */
+function stepsTo({ words, step }, from, to) {
+  if (words.endsWith("K")) return (to - from) / parseFloat(words.replace("−", "-"));
+  return from > 0 && to > 0 ? Math.log(to / from) / Math.log(1 + step) : 0;
+}
 
 class Knobs {
   /** `set(name, value)` is called when a knob is turned; it returns the stamp that the answer will have. */
@@ -51,7 +66,8 @@ class Knobs {
     this.place.replaceChildren(
       ...GROUPS.map(([turned, title]) => {
         const group = element("fieldset");
-        group.append(element("legend", { textContent: title }), ...knobs.filter((k) => k.turned === turned).map((k) => this.make(k)));
+        const own = knobs.filter((knob) => knob.turned === turned);
+        group.append(element("legend", { textContent: title }), ...own.map((knob) => this.make(knob)));
         group.hidden = group.children.length === 1;
         return group;
       }),
@@ -71,7 +87,7 @@ class Knobs {
     wrong.setAttribute("role", "alert");
     const control = { knob, row, text, slider, tick, effect, was, wrong };
     const [top, track, under] = ["top", "track", "under"].map((className) => element("div", { className }));
-    const label = element("label", { htmlFor: id, textContent: knob.label[0].toUpperCase() + knob.label.slice(1), title: knob.key });
+    const label = element("label", { htmlFor: id, textContent: capital(knob.label), title: knob.key });
     top.append(label, text);
     track.append(slider, tick);
     under.append(effect, was);
@@ -121,7 +137,8 @@ class Knobs {
   /** Where a value lies on the slider, from 0 to 1. */
   shareOf(knob, value) {
     const { from, to } = knob;
-    const share = this.isLogarithmic(knob) ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
+    const isLogarithmic = this.isLogarithmic(knob);
+    const share = isLogarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from);
     return Math.min(1, Math.max(0, share));
   }
 
@@ -137,17 +154,18 @@ class Knobs {
     control.shown = this.written(knob, knob.value);
     if (!control.isEdited) text.value = control.shown;
     // A slider whose notch rounds to this value stays there, or it would stick under the arrow keys.
-    if (this.valueAt(knob, Number(slider.value)) !== knob.value) slider.value = Math.round(NOTCHES * this.shareOf(knob, knob.value));
+    const isThere = this.valueAt(knob, Number(slider.value)) === knob.value;
+    if (!isThere) slider.value = Math.round(NOTCHES * this.shareOf(knob, knob.value));
     slider.setAttribute("aria-valuetext", control.shown);
     // The middle of a thumb of 16 px does not reach the ends of its track.
     tick.style.left = `calc(8px + ${this.shareOf(knob, knob.was)} * (100% - 16px))`;
     const moved = Math.abs(knob.value - knob.was) > 1e-9 * Math.abs(knob.was);
     row.classList.toggle("moved", moved);
     was.textContent = moved ? `before ${this.written(knob, knob.was)}` : "";
-    effect.textContent = knob.effect ? `${step(knob.effect)}: CV ${changed(knob.effect)}` : "";
+    effect.textContent = knob.effect ? `${stepText(knob.effect)}: CV ${changed(knob.effect)}` : "";
   }
 
-  /** The step that lowers the CV most of all that are known not to be chance; those that can be turned today come first. */
+  /** The step with the largest significant effect on the CV; knobs that can be turned today come first. */
   first() {
     const isSure = ({ change, standard_error: error }) => Math.abs(change) > 2 * error;
     const known = [...this.all.values()].filter(({ knob }) => knob.effect && isSure(knob.effect));
@@ -160,7 +178,9 @@ class Knobs {
   turnFirst() {
     const control = this.first();
     const { value, effect } = control.knob;
-    control.turnedTo = this.rounded(control.knob, value * (1 - Math.sign(effect.change) * effect.step));
+    const sign = -Math.sign(effect.change);
+    const kelvin = effect.words.endsWith("K") ? parseFloat(effect.words.replace("−", "-")) : null;
+    control.turnedTo = this.rounded(control.knob, kelvin ? value + sign * kelvin : value * (1 + sign * effect.step));
     this.send(control);
   }
 
@@ -170,14 +190,15 @@ class Knobs {
     text.value = this.written(knob, turnedTo);
     slider.setAttribute("aria-valuetext", text.value);
     const { effect } = knob;
-    const steps = effect && knob.value > 0 ? Math.log(turnedTo / knob.value) / Math.log(1 + effect.step) : null;
+    const steps = effect ? stepsTo(effect, knob.value, turnedTo) : 0;
     was.textContent = steps ? `about ${changed({ change: (1 + effect.change) ** steps - 1 })}` : "";
   }
 
   send(control) {
     clearTimeout(control.timer);
     control.timer = null;
-    if (control.turnedTo !== null && control.turnedTo !== (control.asked ?? control.knob.value)) this.ask(control, control.turnedTo);
+    const { turnedTo, asked, knob } = control;
+    if (turnedTo !== null && turnedTo !== (asked ?? knob.value)) this.ask(control, turnedTo);
     else if (control !== this.held && !control.stamp) this.show(control);
   }
 

@@ -3,7 +3,8 @@
 const SIDE = 0.01;
 const STAGES = ["before", "sketch", "complete"];
 
-const page = { state: null, knobs: null, patches: new Map(), settling: [], since: 0, isTurned: false, connected: false, moved: false };
+const page = { state: null, knobs: [], patches: new Map(), settling: [], since: 0, isTurned: false };
+const connection = { open: false, moved: false };
 const asked = { at: -Infinity };
 /** For checks: how it goes. */
 const seen = { frames: 0, sent: [], errors: [] };
@@ -24,27 +25,31 @@ function ask(message) {
 
 const link = new Link({
   open() {
-    [page.connected, page.moved] = [true, false];
+    Object.assign(connection, { open: true, moved: false });
+    document.body.classList.remove("offline");
     note("");
     status();
   },
   closed() {
-    page.connected = false;
+    connection.open = false;
+    document.body.classList.add("offline");
     knobs.forget();
     offline();
   },
   knobs({ title, knobs: all }) {
     const moved = knobs.take(all);
     page.knobs = all;
-    const first = knobs.first();
-    byId("first").hidden = !first;
-    if (first) say("first", `Change first: ${first.knob.label} ${step(first.knob.effect, -Math.sign(first.knob.effect.change))}`);
-    byId("title").textContent = title;
-    document.title = `${title} – spunlaid live`;
     // What another page has turned; what moves along with one's own knob is no news.
     if (moved.length > 0 && performance.now() - asked.at > 3000) {
       note(`Another page has changed ${moved.map((k) => `${k.label} to ${knobs.written(k, k.value)}`).join(", ")}.`);
     }
+    const first = knobs.first();
+    byId("first").hidden = !first;
+    if (!first) return;
+    const { label, effect } = first.knob;
+    say("first", `Change first: ${label} ${stepText(effect, -Math.sign(effect.change))}`);
+    byId("title").textContent = title;
+    document.title = `${title} – spunlaid live`;
   },
   state,
   found,
@@ -81,12 +86,12 @@ function saved(text, wrong) {
 }
 
 async function offline() {
-  page.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
-  if (page.connected) return;
+  connection.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+  if (connection.open) return;
   note(
-    page.moved
+    connection.moved
       ? "The program was started again and has another address. Open the new address that it printed."
-      : "The program does not answer. It was ended, or this machine was asleep; the page tries again. The numbers are the last ones.",
+      : "The program does not answer; the page tries again. The numbers are the last ones.",
   );
   status();
 }
@@ -222,7 +227,8 @@ function headline(best, generation) {
   const { change } = best;
   const place = byId("change");
   const isOld = change && best.changeOf !== generation;
-  say("change", change ? `${changeText(change)} against before${change.is_sure || isOld ? "" : ", not significant"}` : "");
+  const doubt = change?.is_sure || isOld ? "" : ", not significant";
+  say("change", change ? `${changeText(change)} against before${doubt}` : "");
   place.className = !change ? "" : isOld ? "old" : verdict(change);
 }
 
@@ -242,7 +248,7 @@ function showWork(work) {
 
 function status() {
   const { state: now } = page;
-  if (!page.connected) return say("status", page.moved ? "Open the new address that the program printed." : "No connection with the program.");
+  if (!connection.open) return say("status", "No connection with the program.");
   if (!now) return say("status", "Connecting …");
   const best = judged();
   const isComplete = page.isTurned ? best?.now?.is_complete && best.of === now.generation : best?.before?.is_complete;
@@ -258,13 +264,13 @@ function showPlant(plant) {
   byId("plant").replaceChildren(
     ...plant.map(({ label, now, was }) => {
       const isMoved = was !== null && now !== was;
-      const place = element("div", { className: isMoved ? "moved" : "", title: isMoved ? `${label}: ${was} before` : label });
+      const place = element("div", { className: isMoved ? "moved" : "" });
       const value = element("dd", { textContent: now });
       // Where both have one unit it is written once.
       const unit = now.slice(now.indexOf(" "));
       const short = isMoved && was.endsWith(unit) ? was.slice(0, -unit.length) : was;
       if (isMoved) value.prepend(element("span", { className: "was", textContent: `${short} → ` }));
-      place.append(element("dt", { textContent: label[0].toUpperCase() + label.slice(1) }), value);
+      place.append(element("dt", { textContent: capital(label) }), value);
       return place;
     }),
   );
@@ -278,7 +284,8 @@ function showAnswers(answers) {
   place.replaceChildren(
     ...answers.map((answer) => {
       const { number, label, is_complete: isComplete, is_now: isNow } = answer;
-      const button = element("button", { type: "button", textContent: `${label} · ${isComplete ? "" : "about "}${cvText(answer).join("")} %` });
+      const textContent = `${label} · ${isComplete ? "" : "about "}${cvText(answer).join("")} %`;
+      const button = element("button", { type: "button", textContent });
       button.dataset.to = number;
       if (isNow) button.setAttribute("aria-current", "true");
       button.addEventListener("click", () => ask({ do: "back", to: number }));
@@ -339,10 +346,12 @@ function drawSettling() {
     pen.stroke();
   };
   for (let value = low; value <= high + 1e-9; value += step) {
-    if (bottom > 60 || value === low || value + step > high) pen.fillText(`${Number(value.toFixed(1))} %`, 0, y(value) + 4);
+    const hasRoom = bottom > 60 || value === low || value + step > high;
+    if (hasRoom) pen.fillText(`${Number(value.toFixed(1))} %`, 0, y(value) + 4);
     line([left, y(value)], [width - 8, y(value)]);
   }
-  for (const at of [0.5, 1, 2, 5, 10, 20, 60, 120, 300].filter((t) => t <= end && t > end / 60)) pen.fillText(`${at} s`, x(at) - 8, height - 3);
+  const times = [0.5, 1, 2, 5, 10, 20, 60, 120, 300].filter((at) => at <= end && at > end / 60);
+  for (const at of times) pen.fillText(`${at} s`, x(at) - 8, height - 3);
   pen.fillStyle = pen.strokeStyle = colour("accent");
   pen.globalAlpha = 0.22;
   pen.beginPath();
@@ -397,9 +406,9 @@ function slide() {
   });
   write("spunlaid live", 1010, 1014, "22px", muted);
   canvas.toBlob((blob) => {
-    const link = element("a", { href: URL.createObjectURL(blob), download: `${byId("title").textContent.replace(/\.toml$/, "")}_live.png` });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    const file = element("a", { href: URL.createObjectURL(blob), download: `${byId("title").textContent}_live.png` });
+    file.click();
+    setTimeout(() => URL.revokeObjectURL(file.href), 10000);
   });
 }
 
@@ -434,7 +443,17 @@ addEventListener("visibilitychange", drawSettling);
 new ResizeObserver(drawSettling).observe(byId("settling"));
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawSettling);
 
-const mapText = ({ columns, rows, pixel }) => `complete, ${plain(1e3 * columns * pixel, 3)} × ${plain(1e3 * rows * pixel, 3)} mm`;
+/** What lies on the belt. */
+function onBelt() {
+  const { newest, now, split } = belt;
+  if (split && newest === now) return "before | now";
+  if (newest.map) {
+    const { columns, rows, pixel } = newest.map;
+    return `complete, ${plain(1e3 * columns * pixel, 3)} × ${plain(1e3 * rows * pixel, 3)} mm`;
+  }
+  const area = newest.width * Math.max(newest.moved, 0);
+  return area > 0 ? `${newest.ends.length} filaments, ${plain(area, 2)} m²` : "";
+}
 
 let last = 0;
 function tick(now) {
@@ -443,9 +462,7 @@ function tick(now) {
   if (document.hidden || now - last < 45) return;
   last = now;
   belt.tick(now);
-  const { newest } = belt;
-  const view = belt.split && newest === belt.now ? "before | now" : newest.map ? mapText(newest.map) : newest.tiles.size > 0 ? `${newest.ends.length} filaments, ${plain(newest.width * Math.max(newest.moved, 0), 2)} m²` : "";
-  say("shown", view);
+  say("shown", onBelt());
 }
 requestAnimationFrame(tick);
 

@@ -1,4 +1,4 @@
-// The connection with the program, messages as JSON and frames as bytes; and what the pages of a fibre and a line both do.
+// The connection with the program, messages as JSON and frames as bytes, and what both pages need.
 
 const byId = (id) => document.getElementById(id);
 
