@@ -137,7 +137,7 @@ class Belt {
     this.canvas = canvas;
     this.before = new Laid();
     this.now = new Laid();
-    Object.assign(this, { split: false, at: 0, stale: true, drawn: 0, offset: 0 });
+    Object.assign(this, { split: false, at: 0, seen: 0, zoomed: 1, stale: true, drawn: 0, offset: 0 });
     new ResizeObserver(() => (this.stale = true)).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.readColours());
     this.readColours();
@@ -155,16 +155,28 @@ class Belt {
     this.stale = true;
   }
 
+  /** Nearer, or further away, up to the whole width. */
+  zoom(factor) {
+    this.zoomed = Math.min(16, Math.max(1, this.zoomed * factor));
+    this.stale = true;
+  }
+
   /** The belt stands where one looks: keys and a drag along it. */
   steer() {
     const move = (pixels) => {
-      this.offset += pixels;
+      this.offset += pixels / this.canvas.clientWidth;
       this.stale = true;
     };
+    const keys = {
+      ArrowUp: () => move(-40),
+      ArrowDown: () => move(40),
+      "+": () => this.zoom(1.5),
+      "-": () => this.zoom(1 / 1.5),
+    };
     this.canvas.addEventListener("keydown", (e) => {
-      if (e.key !== "ArrowUp" && e.key !== "ArrowDown") return;
+      if (!keys[e.key] || e.ctrlKey || e.metaKey) return;
       e.preventDefault();
-      move(e.key === "ArrowUp" ? -40 : 40);
+      keys[e.key]();
     });
     this.canvas.addEventListener("pointermove", ({ buttons, pointerType, movementY }) => {
       if (buttons === 1 && pointerType === "mouse") move(movementY);
@@ -196,9 +208,10 @@ class Belt {
     this.stale = true;
   }
 
+  /** Width that is to be seen [m]: that of the map, or of the sheet on which the filaments land. */
   get width() {
-    const widthOf = ({ map, width }) => width || (map ? map.columns * map.pixel : 0);
-    return widthOf(this.now) || widthOf(this.before);
+    const { map, width } = this.newest;
+    return (map ? map.columns * map.pixel : width) / this.zoomed;
   }
 
   get newest() {
@@ -210,13 +223,17 @@ class Belt {
     const passed = Math.min(200, now - (this.last ?? now));
     this.last = now;
     if (this.width === 0) return this.stale && this.paintEmpty();
-    const { moved } = this.newest;
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-    const next = still ? moved : moved + (this.at - moved) * Math.exp(-passed / FOLLOWS);
+    const left = still ? 0 : Math.exp(-passed / FOLLOWS);
+    const { moved } = this.newest;
+    const next = moved + (this.at - moved) * left;
+    // Zooms as it moves, and stands when it is as good as there.
+    const isThere = this.seen === 0 || Math.abs(this.seen / this.width - 1) < 2e-3;
+    const seen = isThere ? this.width : this.width + (this.seen - this.width) * left;
     const pixels = (Math.abs(next - this.at) * this.canvas.clientWidth) / this.width;
-    if (pixels < 0.2 && !this.stale) return;
+    if (pixels < 0.2 && seen === this.seen && !this.stale) return;
     if (still && now - (this.since ?? 0) < 1000) return;
-    [this.since, this.at, this.stale] = [now, next, false];
+    Object.assign(this, { since: now, at: next, seen, stale: false });
     const pen = this.fit();
     if (!pen) return;
     this.paint(pen, this.canvas.clientWidth, this.canvas.clientHeight);
@@ -244,12 +261,12 @@ class Belt {
 
   /** The whole picture, on the page or for a slide. */
   paint(pen, width, height) {
-    const scale = width / this.width;
+    const scale = width / this.seen;
     pen.fillStyle = this.colours.panel;
     pen.fillRect(0, 0, width, height);
-    const view = { scale, width, height, top: this.at + this.newest.ahead + this.offset / scale };
-    const halves = this.split && this.newest === this.now;
-    if (!halves) this.paintLaid(pen, this.newest, view);
+    const ahead = this.newest.map ? 0 : this.newest.ahead;
+    const view = { scale, width, height, top: this.at + ahead + this.offset * this.seen };
+    if (!this.split || this.newest !== this.now) this.paintLaid(pen, this.newest, view);
     else {
       // Both halves show the middle of the sheet, at the same scale.
       for (const [laid, x, label] of [[this.before, 0, "before"], [this.now, width / 2, "now"]]) {
@@ -268,8 +285,16 @@ class Belt {
     this.scaleBar(pen, scale, height);
   }
 
+  /** Where a sheet begins, its middle in the middle, and again where it ends: what leaves it there comes in again. */
+  repeats(sheet, { scale, width }) {
+    const wide = sheet * scale;
+    const first = (width - wide) / 2;
+    const before = Math.ceil(first / wide);
+    return Array.from({ length: 2 * Math.max(0, before) + 1 }, (_, k) => first + (k - Math.max(0, before)) * wide);
+  }
+
   paintLaid(pen, laid, view) {
-    const { width, height } = view;
+    const { scale, width, height } = view;
     pen.save();
     pen.beginPath();
     pen.rect(0, CURTAIN, width, height - CURTAIN);
@@ -285,19 +310,22 @@ class Belt {
         pen.fillRect(0, 0, width, height);
         pen.globalAlpha = 1;
       }
-      const long = (TILE * width) / laid.across;
+      const [wide, long] = [laid.width * scale, (TILE * laid.width * scale) / laid.across];
       for (const [index, tile] of laid.tiles) {
         // At whole pixels, so that nothing is drawn between them.
-        const y = Math.round(CURTAIN + view.top * view.scale) - (index + 1) * long;
-        if (y < height && y + long > 0) pen.drawImage(tile, 0, y, width, long);
+        const y = Math.round(CURTAIN + view.top * scale) - (index + 1) * long;
+        if (y > height || y + long < 0) continue;
+        for (const x of this.repeats(laid.width, view)) pen.drawImage(tile, x, y, wide, long);
       }
     }
     pen.restore();
-    this.paintCurtain(pen, laid, view);
+    const places = laid.width > 0 ? this.repeats(laid.width, view) : [];
+    if (!laid.map || places.length === 1) for (const x of places) this.paintCurtain(pen, laid, view, x);
   }
 
-  paintMap(pen, laid, { scale, width, height, top }) {
+  paintMap(pen, laid, view) {
     if (!laid.map) return;
+    const { scale, height, top } = view;
     laid.image ??= imageOf(laid.map, [rgb(this.colours.paper), rgb(this.colours.web)]);
     const { rows, columns, pixel } = laid.map;
     const long = rows * pixel;
@@ -308,12 +336,15 @@ class Belt {
       const first = Math.max(0, Math.floor((newest - top) / pixel));
       const last = Math.min(rows, Math.ceil((newest - top + shown) / pixel));
       const y = CURTAIN + (top - newest + first * pixel) * scale;
-      pen.drawImage(laid.image, 0, first, columns, last - first, 0, y, width, (last - first) * pixel * scale);
+      const size = [columns * pixel * scale, (last - first) * pixel * scale];
+      for (const x of this.repeats(columns * pixel, view)) {
+        pen.drawImage(laid.image, 0, first, columns, last - first, x, y, ...size);
+      }
     }
   }
 
   /** The filaments on their way down, from about their holes to where each landed last. */
-  paintCurtain(pen, { ends, homes, map }, { scale, height, top }) {
+  paintCurtain(pen, { ends, homes, map, width: sheet }, { scale, height, top }, left) {
     pen.save();
     pen.strokeStyle = this.colours.lines;
     pen.globalAlpha = map ? 0.35 : 0.8;
@@ -321,10 +352,12 @@ class Belt {
     pen.beginPath();
     ends.forEach((end, i) => {
       if (!end) return;
-      const home = (homes[i].sum / homes[i].count) * scale;
-      const [x, y] = [end[0] * scale, map ? CURTAIN : Math.min(height, CURTAIN + Math.max(1, (top - end[1]) * scale))];
+      const mean = homes[i].sum / homes[i].count;
+      const [home, x] = [mean - sheet * Math.floor(mean / sheet), end[0]].map((across) => left + across * scale);
+      const y = map ? CURTAIN : Math.min(height, CURTAIN + Math.max(1, (top - end[1]) * scale));
       pen.moveTo(home, 0);
-      if (Math.abs(x - home) < 80) pen.bezierCurveTo(home, 0.6 * y, x, 0.5 * y, x, y);
+      // A filament that has left the sheet at one end lands at the other.
+      if (Math.abs(x - home) < (sheet * scale) / 2) pen.bezierCurveTo(home, 0.6 * y, x, 0.5 * y, x, y);
     });
     pen.stroke();
     pen.restore();

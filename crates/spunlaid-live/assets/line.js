@@ -418,6 +418,8 @@ byId("split").addEventListener("click", () => {
   belt.stale = true;
   byId("split").setAttribute("aria-pressed", String(belt.split));
 });
+byId("nearer").addEventListener("click", () => belt.zoom(1.5));
+byId("further").addEventListener("click", () => belt.zoom(1 / 1.5));
 byId("picture").addEventListener("click", slide);
 byId("pin").addEventListener("click", () => ask({ do: "pin" }));
 byId("reset").addEventListener("click", () => ask({ do: "reset" }));
