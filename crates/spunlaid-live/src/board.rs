@@ -143,7 +143,8 @@ impl<P> Board<P> {
 
     /// Puts something up for a page as soon as there is room; `false` if the page is closed.
     pub(super) fn post(&self, page: PageId, news: News<P>) -> bool {
-        let full = |notices: &mut Notices<P>| notices.pages.get(&page).is_some_and(|all| all.len() >= WAITING);
+        let full =
+            |notices: &mut Notices<P>| notices.pages.get(&page).is_some_and(|all| all.len() >= WAITING);
         let notices = self.changed.wait_while(self.notices(), full);
         let mut notices = notices.unwrap_or_else(PoisonError::into_inner);
         let Some(waiting) = notices.pages.get_mut(&page) else { return false };

@@ -27,7 +27,9 @@ pub(crate) fn live(live: &Live) -> Result<(), Failure> {
         None => (Subject::Fibre, paper::TABLE1.to_owned()),
     };
     if live.case.is_none() {
-        say::aside("The page of a line, with its web: spunlaid new --web line.toml, then spunlaid live line.toml");
+        say::aside(
+            "The page of a line, with its web: spunlaid new --web line.toml, then spunlaid live line.toml",
+        );
     }
     let start = Start { subject, text, file: live.case.clone(), port: live.port.unwrap_or(0) };
     let ready = |address: &str, remark: Option<&str>| {

@@ -4,6 +4,7 @@
 #[path = "../served/mod.rs"]
 mod served;
 
+mod line;
 mod live;
 mod live_addresses;
 mod live_socket;

@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{HandshakeError, Message, WebSocket};
@@ -21,11 +21,17 @@ pub struct Live {
 impl Live {
     /// * `case` – the case in `cases/` that it flies; none for its own
     pub fn start(case: &[&str]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
         let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+        Self::start_in(|_| case.iter().map(|name| cases.join(name)).collect())
+    }
+
+    /// * `prepare` – writes files into the folder; says with which one the program is started
+    pub fn start_in(prepare: impl FnOnce(&Path) -> Vec<PathBuf>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let files = prepare(folder.path());
         let mut program = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
             .args(["live", "--no-open"])
-            .args(case.iter().map(|name| cases.join(name)))
+            .args(files)
             .current_dir(&folder)
             .stdout(Stdio::piped())
             .stderr(fs::File::create(folder.path().join(".said")).unwrap())
@@ -82,6 +88,17 @@ impl Live {
     /// What the program has said besides the address.
     pub fn said(&self) -> String {
         fs::read_to_string(self.folder.path().join(".said")).unwrap()
+    }
+
+    /// Time of all processors that the program has taken [s]; 0 where the system does not say it.
+    pub fn processor_seconds(&self) -> f64 {
+        /// Ticks of Linux in a second.
+        const TICKS: f64 = 100.0;
+        let Ok(stat) = fs::read_to_string(format!("/proc/{}/stat", self.program.id())) else { return 0.0 };
+        // The name of the program, which may have spaces, stands in parentheses; user and system time are the 12th and
+        // 13th number behind it.
+        let numbers = stat.rsplit_once(')').unwrap().1.split_whitespace();
+        numbers.skip(11).take(2).map(|ticks| ticks.parse::<f64>().unwrap()).sum::<f64>() / TICKS
     }
 
     /// What the program has saved.

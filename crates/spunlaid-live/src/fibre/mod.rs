@@ -81,11 +81,7 @@ impl Session {
     ///
     /// # Errors
     /// The case cannot be read or flown.
-    fn new(
-        document: Document,
-        remark: Option<String>,
-        folder: PathBuf,
-    ) -> Result<Self, Vec<Complaint>> {
+    fn new(document: Document, remark: Option<String>, folder: PathBuf) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
         let search = read.case.waits_for_flights().then(|| TensionSearch::begin(&document));
         let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;

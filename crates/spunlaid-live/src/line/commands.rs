@@ -6,7 +6,7 @@ use super::known_web::KnownWeb;
 use crate::message::{Answer, Command, KeyValue, complaints};
 use crate::save;
 use spunlaid::ground::Error;
-use spunlaid::input::{Turn, read_line};
+use spunlaid::input::{LineFile, Turn, WebSpec, read_line};
 
 /// Webs that are remembered, with the present one and that of comparison.
 const REMEMBERED: usize = 8;
@@ -40,14 +40,18 @@ impl Session {
             }
             Command::Back { to } => {
                 if !self.webs.iter().any(|web| web.number == *to) {
-                    return Err(Answer::refused("this answer is not remembered any more; turn the knobs again"));
+                    return Err(Answer::refused(
+                        "this answer is not remembered any more; turn the knobs again",
+                    ));
                 }
                 self.show_web(*to);
             }
             Command::Save { name, replace } => return self.save(name, *replace).map(Some),
             Command::Look { .. } => {}
             Command::Case { .. } | Command::Pace { .. } | Command::Step {} | Command::Forget {} => {
-                return Err(Answer::refused("the page of a line knows no such message; that of a fibre does"));
+                return Err(Answer::refused(
+                    "the page of a line knows no such message; that of a fibre does",
+                ));
             }
         }
         Ok(None)
@@ -59,9 +63,13 @@ impl Session {
         let knobs = &self.web(self.before).knobs;
         let Some(knob) = knobs.iter().find(|knob| knob.name == name) else {
             let names: Vec<&str> = knobs.iter().map(|knob| knob.name.as_str()).collect();
-            return Err(Answer::refused(format!("there is no knob \"{name}\"; there are {}", names.join(", "))));
+            return Err(Answer::refused(format!(
+                "there is no knob \"{name}\"; there are {}",
+                names.join(", ")
+            )));
         };
-        let value = value_of(knob, value).map_err(|fault| Answer::refused(format!("{} {fault}", knob.label)))?;
+        let value =
+            value_of(knob, value).map_err(|fault| Answer::refused(format!("{} {fault}", knob.label)))?;
         let written = self.file.knobs().into_iter().find(|knob| knob.name == name).map(|knob| knob.value);
         let mut turns = self.web(self.now).turns.clone();
         turns.retain(|turn| turn.name != name);
@@ -108,8 +116,10 @@ impl Session {
         let name = save::plain_name(name).map_err(Answer::refused)?;
         let line = &self.web(self.now).line;
         // From another folder its files may be others, or none.
-        let is_same = read_line(&line.text, &name, &self.resources).is_ok_and(|saved| *saved.spec() == line.spec);
-        if !is_same && self.is_elsewhere {
+        let saved = read_line(&line.text, &name, &self.resources);
+        // Numbers that are not known are NaN, and equal to nothing.
+        let is_same = |saved: LineFile| cases_of(saved.spec()) == cases_of(&line.spec);
+        if self.is_elsewhere && !saved.is_ok_and(is_same) {
             let text = "the line names files beside it, which a file in this folder would not find; start \
                 `spunlaid live` in the folder of the line";
             return Err(Answer::refused(text));
@@ -118,4 +128,9 @@ impl Session {
         self.save_name = self.free_name();
         Ok(Answer::Saved { name })
     }
+}
+
+/// The cases of a web, as a text that differs where they do.
+fn cases_of(spec: &WebSpec) -> String {
+    format!("{:?}", spec.cases().collect::<Vec<_>>())
 }

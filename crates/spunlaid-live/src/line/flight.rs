@@ -11,7 +11,7 @@ use spunlaid::simulation::{Flights, Flyer};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
@@ -124,8 +124,7 @@ impl Pilot {
 
     /// Lays a web: the same calls as `spunlaid web`, so the numbers have the same bits.
     fn lay(&self, number: u64, spec: &WebSpec, by: Control<'_>) -> Result<Laid, Error> {
-        let all: u64 = spec.planned_flights().iter().map(|flight| flight.steps + flight.coarse_steps).sum();
-        let flown = AtomicU64::new(0);
+        let (all, flown) = (steps(spec), AtomicU64::new(0));
         let follow = |flights: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
             let done = || flown.load(Ordering::Relaxed) + flights.done.load(Ordering::Relaxed);
             let share = || self.tell(number, What::Share(done() as f64 / all.max(1) as f64));
@@ -138,35 +137,53 @@ impl Pilot {
     }
 
     /// Tries changes of a line, the cheapest first.
-    fn try_changes(&mut self, number: u64, text: &str, tried: &[usize], by: Control<'_>) -> Result<(), Error> {
+    fn try_changes(
+        &mut self,
+        number: u64,
+        text: &str,
+        tried: &[usize],
+        by: Control<'_>,
+    ) -> Result<(), Error> {
         let name = &self.name;
         let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes());
         let changes = self.resources.settle(read, |resources| resources.fly(by))?;
         let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
-        let mut left: Vec<(usize, Change)> = changes.into_iter().enumerate().collect();
+        let mut left: Vec<(usize, Change)> = one_of_each(changes.into_iter().enumerate());
         left.retain(|(place, _)| !tried.contains(place));
         left.sort_by_key(|(_, change)| steps(&change.experiment.spec));
         let count = left.len();
         for (i, (place, change)) in left.into_iter().enumerate() {
             self.tell(number, What::Share(i as f64 / count as f64));
-            let last = Mutex::new(Vec::new());
+            let mut last = Vec::new();
             let mut see = |seen| {
-                if let (Seen::Look(look), Ok(mut last)) = (seen, last.lock()) {
-                    *last = look.changes;
+                if let Seen::Look(look) = seen {
+                    last = look.changes;
                 }
             };
             match pinned.compare(&change.experiment.spec, &mut see, by) {
                 Err(Error::Interrupted) => return Err(Error::Interrupted),
                 // A change with which no line could run says nothing.
                 Err(_) => self.tell(number, What::Tried(Box::new(change), place, Vec::new())),
-                Ok(()) => {
-                    let effects = last.into_inner().unwrap_or_default();
-                    self.tell(number, What::Tried(Box::new(change), place, effects));
-                }
+                Ok(()) => self.tell(number, What::Tried(Box::new(change), place, last)),
             }
         }
         Ok(())
     }
+}
+
+/// One change of each knob that can be made, the increase if both can.
+fn one_of_each(changes: impl Iterator<Item = (usize, Change)>) -> Vec<(usize, Change)> {
+    let is_more = |change: &Change| change.keys.first().is_some_and(|key| key.to > key.from);
+    let mut all: Vec<(usize, Change)> = Vec::new();
+    for (place, change) in changes.filter(|(_, change)| change.refusal.is_none()) {
+        let is_same = |other: &Change| other.setting == change.setting && other.layers == change.layers;
+        match all.iter_mut().find(|(_, other)| is_same(other)) {
+            Some(known) if is_more(&change) => *known = (place, change),
+            Some(_) => {}
+            None => all.push((place, change)),
+        }
+    }
+    all
 }
 
 /// Steps that a web takes, about.

@@ -8,7 +8,7 @@ use spunlaid::ground::Difference;
 /// Probability with which a look finds no change where there is none. Some looks in a row then find none in 95 %.
 const SURE: f64 = 0.987;
 /// Patches on which most eyes judge a web [m].
-const SEEN: f64 = 0.01;
+pub(super) const SEEN: f64 = 0.01;
 /// Relative difference up to which two patches have one size.
 const SAME: f64 = 1e-6;
 

@@ -1,5 +1,6 @@
 //! Knobs as pages have them: values in the unit of the knob.
 
+use super::found::SEEN;
 use super::known_web::{DIGITS, KnownWeb};
 use crate::message::KeyValue;
 use serde_json::{Value as Json, json};
@@ -79,7 +80,8 @@ fn effect_of(knob: &Knob, slopes: &[Slope], side: f64) -> Option<Json> {
 pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Slope]) -> Json {
     let of_knob = |knob: &Knob| {
         let unit = unit(knob);
-        let value = |web: &KnownWeb| web.knobs.iter().find(|other| other.name == knob.name).map(|one| one.value);
+        let value =
+            |web: &KnownWeb| web.knobs.iter().find(|other| other.name == knob.name).map(|one| one.value);
         let [is, was] = [now, before].map(|web| in_unit(knob, value(web).unwrap_or(knob.value), &unit));
         let [from, to] = knob.range.map(|end| in_unit(knob, end, &unit));
         json!({
@@ -94,7 +96,7 @@ pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Sl
             "to": to.max(is).max(was),
             "digits": SLIDER_DIGITS,
             "is_whole": knob.is_whole,
-            "effect": effect_of(knob, slopes, 0.01),
+            "effect": effect_of(knob, slopes, SEEN),
         })
     };
     // Units and ranges stay those of the web of comparison while a knob is turned.

@@ -3,8 +3,8 @@
 use super::flight::steps;
 use super::laid::Laid;
 use super::plan::WebState;
-use super::stand_in::{PlantNumber, plant_numbers};
 use spunlaid::experiment::advice::Look;
+use spunlaid::experiment::{PlantNumber, plant_numbers};
 use spunlaid::input::{Knob, Turn, TurnedLine, WebSpec};
 use std::sync::Arc;
 

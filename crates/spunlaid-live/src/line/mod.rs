@@ -18,7 +18,6 @@ mod laid;
 mod picture;
 mod plan;
 mod show;
-mod stand_in;
 
 use crate::board::{Board, PageId};
 use crate::message::{Answer, Command, PageRequest};
@@ -38,6 +37,8 @@ use std::thread;
 
 /// Messages that are heard before something is shown.
 const MOST_HEARD: usize = 256;
+/// How much of the belt runs by until the last look, over the length of the sheet that is looked at, about.
+const WITH_BEGINNING: f64 = 1.4;
 /// Files of one name that are looked for before another name is given.
 const MOST_FILES: u32 = 1000;
 
@@ -121,8 +122,12 @@ impl Session {
         };
         let (file, line) = resources.settle(read, |resources| resources.fly(by))?;
         if !line.spec.flies() {
-            let what = format!("{name} is a web of known numbers: nothing of it is simulated that a page could show");
-            let remedy = format!("`spunlaid web {name}` lays it; `spunlaid new --web` writes a line that is simulated");
+            let what = format!(
+                "{name} is a web of known numbers: nothing of it is simulated that a page could show"
+            );
+            let remedy = format!(
+                "`spunlaid web {name}` lays it; `spunlaid new --web` writes a line that is simulated"
+            );
             return Err(Fault::new(what, remedy).into());
         }
         let is_elsewhere = path.as_ref().and_then(|path| path.parent()).is_some_and(|at| at != Path::new(""));
@@ -220,14 +225,22 @@ impl Session {
         for (i, request) in requests.iter().enumerate() {
             let PageRequest { page, command } = request;
             let answer = match command {
-                Command::Set { stamp, .. } if requests[i + 1..].iter().any(|later| request.is_replaced_by(later)) => {
+                Command::Set { stamp, .. }
+                    if requests[i + 1..].iter().any(|later| request.is_replaced_by(later)) =>
+                {
                     Some(Answer::Applied { stamp: *stamp, generation: self.picture.generation + 1 })
                 }
                 Command::Look { visible } => {
-                    if *visible { self.pages.insert(*page) } else { self.pages.remove(page) };
+                    if *visible {
+                        self.pages.insert(*page)
+                    } else {
+                        self.pages.remove(page)
+                    };
                     None
                 }
-                command => self.obey(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject()))),
+                command => {
+                    self.obey(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
+                }
             };
             if let Some(answer) = answer {
                 self.board.answer(*page, answer.json());
@@ -303,7 +316,9 @@ impl Session {
             }
             _ if is_unwanted => {}
             What::Seen(seen) => self.see(task, seen),
-            What::Tried(change, place, effects) => self.slopes.push(Slope { change: *change, place, effects }),
+            What::Tried(change, place, effects) => {
+                self.slopes.push(Slope { change: *change, place, effects })
+            }
         }
     }
 
@@ -312,8 +327,10 @@ impl Session {
         let last = LOOKS[LOOKS.len() - 1];
         match (seen, task) {
             (Seen::Laid(stretch), _) => {
-                let share = stretch.belt * stretch.width / last;
-                self.flying.iter_mut().for_each(|flying| flying.share = share.min(1.0));
+                let (layers, part) =
+                    (self.web(self.now).spec.layers.len(), stretch.belt * stretch.width / (last * WITH_BEGINNING));
+                let share = (stretch.layer as f64 + part.min(1.0)) / layers as f64;
+                self.flying.iter_mut().for_each(|flying| flying.share = share);
                 self.picture.add(&stretch);
                 self.show_picture();
             }
@@ -368,7 +385,8 @@ impl Session {
     fn settled(&mut self, number: u32, line: TurnedLine) {
         let Some(place) = self.webs.iter().position(|web| web.number == number) else { return };
         let KnownWeb { turns, knobs, .. } = &self.webs[place];
-        let knobs = read_line(&line.text, &self.name, &self.resources).map_or_else(|_| knobs.clone(), |new| new.knobs());
+        let knobs = read_line(&line.text, &self.name, &self.resources)
+            .map_or_else(|_| knobs.clone(), |new| new.knobs());
         self.webs[place] = KnownWeb::new(number, turns.clone(), line, knobs);
     }
 }

@@ -51,7 +51,8 @@ pub(crate) struct MapBody {
 impl MapBody {
     pub(super) fn new(map: &Map) -> Self {
         let [across, along] = MOST_PIXELS;
-        let side = map.columns.div_ceil(across).max(map.rows.div_ceil(along)).clamp(1, map.columns.min(map.rows));
+        let side =
+            map.columns.div_ceil(across).max(map.rows.div_ceil(along)).clamp(1, map.columns.min(map.rows));
         let ([columns, rows], sums) = map.squares(side);
         let count = sums.len() as f64;
         let mean = sums.iter().map(|sum| *sum as f64).sum::<f64>() / count;

@@ -99,7 +99,8 @@ mod tests {
         let turned = Known { now: web(2, false), ..known };
         let compare = Task::Compare { before: 1, now: 2 };
         assert_eq!(tasks(turned), [Task::Pin(1), compare, Task::Lay(1), Task::Lay(2), Task::Try(1)]);
-        let back = Known { before: web(1, true), now: web(2, true), is_pinned: true, is_tried: true, ..turned };
+        let back =
+            Known { before: web(1, true), now: web(2, true), is_pinned: true, is_tried: true, ..turned };
         assert_eq!(tasks(Known { is_compared: true, ..back }), []);
         assert_eq!(tasks(back), [compare]);
         let unsettled = WebState { is_settled: false, ..web(2, false) };

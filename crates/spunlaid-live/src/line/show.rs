@@ -5,9 +5,9 @@ use super::found::{answer, found};
 use super::knobs::knobs;
 use super::known_web::KnownWeb;
 use super::plan::Task;
-use super::stand_in::PlantNumber;
 use crate::board::Topic;
 use serde_json::{Value as Json, json};
+use spunlaid::experiment::PlantNumber;
 use spunlaid::fibre::Note;
 use spunlaid::ground::error::Place;
 use spunlaid_results::command::{beside_of, quoted};
@@ -87,8 +87,11 @@ impl Session {
         let flying = self.flying.as_ref().filter(|flying| !flying.is_unwanted())?;
         let (stage, words) = match flying.task {
             Task::Settle(_) => ("before", "Flights find the tension at the end of the spinline"),
-            Task::Pin(_) => ("before", "A sample of filaments lays a coarse web, with which others are compared"),
+            Task::Pin(_) => {
+                ("before", "A sample of filaments lays a coarse web, with which others are compared")
+            }
             Task::Compare { .. } => ("sketch", "The changed web is compared in the same turbulence"),
+            Task::Lay(_) if self.now == self.before => ("complete", "The web is laid in full"),
             Task::Lay(web) if web == self.before => ("complete", "The web before is laid in full"),
             Task::Lay(_) => ("complete", "The changed web is laid in full"),
             Task::Try(_) => ("effects", "What the knobs do is tried"),
@@ -119,13 +122,18 @@ impl Session {
         let Some(path) = &self.path else {
             return "save the line first; then this is the command that lays its web".to_owned();
         };
-        let set: String =
-            web.line.set.iter().map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}")))).collect();
+        let set: String = web
+            .line
+            .set
+            .iter()
+            .map(|(key, value)| format!(" --set {}", quoted(&format!("{key}={value}"))))
+            .collect();
         let file = quoted(&path.to_string_lossy());
         if set.is_empty() {
             return format!("spunlaid web {file}");
         }
-        let out = beside_of(&format!("results/{}", self.title()), web.line.set.iter().map(|(k, v)| (&**k, &**v)));
+        let out =
+            beside_of(&format!("results/{}", self.title()), web.line.set.iter().map(|(k, v)| (&**k, &**v)));
         format!("spunlaid web {file}{set} --out {}", quoted(&out))
     }
 }
