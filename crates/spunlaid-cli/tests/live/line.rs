@@ -63,8 +63,15 @@ fn assert_same(found: &Value, which: &str, patches: &[Value]) {
             assert!(page.is_null(), "{page}");
             continue;
         }
-        let error = if patch["cv_whole_error"].is_null() { &patch["cv_standard_error"] } else { &patch["cv_whole_error"] };
-        assert_eq!((&page["cv"], &page["standard_error"], &page["is_complete"]), (&patch["cv"], error, &json!(true)));
+        let error = if patch["cv_whole_error"].is_null() {
+            &patch["cv_standard_error"]
+        } else {
+            &patch["cv_whole_error"]
+        };
+        assert_eq!(
+            (&page["cv"], &page["standard_error"], &page["is_complete"]),
+            (&patch["cv"], error, &json!(true))
+        );
         compared += 1;
     }
     assert!(compared > 0, "{patches:?}");
@@ -75,23 +82,28 @@ fn identical_numbers_of_the_page_and_of_the_program_before_and_after_a_knob_is_t
     let live = start();
     let mut page = live.page();
     let knobs = page.message("knobs");
-    let knob = knobs["knobs"].as_array().unwrap().iter().find(|knob| knob["name"] == "throughput").unwrap().clone();
+    let knob =
+        knobs["knobs"].as_array().unwrap().iter().find(|knob| knob["name"] == "throughput").unwrap().clone();
     assert_eq!((&knob["unit"], &knob["value"], &knob["was"]), (&json!("g/min"), &json!(0.5), &json!(0.5)));
     let folder = live.folder.path();
     let found = complete(&mut page, 0);
     assert!(found["patches"].as_array().unwrap().iter().all(|patch| patch["now"].is_null()), "{found}");
-    until(&mut page, "found", |found| found["patches"].as_array().unwrap().iter().any(|p| p["before"]["is_complete"] == true));
+    until(&mut page, "found", |found| {
+        found["patches"].as_array().unwrap().iter().any(|p| p["before"]["is_complete"] == true)
+    });
 
     page.ask(&set("throughput", &json!(0.6), 5));
     assert_eq!(page.message("applied"), json!({"is": "applied", "stamp": 5, "generation": 1}));
     let state = until(&mut page, "state", |state| state["generation"] == 1);
     let command = state["command"].as_str().unwrap();
     assert!(command.starts_with("spunlaid web line.toml --set 'line.throughput=0.6 g/min'"), "{command}");
-    let set = command.split(" --out ").next().unwrap().split(" --set ").skip(1).map(|set| set.trim_matches('\''));
+    let set =
+        command.split(" --out ").next().unwrap().split(" --set ").skip(1).map(|set| set.trim_matches('\''));
     let set: Vec<&str> = set.flat_map(|set| ["--set", set]).collect();
     // The first numbers are a change with an error, at a look.
     let sketch = until(&mut page, "found", |found| found["generation"] == 1 && found["stage"] == "sketch");
-    let patch = sketch["patches"].as_array().unwrap().iter().find(|patch| patch["change"].is_object()).unwrap();
+    let patch =
+        sketch["patches"].as_array().unwrap().iter().find(|patch| patch["change"].is_object()).unwrap();
     let number = |value: &Value| value.as_f64().unwrap();
     let (before, now, change) = (&patch["before"], &patch["now"], &patch["change"]);
     let expected = number(&before["cv"]) * (1.0 + number(&change["value"]));
@@ -129,9 +141,15 @@ fn a_new_value_stops_the_old_web_and_a_hidden_page_stops_all() {
     page.ask(&set("throughput", &json!("0.6 g/min"), 2));
     // Another page sees the knob move.
     let moved = until(&mut other, "knobs", |knobs| {
-        knobs["knobs"].as_array().unwrap().iter().any(|knob| knob["name"] == "throughput" && knob["value"] == 0.6)
+        knobs["knobs"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|knob| knob["name"] == "throughput" && knob["value"] == 0.6)
     });
-    assert!(moved["knobs"].as_array().unwrap().iter().any(|knob| knob["name"] == "titre" || knob["was"] == 0.5));
+    assert!(
+        moved["knobs"].as_array().unwrap().iter().any(|knob| knob["name"] == "titre" || knob["was"] == 0.5)
+    );
     // The web before was being laid in full; the comparison begins without waiting for it.
     let state = until(&mut page, "state", |state| state["work"].is_object() && state["generation"] != 0);
     assert_eq!(stage(&state).as_deref(), Some("sketch"), "{state}");
@@ -186,9 +204,11 @@ fn rejects_files_without_a_page_and_says_what_shows_them() {
         assert!(!done.status.success(), "{name}");
         String::from_utf8(done.stderr).unwrap()
     };
-    for (name, wanted) in
-        [("web_known.toml", "spunlaid web "), ("spinline.toml", "spunlaid spin "), ("studies/velocity.toml", "spunlaid sweep ")]
-    {
+    for (name, wanted) in [
+        ("web_known.toml", "spunlaid web "),
+        ("spinline.toml", "spunlaid spin "),
+        ("studies/velocity.toml", "spunlaid sweep "),
+    ] {
         let said = refused(name);
         assert!(said.contains(wanted), "{name}: {said}");
     }

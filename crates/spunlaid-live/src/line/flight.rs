@@ -9,9 +9,9 @@ use spunlaid::ground::{Control, Effect, Error, Isa};
 use spunlaid::input::{LineFile, Resources, Turn, TurnedLine, WebSpec, read_line};
 use spunlaid::simulation::{Flights, Flyer};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender};
-use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 

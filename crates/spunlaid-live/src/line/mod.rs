@@ -327,8 +327,10 @@ impl Session {
         let last = LOOKS[LOOKS.len() - 1];
         match (seen, task) {
             (Seen::Laid(stretch), _) => {
-                let (layers, part) =
-                    (self.web(self.now).spec.layers.len(), stretch.belt * stretch.width / (last * WITH_BEGINNING));
+                let (layers, part) = (
+                    self.web(self.now).spec.layers.len(),
+                    stretch.belt * stretch.width / (last * WITH_BEGINNING),
+                );
                 let share = (stretch.layer as f64 + part.min(1.0)) / layers as f64;
                 self.flying.iter_mut().for_each(|flying| flying.share = share);
                 self.picture.add(&stretch);
