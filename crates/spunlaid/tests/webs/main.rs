@@ -10,6 +10,7 @@ mod fit;
 mod guesses;
 mod neighbours;
 mod one_air;
+mod pinned;
 mod same_air;
 mod surrogate;
 mod two_filaments;

@@ -22,12 +22,12 @@ use crate::web::{Arrangement, LayerFew, Sheet, Window};
 use std::ops::{ControlFlow, Range};
 
 /// Size of the room, in what the layer needs: changed layers need up to so much more.
-const SPARE: f64 = 1.5;
+const SPARE: f64 = 1.25;
 /// Distance of the filaments, in the usual one: what a larger pitch does to one web it does to the other.
 pub(crate) const PITCHES: f64 = 2.0;
 /// How much farther the layer is flown than its sheet is long, in ways from inlet to belt: another one may begin to lay
 /// later.
-const FARTHER: f64 = 0.5;
+const FARTHER: f64 = 0.25;
 /// Longest sheet that a changed layer lays, over that of the pinned one: its air may pass more slowly.
 const MOST: f64 = 20.0;
 
