@@ -23,7 +23,7 @@ use crate::simulation::{WebKey, WebSpec};
 
 /// What messages write before a key that a knob has set.
 const KNOB: &str = "knob";
-/// Digits of the numbers that are set.
+/// Digits of the number to which a knob is turned.
 const DIGITS: usize = 12;
 /// How far the slider of a knob goes: factors on its value, and the change of a temperature either way [K].
 const FACTORS: [f64; 2] = [0.5, 2.0];
@@ -172,7 +172,8 @@ impl LineFile {
             })?;
             let Some(KnownKey { key, from, .. }) = knob.known.first() else { continue };
             let value = if key.is_whole() { value.round() } else { *value };
-            written_at(&[(key.clone(), value)], &place)?;
+            let named = VariedKey::new(self.base.short_name(&key.name), key.kind);
+            written_at(&[(named, value)], &place)?;
             found.retain(|(other, _)| other.name() != *name && !(is_of_belt(knob) && is_of_belt(other)));
             if value != *from || is_of_belt(knob) {
                 found.push((knob, value));
