@@ -86,6 +86,9 @@ throughput = "0.6 g/min"   # of the third
 rows = [{ pitch = "even", filaments = 300 }, { pitch = "0.6 mm", filaments = 200, md = "4 mm" }]
 "#;
 
+/// Names of knobs with their values.
+type Turns<'a> = &'a [(&'a str, f64)];
+
 /// A web in the folder of the cases.
 fn beside_cases(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name).display().to_string()
@@ -113,7 +116,7 @@ fn turn(name: &str, value: f64) -> Turn {
     Turn { name: name.to_owned(), value }
 }
 
-fn turned(line: &LineFile, turns: &[(&str, f64)]) -> TurnedLine {
+fn turned(line: &LineFile, turns: Turns<'_>) -> TurnedLine {
     let turns: Vec<Turn> = turns.iter().map(|(name, value)| turn(name, *value)).collect();
     line.turned(&turns, &Resources::default()).unwrap_or_else(|why| panic!("{turns:?}: {why}"))
 }
@@ -225,8 +228,12 @@ fn knobs_turned_together_are_some_turned_after_the_others() {
         let together =
             line.turned(&turns, &Resources::default()).unwrap_or_else(|why| panic!("{name}: {why}"));
         let (first, second) = turns.split_at(turns.len() / 2);
-        let half = line.turned(first, &Resources::default()).unwrap().text;
-        let saved = opened(&half, &name).turned(second, &Resources::default()).unwrap();
+        let half = line.turned(first, &Resources::default()).unwrap();
+        let opened = opened(&half.text, &name);
+        let values =
+            |knobs: Vec<Knob>| knobs.into_iter().map(|knob| (knob.name, knob.value)).collect::<Vec<_>>();
+        assert_eq!(values(opened.knobs()), values(half.knobs), "{name}");
+        let saved = opened.turned(second, &Resources::default()).unwrap();
         assert_near(&together.spec, &saved.spec, 1e-9, &format!("{name}: {turns:?}"));
         assert_reads_back(&text, &name, &together);
         // Back again: the file as it is.
@@ -243,7 +250,7 @@ fn analytic_the_belt_follows_the_weight_unless_it_is_turned() {
     let base = of(line.spec());
     let (throughput, belt) = (knob(&line, "throughput").value, knob(&line, "belt_speed").value);
     // Mass flow, belt and weight in shares of what they were.
-    let all: [(&[(&str, f64)], [f64; 3]); 6] = [
+    let all: [(Turns<'_>, [f64; 3]); 6] = [
         (&[("throughput", 1.2 * throughput)], [1.2, 1.2, 1.0]),
         (&[("belt_speed", 1.25 * belt)], [1.0, 1.25, 0.8]),
         (&[("basis_weight", 25e-3)], [1.0, 0.8, 1.25]),
@@ -252,7 +259,14 @@ fn analytic_the_belt_follows_the_weight_unless_it_is_turned() {
         (&[("basis_weight", 25e-3), ("belt_speed", 1.25 * belt)], [1.0, 1.25, 0.8]),
     ];
     for (turns, wanted) in all {
-        let found = of(&turned(&line, turns).spec);
+        let turned = turned(&line, turns);
+        let found = of(&turned.spec);
+        // The knobs say what has become of them.
+        let of_knob = |name: &str| turned.knobs.iter().find(|knob| knob.name == name).unwrap().value;
+        assert_eq!([of_knob("belt_speed"), of_knob("basis_weight")], [found[1], found[2]]);
+        let is_turned = turns.iter().any(|(name, _)| *name == "throughput");
+        let throughput = throughput * if is_turned { 1.2 } else { 1.0 };
+        assert!((of_knob("throughput") / throughput - 1.0).abs() < 1e-11);
         let is_near = |i: usize| (found[i] / base[i] / wanted[i] - 1.0).abs() < 1e-11;
         assert!((0..3).all(is_near), "{turns:?}: {found:?} of {base:?}");
     }
@@ -300,11 +314,11 @@ fn a_case_in_a_file_of_its_own_is_changed_in_the_file_of_the_web() {
 #[test]
 fn rejects_what_no_line_can_be() {
     let line = spun();
-    let rejected = |turns: &[(&str, f64)]| {
+    let rejected = |turns: Turns<'_>| {
         let turns: Vec<Turn> = turns.iter().map(|(name, value)| turn(name, *value)).collect();
         line.turned(&turns, &Resources::default()).unwrap_err().to_string()
     };
-    let all: [(&[(&str, f64)], &[&str]); 6] = [
+    let all: [(Turns<'_>, &[&str]); 6] = [
         (&[("titre", 2e-7)], &["knob titre is no knob of this line", "turn one of throughput, holes, "]),
         (&[("throughput", f64::NAN)], &["line.throughput"]),
         (&[("throughput", -1e-5)], &["knob line.throughput = -0.6 g/min is not positive", "above zero"]),
@@ -317,11 +331,12 @@ fn rejects_what_no_line_can_be() {
     ];
     for (turns, wanted) in all {
         let found = rejected(turns);
-        eprintln!("{found}");
         assert!(wanted.iter().all(|words| found.contains(words)), "{turns:?}: {found}");
+        assert!(found.starts_with("knob "), "what was turned comes first: {found}");
     }
     // A file that is as far outside itself is turned all the same.
-    let light = opened(&SPUN.replace("20 g/m²", "0.25 g/m²"), &beside_cases("line.toml"));
+    let light =
+        opened(&SPUN.replace("20 g/m²", "0.25 g/m²").replace("5000", "500"), &beside_cases("line.toml"));
     assert!(
         turned(&light, &[("distance", 0.4)]).notes.iter().any(|note| note.to_string().contains("doubtful"))
     );

@@ -250,6 +250,16 @@ impl WebToChange<'_> {
         Some(KnownKey { key, from, power })
     }
 
+    /// The value of a knob in this web; None if it has none.
+    pub(super) fn value(&self, knob: &LineKnob) -> Option<f64> {
+        let key = &knob.known.first()?.key;
+        match knob.setting {
+            setting::BELT_SPEED => Some(self.spec().belt_speed()),
+            setting::BASIS_WEIGHT => Some(self.spec().weight()),
+            _ => self.number(&key.name, key),
+        }
+    }
+
     /// The values of the keys of a knob after a step.
     ///
     /// * `digits` – of the first one, in its unit; others that were equal stay equal
