@@ -49,7 +49,7 @@ const ROWS: [Row; 9] = [
         Some(layer.feed_speed / layer.source.case()?.fastest_air()?)
     }),
     row("mass_flow", "per metre of width", ("kg/h", 1.0 / 3600.0), |web, _| Some(web.mass_flow())),
-    row("belt_speed", "belt", METRES_PER_MINUTE, |web, _| Some(web.belt_speed())),
+    row("belt_speed", "belt speed", METRES_PER_MINUTE, |web, _| Some(web.belt_speed())),
     row("basis_weight", "basis weight", ("g/m²", 1e-3), |web, _| Some(web.weight())),
 ];
 

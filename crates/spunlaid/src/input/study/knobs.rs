@@ -7,7 +7,7 @@
 
 use super::super::edit::with_keys;
 use super::super::influence::Step;
-use super::super::web::WrittenWeb;
+use super::super::web::WebFile;
 use super::super::{Overrides, Resources};
 use super::line::{KnownKey, LineKnob, WebToChange};
 use super::web::WebBase;
@@ -17,13 +17,13 @@ use crate::experiment::{Change, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::fibre::{Case, Note};
 use crate::ground::error::Place;
-use crate::ground::{Dimension, Error, Fault, Finding, Setting};
+use crate::ground::{Dimension, Error, Fault, Finding, Problem, Setting};
 use crate::simulation::layers::full_names::{layer_and_name, web_key};
 use crate::simulation::{WebKey, WebSpec};
 
 /// What messages write before a key that a knob has set.
 const KNOB: &str = "knob";
-/// Digits of the numbers that are set.
+/// Digits of the number to which a knob is turned.
 const DIGITS: usize = 12;
 /// How far the slider of a knob goes: factors on its value, and the change of a temperature either way [K].
 const FACTORS: [f64; 2] = [0.5, 2.0];
@@ -54,10 +54,10 @@ pub struct Knob {
     pub dimension: Dimension,
     /// Whether the value is a whole number.
     pub is_whole: bool,
-    /// The value in the file [SI].
+    /// The value [SI].
     pub value: f64,
     /// Least and greatest value of a slider [SI]: half and twice the value, or 25 K less and more of a temperature,
-    /// as far as spunbond lines have it.
+    /// as far as spunbond lines have it. Both are those of the file, and go as far as the value.
     pub range: [f64; 2],
 }
 
@@ -86,6 +86,8 @@ pub struct TurnedLine {
     pub set: Vec<(String, String)>,
     /// The file with these values, for the same folder. Its comments stay.
     pub text: String,
+    /// The knobs of the file with the values that they have now: those that were turned, and what follows from them.
+    pub knobs: Vec<Knob>,
     /// Notes and warnings.
     pub notes: Vec<Note>,
     /// Whether flights have still to find a tension: until then the web is that of a tension of 0 N
@@ -118,9 +120,10 @@ impl LineFile {
         &self.base.file.notes
     }
 
-    /// The knobs, in the order of [`setting::SETTINGS`], with those of the belt behind them.
+    /// The knobs, with those of the belt at the end.
     pub fn knobs(&self) -> Vec<Knob> {
-        self.knobs.iter().filter_map(|knob| self.knob(knob)).collect()
+        let knob = |knob: &LineKnob| self.knob(knob, knob.known.first()?.from);
+        self.knobs.iter().filter_map(knob).collect()
     }
 
     /// The changes of the knobs that advice tries: 20 % less and more, or 10 K.
@@ -145,19 +148,19 @@ impl LineFile {
         if !set.is_empty() && !turned.iter().any(|(knob, _)| is_of_belt(knob)) {
             set.extend(web.held_weight());
         }
-        let written = WrittenWeb::open(&self.text, self.base.path(), &[Overrides::new(&set, KNOB)])?;
-        let (mut file, _) = written.read(resources)?;
-        if !self.notes().iter().any(|note| note.what.is_absurd()) {
-            file = file.within_reason()?;
-        }
+        let path = self.base.path();
+        let base = WebBase::new(&self.text, path.to_owned(), &[Overrides::new(&set, KNOB)], resources);
+        let is_absurd = self.notes().iter().any(|note| note.what.is_absurd());
+        let in_reason = |base: WebBase| if is_absurd { Ok(base) } else { base.within_reason() };
+        let base = base.and_then(in_reason).map_err(of_knobs_first)?;
+        let now = WebToChange { base: &base, set: &[], resources };
+        let knobs = self.knobs.iter().filter_map(|knob| self.knob(knob, now.value(knob)?)).collect();
         let text = self.text_with(&set).ok_or_else(|| {
-            Fault::new(
-                format!("the text of {} cannot be changed", self.base.path()),
-                "write it without [[layer]]",
-            )
+            Fault::new(format!("the text of {path} cannot be changed"), "write it without [[layer]]")
         })?;
-        let needs_flights = file.spec.cases().any(Case::waits_for_flights);
-        Ok(TurnedLine { spec: file.spec, set, text, notes: file.notes, needs_flights })
+        let WebFile { spec, notes, .. } = base.file;
+        let needs_flights = spec.cases().any(Case::waits_for_flights);
+        Ok(TurnedLine { spec, set, text, knobs, notes, needs_flights })
     }
 
     /// The knobs that are turned, each to a value that its key takes.
@@ -172,7 +175,8 @@ impl LineFile {
             })?;
             let Some(KnownKey { key, from, .. }) = knob.known.first() else { continue };
             let value = if key.is_whole() { value.round() } else { *value };
-            written_at(&[(key.clone(), value)], &place)?;
+            let named = VariedKey::new(self.base.short_name(&key.name), key.kind);
+            written_at(&[(named, value)], &place)?;
             found.retain(|(other, _)| other.name() != *name && !(is_of_belt(knob) && is_of_belt(other)));
             if value != *from || is_of_belt(knob) {
                 found.push((knob, value));
@@ -195,8 +199,10 @@ impl LineFile {
         with_keys(&self.text, removed, set.iter().copied())
     }
 
-    fn knob(&self, knob: &LineKnob) -> Option<Knob> {
+    /// A knob with the value that it has now.
+    fn knob(&self, knob: &LineKnob, value: f64) -> Option<Knob> {
         let (name, label, first) = (knob.name(), knob.label(), knob.known.first()?);
+        let [least, greatest] = range(first);
         let changed = knob.known.iter().filter(|known| known.power != 0.0);
         Some(Knob {
             name,
@@ -206,8 +212,8 @@ impl LineFile {
             keys: changed.map(|known| self.base.short_name(&known.key.name).to_owned()).collect(),
             dimension: first.key.dimension(),
             is_whole: first.key.is_whole(),
-            value: first.from,
-            range: range(first),
+            value,
+            range: [least.min(value), greatest.max(value)],
         })
     }
 }
@@ -226,6 +232,18 @@ impl LineKnob {
             [layer] => format!("{words}, layer {layer}"),
             _ => format!("{words}, layers {}", layers.join(", ")),
         }
+    }
+}
+
+/// What is wrong with what the knobs have set is said before what follows from it.
+fn of_knobs_first(error: Error) -> Error {
+    match error {
+        Error::Rejected(problems) => {
+            let is_set = |problem: &Problem| matches!(problem.place, Place::Override(_));
+            let (first, others): (Vec<_>, Vec<_>) = problems.into_iter().partition(is_set);
+            [first, others].concat().into()
+        }
+        other => other,
     }
 }
 

@@ -250,18 +250,32 @@ impl WebToChange<'_> {
         Some(KnownKey { key, from, power })
     }
 
+    /// The value of a knob in this web; None if it has none.
+    pub(super) fn value(&self, knob: &LineKnob) -> Option<f64> {
+        let key = &knob.known.first()?.key;
+        match knob.setting {
+            setting::BELT_SPEED => Some(self.spec().belt_speed()),
+            setting::BASIS_WEIGHT => Some(self.spec().weight()),
+            _ => self.number(&key.name, key),
+        }
+    }
+
     /// The values of the keys of a knob after a step.
     ///
-    /// * `digits` – of those that are changed, in their units
+    /// * `digits` – of the first one, in its unit; others that were equal stay equal
     pub(super) fn values(&self, knob: &LineKnob, step: Step, digits: usize) -> Vec<(VariedKey, f64)> {
         let mut factor = 1.0_f64;
+        let first = knob.known.first().map_or(f64::NAN, |known| known.from);
         let to = |KnownKey { key, from, power }: &KnownKey| {
             let dimension = key.dimension();
             let to = match *power {
                 0.0 if self.is_held(key) => *from,
                 0.0 => rounded(dimension, *from, HELD),
                 1.0 if key.is_whole() || dimension == Dimension::Temperature => step.apply(&key.kind, *from),
-                1.0 => rounded(dimension, step.apply(&key.kind, *from), digits),
+                1.0 => {
+                    let digits = if *from == first { digits } else { CHANGED };
+                    rounded(dimension, step.apply(&key.kind, *from), digits)
+                }
                 // A row stays as wide as its web, to the last digit.
                 _ => from * factor.powf(*power),
             };

@@ -60,6 +60,14 @@ impl WebBase {
         }
     }
 
+    /// The same, if it can be the file of a line.
+    ///
+    /// # Errors
+    /// As [`WebFile::within_reason`].
+    pub(super) fn within_reason(self) -> Result<Self, Error> {
+        Ok(Self { file: self.file.within_reason()?, ..self })
+    }
+
     /// The web before its keys vary.
     pub(super) const fn spec(&self) -> &WebSpec {
         &self.file.spec
