@@ -39,6 +39,8 @@ const link = new Link({
   knobs({ title, knobs: all }) {
     const moved = knobs.take(all);
     page.knobs = all;
+    say("title", title);
+    document.title = `${title} – spunlaid live`;
     // What another page has turned; what moves along with one's own knob is no news.
     if (moved.length > 0 && performance.now() - asked.at > 3000) {
       note(`Another page has changed ${moved.map((k) => `${k.label} to ${knobs.written(k, k.value)}`).join(", ")}.`);
@@ -48,8 +50,6 @@ const link = new Link({
     if (!first) return;
     const { label, effect } = first.knob;
     say("first", `Change first: ${label} ${stepText(effect, -Math.sign(effect.change))}`);
-    byId("title").textContent = title;
-    document.title = `${title} – spunlaid live`;
   },
   state,
   found,
@@ -350,8 +350,12 @@ function drawSettling() {
     if (hasRoom) pen.fillText(`${Number(value.toFixed(1))} %`, 0, y(value) + 4);
     line([left, y(value)], [width - 8, y(value)]);
   }
-  const times = [0.5, 1, 2, 5, 10, 20, 60, 120, 300].filter((at) => at <= end && at > end / 60);
-  for (const at of times) pen.fillText(`${at} s`, x(at) - 8, height - 3);
+  let free = left - 8;
+  for (const at of [0.5, 1, 2, 5, 10, 20, 60, 120, 300, 600, 1200].filter((at) => at <= end && x(at) < width - 30)) {
+    if (x(at) - 8 < free) continue;
+    pen.fillText(`${at} s`, x(at) - 8, height - 3);
+    free = x(at) + 26;
+  }
   pen.fillStyle = pen.strokeStyle = colour("accent");
   pen.globalAlpha = 0.22;
   pen.beginPath();
@@ -371,7 +375,7 @@ function drawSettling() {
   pen.lineWidth = 1.5;
   line([left, y(100 * before.cv)], [width - 8, y(100 * before.cv)]);
   pen.setLineDash([]);
-  pen.fillText("before", width - 46, y(100 * before.cv) - 4);
+  pen.fillText("before", width - 46, Math.max(12, y(100 * before.cv) - 4));
 }
 
 /** The belt with its scale, the CV and the settings of the line, for a slide. */
