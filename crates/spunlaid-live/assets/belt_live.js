@@ -180,8 +180,8 @@ class Belt {
       this.stale = true;
     };
     const keys = {
-      ArrowUp: () => move(-40),
-      ArrowDown: () => move(40),
+      ArrowUp: () => move(40),
+      ArrowDown: () => move(-40),
       "+": () => this.zoom(1.5),
       "-": () => this.zoom(1 / 1.5),
     };
@@ -220,10 +220,23 @@ class Belt {
     this.stale = true;
   }
 
-  /** Width that is to be seen [m]: that of the map, or of the sheet on which the filaments land. */
+  /** Width that is to be seen [m]: of the sheet on which filaments land, or of a map, as much as fills the picture. */
   get width() {
     const { map, width } = this.newest;
-    return (map ? map.columns * map.pixel : width) / this.zoomed;
+    if (!map) return width / this.zoomed;
+    const { clientWidth, clientHeight } = this.canvas;
+    const filling = (map.rows * clientWidth) / Math.max(1, clientHeight - CURTAIN);
+    return (Math.min(map.columns, filling) * map.pixel) / this.zoomed;
+  }
+
+  /** What of the belt lies at the top of the picture: the newest, or a part of a map [m]. */
+  topOf(shown) {
+    const { map } = this.newest;
+    if (!map) return this.at + this.offset * this.seen;
+    const long = map.rows * map.pixel;
+    const top = Math.min(long, Math.max(Math.min(long, shown), long + this.offset * this.seen));
+    this.offset = (top - long) / this.seen;
+    return top;
   }
 
   get newest() {
@@ -277,7 +290,7 @@ class Belt {
     const scale = width / this.seen;
     pen.fillStyle = this.colours.panel;
     pen.fillRect(0, 0, width, height);
-    const view = { scale, width, height, top: this.at + this.offset * this.seen };
+    const view = { scale, width, height, top: this.topOf((height - CURTAIN) / scale) };
     if (!this.split || this.newest !== this.now) this.paintLaid(pen, this.newest, view);
     else {
       // Both halves show the middle of the sheet, at the same scale.
@@ -342,16 +355,16 @@ class Belt {
     const { rows, columns, pixel } = laid.map;
     const long = rows * pixel;
     const shown = (height - CURTAIN) / scale;
+    // A belt that is longer than the map has it again and again, every second time turned over: without a seam.
     for (let k = Math.floor((top - shown) / long); k * long < top; k++) {
-      // What is seen of this repetition, in rows from its newest.
-      const newest = (k + 1) * long;
-      const first = Math.max(0, Math.floor((newest - top) / pixel));
-      const last = Math.min(rows, Math.ceil((newest - top + shown) / pixel));
-      const y = CURTAIN + (top - newest + first * pixel) * scale;
-      const size = [columns * pixel * scale, (last - first) * pixel * scale];
+      const y = CURTAIN + (top - (k + 1) * long) * scale;
+      pen.save();
+      pen.translate(0, k % 2 === 0 ? y : y + long * scale);
+      pen.scale(1, k % 2 === 0 ? 1 : -1);
       for (const x of this.repeats(columns * pixel, view)) {
-        pen.drawImage(laid.image, 0, first, columns, last - first, x, y, ...size);
+        pen.drawImage(laid.image, x, 0, columns * pixel * scale, long * scale);
       }
+      pen.restore();
     }
   }
 

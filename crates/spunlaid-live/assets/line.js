@@ -195,6 +195,7 @@ function showNumbers() {
   const best = judged();
   if (!best) return;
   const { generation } = page.state;
+  headline(best, generation);
   if (!isNews("numbers", [...page.patches.values()], generation)) return;
   const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
   byId("patches").replaceChildren(
@@ -208,7 +209,6 @@ function showNumbers() {
       return row;
     }),
   );
-  headline(best, generation);
 }
 
 function numberCell(number, isOld) {
@@ -228,8 +228,11 @@ function headline(best, generation) {
   const place = byId("change");
   const isOld = change && best.changeOf !== generation;
   const doubt = change?.is_sure || isOld ? "" : ", not significant";
-  say("change", change ? `${changeText(change)} against before${doubt}` : "");
-  place.className = !change ? "" : isOld ? "old" : verdict(change);
+  // After the last look there is none that could still come.
+  const isDone = page.isTurned && !["before", "sketch"].includes(page.state.work?.stage);
+  const none = isDone ? "change not known: the sample of filaments does not give it" : "";
+  say("change", change ? `${changeText(change)} against before${doubt}` : none);
+  place.className = !change || isOld ? "old" : verdict(change);
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */
@@ -354,9 +357,9 @@ function drawSettling() {
   for (const at of [0.5, 1, 2, 5, 10, 20, 60, 120, 300, 600, 1200].filter((at) => at <= end && x(at) < width - 30)) {
     if (x(at) - 8 < free) continue;
     pen.fillText(`${at} s`, x(at) - 8, height - 3);
-    free = x(at) + 26;
+    free = x(at) + 30;
   }
-  pen.fillStyle = pen.strokeStyle = colour("accent");
+  pen.fillStyle = pen.strokeStyle = colour(settling.old ? "muted" : "accent");
   pen.globalAlpha = 0.22;
   pen.beginPath();
   settling.forEach((n) => pen.lineTo(x(n.at), y(band(n)[1])));
