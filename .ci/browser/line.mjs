@@ -2,36 +2,15 @@
 // that becomes significant or stays grey, and a file that gives the numbers of the page.
 
 import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { copyFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { violations } from "./axe.mjs";
 
-/** A small sheet of few filaments with long elements: a web in seconds. */
-const SMALL = {
-  "web.width": "0.15 m",
-  "web.length": "0.15 m",
-  "web.error": "20 %",
-  "web.cell": "1 mm",
-  "belt.distance": "250 mm",
-  "fibre.element_length": "8 mm",
-};
-const LINE = ["--polymer", "pp", "--throughput", "0.5 g/min", "--dtex", "2 dtex", "--basis-weight", "20 g/m²", "--holes-per-metre", "500"];
-/** The knob that is turned by hand, and its label. */
+/** A line whose web takes seconds. */
+const LINE = join(dirname(fileURLToPath(import.meta.url)), "../../crates/spunlaid-cli/tests/live/line.toml");
+/** The knob that is turned by hand. */
 const KNOB = "depth";
-
-/** Writes the line into the folder. */
-function writeLine({ program, folder }) {
-  execFileSync(program, ["new", "--web", "line.toml", ...LINE, "--air-speed", "60 m/s"], { cwd: folder });
-  const path = join(folder, "line.toml");
-  let text = readFileSync(path, "utf8");
-  for (const [key, value] of Object.entries(SMALL)) {
-    const [table, name] = key.split(".");
-    const line = `${name} = "${value}"`;
-    const there = new RegExp(`(\\[${table}\\][^[]*?\n)${name} = [^\n]*`);
-    text = there.test(text) ? text.replace(there, `$1${line}`) : text.replace(`[${table}]\n`, `[${table}]\n${line}\n`);
-  }
-  writeFileSync(path, text);
-}
 
 const knobOf = (page, part) => page.locator(`[data-knob="${KNOB}"] ${part}`);
 const isReady = (what) => (page, ms = 180000) => page.waitForFunction(what, null, { timeout: ms });
@@ -109,7 +88,7 @@ async function save(page, { expect, program, folder }) {
   const { web } = JSON.parse(execFileSync(program, run, { cwd: folder, maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "ignore"] }));
   const shown = await page.evaluate(() => [...spunlaidLive.patches.values()].map(({ side, now }) => [side, now?.cv, now?.standard_error]));
   const known = shown.filter(([, cv]) => cv !== undefined);
-  expect(known.length > 3, `the page knows the CV of ${known.length} patches only`);
+  expect(known.length > 1, `the page knows the CV of ${known.length} patches only`);
   for (const [side, cv, error] of known) {
     const patch = web.patches.find(({ patch_m: other }) => Math.abs(other / side - 1) < 1e-6);
     const same = patch?.cv === cv && (patch.cv_whole_error ?? patch.cv_standard_error) === error;
@@ -187,7 +166,7 @@ async function looks(page, other, phone, { expect }) {
 /** `tools` are those of `live.mjs`. */
 export async function checkLine(browser, tools) {
   const { expect, start, open, print, shot, wait, folder } = tools;
-  writeLine(tools);
+  copyFileSync(LINE, join(folder, "line.toml"));
   const began = performance.now();
   const { live, address } = await start(join(folder, "line.toml"));
   const page = await open(browser, address, { height: 800 });

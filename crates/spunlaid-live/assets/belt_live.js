@@ -36,7 +36,8 @@ class Laid {
     this.tiles = new Map();
     this.ends = [];
     this.homes = [];
-    [this.moved, this.ahead, this.width] = [0, 0, 0];
+    [this.moved, this.width] = [0, 0];
+    this.spread = { count: 0, sum: 0, squares: 0 };
   }
 
   /** Whether another web begins with these points: its belt starts again. */
@@ -62,7 +63,10 @@ class Laid {
       const path = this.ends[i] ? [this.ends[i]] : [];
       for (let j = 0; j < points.length; j += 2) {
         path.push([folded(points[j]), points[j + 1]]);
-        this.ahead = Math.max(this.ahead, points[j + 1] - moved);
+        const ahead = points[j + 1] - moved;
+        this.spread.count += 1;
+        this.spread.sum += ahead;
+        this.spread.squares += ahead * ahead;
         this.homes[i].sum += points[j];
       }
       this.homes[i].count += points.length / 2;
@@ -73,14 +77,22 @@ class Laid {
     for (const tile of this.tiles.keys()) if (tile < oldest) this.tiles.delete(tile);
   }
 
+  /** How far filaments land ahead of the belt, all but a few of them [m]. */
+  get ahead() {
+    const { count, sum, squares } = this.spread;
+    if (count === 0) return 0;
+    const mean = sum / count;
+    return mean + 2 * Math.sqrt(Math.max(0, squares / count - mean * mean));
+  }
+
   drawPath(path, scale, colour) {
     const along = path.map((point) => point[1] * scale);
     const [first, last] = [Math.floor(Math.min(...along) / TILE), Math.floor(Math.max(...along) / TILE)];
     for (let index = first; index <= last; index++) {
       const pen = this.tile(index).getContext("2d");
       pen.strokeStyle = colour;
-      pen.globalAlpha = 0.62;
-      pen.lineWidth = Math.max(0.75, this.across / 640);
+      pen.globalAlpha = 0.5;
+      pen.lineWidth = Math.max(0.7, this.across / 700);
       pen.lineJoin = "round";
       pen.beginPath();
       path.forEach(([x, y], j) => {
@@ -168,8 +180,8 @@ class Belt {
       this.stale = true;
     };
     const keys = {
-      ArrowUp: () => move(-40),
-      ArrowDown: () => move(40),
+      ArrowUp: () => move(40),
+      ArrowDown: () => move(-40),
       "+": () => this.zoom(1.5),
       "-": () => this.zoom(1 / 1.5),
     };
@@ -208,10 +220,23 @@ class Belt {
     this.stale = true;
   }
 
-  /** Width that is to be seen [m]: that of the map, or of the sheet on which the filaments land. */
+  /** Width that is to be seen [m]: of the sheet on which filaments land, or of a map, as much as fills the picture. */
   get width() {
     const { map, width } = this.newest;
-    return (map ? map.columns * map.pixel : width) / this.zoomed;
+    if (!map) return width / this.zoomed;
+    const { clientWidth, clientHeight } = this.canvas;
+    const filling = (map.rows * clientWidth) / Math.max(1, clientHeight - CURTAIN);
+    return (Math.min(map.columns, filling) * map.pixel) / this.zoomed;
+  }
+
+  /** What of the belt lies at the top of the picture: the newest, or a part of a map [m]. */
+  topOf(shown) {
+    const { map } = this.newest;
+    if (!map) return this.at + this.offset * this.seen;
+    const long = map.rows * map.pixel;
+    const top = Math.min(long, Math.max(Math.min(long, shown), long + this.offset * this.seen));
+    this.offset = (top - long) / this.seen;
+    return top;
   }
 
   get newest() {
@@ -225,8 +250,9 @@ class Belt {
     if (this.width === 0) return this.stale && this.paintEmpty();
     const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
     const left = still ? 0 : Math.exp(-passed / FOLLOWS);
-    const { moved } = this.newest;
-    const next = moved + (this.at - moved) * left;
+    const { moved, ahead, map } = this.newest;
+    const top = moved + (map ? 0 : ahead);
+    const next = top + (this.at - top) * left;
     // Zooms as it moves, and stands when it is as good as there.
     const isThere = this.seen === 0 || Math.abs(this.seen / this.width - 1) < 2e-3;
     const seen = isThere ? this.width : this.width + (this.seen - this.width) * left;
@@ -264,8 +290,7 @@ class Belt {
     const scale = width / this.seen;
     pen.fillStyle = this.colours.panel;
     pen.fillRect(0, 0, width, height);
-    const ahead = this.newest.map ? 0 : this.newest.ahead;
-    const view = { scale, width, height, top: this.at + ahead + this.offset * this.seen };
+    const view = { scale, width, height, top: this.topOf((height - CURTAIN) / scale) };
     if (!this.split || this.newest !== this.now) this.paintLaid(pen, this.newest, view);
     else {
       // Both halves show the middle of the sheet, at the same scale.
@@ -330,21 +355,21 @@ class Belt {
     const { rows, columns, pixel } = laid.map;
     const long = rows * pixel;
     const shown = (height - CURTAIN) / scale;
+    // A belt that is longer than the map has it again and again, every second time turned over: without a seam.
     for (let k = Math.floor((top - shown) / long); k * long < top; k++) {
-      // What is seen of this repetition, in rows from its newest.
-      const newest = (k + 1) * long;
-      const first = Math.max(0, Math.floor((newest - top) / pixel));
-      const last = Math.min(rows, Math.ceil((newest - top + shown) / pixel));
-      const y = CURTAIN + (top - newest + first * pixel) * scale;
-      const size = [columns * pixel * scale, (last - first) * pixel * scale];
+      const y = CURTAIN + (top - (k + 1) * long) * scale;
+      pen.save();
+      pen.translate(0, k % 2 === 0 ? y : y + long * scale);
+      pen.scale(1, k % 2 === 0 ? 1 : -1);
       for (const x of this.repeats(columns * pixel, view)) {
-        pen.drawImage(laid.image, 0, first, columns, last - first, x, y, ...size);
+        pen.drawImage(laid.image, x, 0, columns * pixel * scale, long * scale);
       }
+      pen.restore();
     }
   }
 
   /** The filaments on their way down, from about their holes to where each landed last. */
-  paintCurtain(pen, { ends, homes, map, width: sheet }, { scale, height, top }, left) {
+  paintCurtain(pen, { ends, homes, map, width: sheet }, { scale }, left) {
     pen.save();
     pen.strokeStyle = this.colours.lines;
     pen.globalAlpha = map ? 0.35 : 0.8;
@@ -354,10 +379,9 @@ class Belt {
       if (!end) return;
       const mean = homes[i].sum / homes[i].count;
       const [home, x] = [mean - sheet * Math.floor(mean / sheet), end[0]].map((across) => left + across * scale);
-      const y = map ? CURTAIN : Math.min(height, CURTAIN + Math.max(1, (top - end[1]) * scale));
       pen.moveTo(home, 0);
       // A filament that has left the sheet at one end lands at the other.
-      if (Math.abs(x - home) < (sheet * scale) / 2) pen.bezierCurveTo(home, 0.6 * y, x, 0.5 * y, x, y);
+      if (Math.abs(x - home) < (sheet * scale) / 2) pen.bezierCurveTo(home, 0.6 * CURTAIN, x, 0.5 * CURTAIN, x, CURTAIN);
     });
     pen.stroke();
     pen.restore();

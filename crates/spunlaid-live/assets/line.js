@@ -39,6 +39,8 @@ const link = new Link({
   knobs({ title, knobs: all }) {
     const moved = knobs.take(all);
     page.knobs = all;
+    say("title", title);
+    document.title = `${title} – spunlaid live`;
     // What another page has turned; what moves along with one's own knob is no news.
     if (moved.length > 0 && performance.now() - asked.at > 3000) {
       note(`Another page has changed ${moved.map((k) => `${k.label} to ${knobs.written(k, k.value)}`).join(", ")}.`);
@@ -48,8 +50,6 @@ const link = new Link({
     if (!first) return;
     const { label, effect } = first.knob;
     say("first", `Change first: ${label} ${stepText(effect, -Math.sign(effect.change))}`);
-    byId("title").textContent = title;
-    document.title = `${title} – spunlaid live`;
   },
   state,
   found,
@@ -195,6 +195,7 @@ function showNumbers() {
   const best = judged();
   if (!best) return;
   const { generation } = page.state;
+  headline(best, generation);
   if (!isNews("numbers", [...page.patches.values()], generation)) return;
   const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
   byId("patches").replaceChildren(
@@ -208,7 +209,6 @@ function showNumbers() {
       return row;
     }),
   );
-  headline(best, generation);
 }
 
 function numberCell(number, isOld) {
@@ -228,8 +228,11 @@ function headline(best, generation) {
   const place = byId("change");
   const isOld = change && best.changeOf !== generation;
   const doubt = change?.is_sure || isOld ? "" : ", not significant";
-  say("change", change ? `${changeText(change)} against before${doubt}` : "");
-  place.className = !change ? "" : isOld ? "old" : verdict(change);
+  // After the last look there is none that could still come.
+  const isDone = page.isTurned && !["before", "sketch"].includes(page.state.work?.stage);
+  const none = isDone ? "change not known: the sample of filaments does not give it" : "";
+  say("change", change ? `${changeText(change)} against before${doubt}` : none);
+  place.className = !change || isOld ? "old" : verdict(change);
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */
@@ -350,9 +353,13 @@ function drawSettling() {
     if (hasRoom) pen.fillText(`${Number(value.toFixed(1))} %`, 0, y(value) + 4);
     line([left, y(value)], [width - 8, y(value)]);
   }
-  const times = [0.5, 1, 2, 5, 10, 20, 60, 120, 300].filter((at) => at <= end && at > end / 60);
-  for (const at of times) pen.fillText(`${at} s`, x(at) - 8, height - 3);
-  pen.fillStyle = pen.strokeStyle = colour("accent");
+  let free = left - 8;
+  for (const at of [0.5, 1, 2, 5, 10, 20, 60, 120, 300, 600, 1200].filter((at) => at <= end && x(at) < width - 30)) {
+    if (x(at) - 8 < free) continue;
+    pen.fillText(`${at} s`, x(at) - 8, height - 3);
+    free = x(at) + 30;
+  }
+  pen.fillStyle = pen.strokeStyle = colour(settling.old ? "muted" : "accent");
   pen.globalAlpha = 0.22;
   pen.beginPath();
   settling.forEach((n) => pen.lineTo(x(n.at), y(band(n)[1])));
@@ -371,7 +378,7 @@ function drawSettling() {
   pen.lineWidth = 1.5;
   line([left, y(100 * before.cv)], [width - 8, y(100 * before.cv)]);
   pen.setLineDash([]);
-  pen.fillText("before", width - 46, y(100 * before.cv) - 4);
+  pen.fillText("before", width - 46, Math.max(12, y(100 * before.cv) - 4));
 }
 
 /** The belt with its scale, the CV and the settings of the line, for a slide. */
