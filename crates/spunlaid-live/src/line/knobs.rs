@@ -106,8 +106,7 @@ pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Sl
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::experiment::Setting;
-    use spunlaid::ground::{Dimension, Turned};
+    use spunlaid::ground::{Dimension, Setting, Turned};
 
     fn knob(dimension: Dimension, value: f64) -> Knob {
         let setting = Setting { name: "one", words: "one", turned: Turned::Running };
