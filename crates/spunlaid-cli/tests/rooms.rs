@@ -113,7 +113,7 @@ fn every_key_that_a_text_names_exists() {
         names.contains(name)
             || names.iter().any(|key| key.strip_prefix(name).is_some_and(|rest| rest.starts_with('.')))
             || table == "layer" && tables.contains(rest)
-            || ["toml", "html", "svg", "csv", "js", "json", "parquet"].contains(&rest)
+            || ["toml", "html", "svg", "csv", "js", "css", "json", "parquet"].contains(&rest)
             || ["laydown.surrogate", "fibre.elements"].contains(&name)
     };
     let mut seen = BTreeSet::new();

@@ -66,7 +66,7 @@ pub(crate) enum Command {
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the case>_air], or file for the numbers of --at")))]
     Air(Air),
-    /// Open a page on which eight fibres fly in real or slowed time while you change the settings
+    /// Open a page: the web of a line while you turn its knobs, or eight fibres in flight while you change them
     #[command(after_help = LIVE_HELP)]
     Live(Live),
     /// Reproduce every result figure of the paper and test its claims
@@ -238,8 +238,8 @@ pub(crate) struct Web {
 
 #[derive(Debug, Args)]
 pub(crate) struct Live {
-    /// Case file (TOML) [default: the fibre of Table 1 of the paper]
-    #[arg(value_name = "CASE", value_hint = ValueHint::FilePath)]
+    /// Case file or file of a web (TOML) [default: the fibre of Table 1 of the paper]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) case: Option<PathBuf>,
     /// Port of the page on this machine [default: any that is free]
     #[arg(long, value_name = "N")]

@@ -88,9 +88,6 @@ fn identical_numbers_of_the_page_and_of_the_program_before_and_after_a_knob_is_t
     let folder = live.folder.path();
     let found = complete(&mut page, 0);
     assert!(found["patches"].as_array().unwrap().iter().all(|patch| patch["now"].is_null()), "{found}");
-    until(&mut page, "found", |found| {
-        found["patches"].as_array().unwrap().iter().any(|p| p["before"]["is_complete"] == true)
-    });
 
     page.ask(&set("throughput", &json!(0.6), 5));
     assert_eq!(page.message("applied"), json!({"is": "applied", "stamp": 5, "generation": 1}));
@@ -175,6 +172,8 @@ fn rejects_what_is_no_knob_and_what_cannot_be_laid() {
     let live = start();
     let mut page = live.page();
     page.ask(&json!({"do": "pause"}));
+    let state = until(&mut page, "state", |state| state["stands"] == true);
+    assert_eq!((&state["generation"], &state["text"]), (&json!(0), &json!(LINE)));
     for (message, wanted) in [
         (set("thruput", &json!(0.6), 1), "there is no knob \"thruput\"; there are throughput"),
         (set("throughput", &json!("0.6 mm"), 1), "write a mass flow"),
@@ -188,7 +187,8 @@ fn rejects_what_is_no_knob_and_what_cannot_be_laid() {
         let problem = page.refused(&message);
         assert!(problem["text"].as_str().unwrap().contains(wanted), "{message}: {problem}");
     }
-    let state = until(&mut page, "state", |state| state["stands"] == true);
+    page.ask(&json!({"do": "go"}));
+    let state = until(&mut page, "state", |state| state["stands"] == false);
     assert_eq!((&state["generation"], &state["text"]), (&json!(0), &json!(LINE)));
 }
 

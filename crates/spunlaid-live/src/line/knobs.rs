@@ -102,3 +102,45 @@ pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Sl
     // Units and ranges stay those of the web of comparison while a knob is turned.
     json!({"is": "knobs", "title": title, "knobs": before.knobs.iter().map(of_knob).collect::<Vec<_>>()})
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use spunlaid::ground::{Dimension, Setting, Turned};
+
+    fn knob(dimension: Dimension, value: f64) -> Knob {
+        let setting = Setting { name: "one", words: "one", turned: Turned::Running };
+        let (name, label, keys) = ("one".to_owned(), "one".to_owned(), vec!["line.one".to_owned()]);
+        let range = [0.5 * value, 2.0 * value];
+        Knob { name, label, setting, layers: Vec::new(), keys, dimension, is_whole: false, value, range }
+    }
+
+    #[test]
+    fn values_are_in_the_unit_of_the_knob_both_ways() {
+        for (dimension, value, shown, text) in [
+            (Dimension::Length, 0.02, (20.0, "mm"), "2 cm"),
+            (Dimension::Temperature, 503.15, (230.0, "°C"), "503.15 K"),
+            (Dimension::Ratio, 0.12, (0.12, ""), "12 %"),
+        ] {
+            let knob = knob(dimension, value);
+            let unit = unit(&knob);
+            assert_eq!((in_unit(&knob, value, &unit), &*unit), shown);
+            for sent in [KeyValue::Number(shown.0), KeyValue::Text(text.to_owned())] {
+                let read = value_of(&knob, &sent).unwrap_or_else(|fault| panic!("{sent:?}: {fault}"));
+                assert!((read / value - 1.0).abs() < 1e-12, "{sent:?}: {read}");
+            }
+            // A number alone is one in the unit that is shown.
+            let plain = value_of(&knob, &KeyValue::Text(format!(" {} ", shown.0))).unwrap();
+            assert!((plain / value - 1.0).abs() < 1e-12, "{plain}");
+        }
+    }
+
+    #[test]
+    fn rejects_other_units_and_what_is_no_number() {
+        let knob = knob(Dimension::Length, 0.02);
+        for text in ["20 s", "twenty mm", "", "nan", "inf mm", "../a.toml"] {
+            assert!(value_of(&knob, &KeyValue::Text(text.to_owned())).is_err(), "{text}");
+        }
+        assert!(value_of(&knob, &KeyValue::Number(f64::INFINITY)).is_err());
+    }
+}

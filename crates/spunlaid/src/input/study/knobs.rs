@@ -156,7 +156,10 @@ impl LineFile {
         let now = WebToChange { base: &base, set: &[], resources };
         let knobs = self.knobs.iter().filter_map(|knob| self.knob(knob, now.value(knob)?)).collect();
         let text = self.text_with(&set).ok_or_else(|| {
-            Fault::new(format!("the text of {path} cannot be changed"), "write it without [[layer]]")
+            Fault::new(
+                format!("the text of {path} cannot be changed"),
+                "write its tables with headings, [line]",
+            )
         })?;
         let WebFile { spec, notes, .. } = base.file;
         let needs_flights = spec.cases().any(Case::waits_for_flights);
