@@ -4,7 +4,7 @@ const SIDE = 0.01;
 const STAGES = ["before", "sketch", "complete"];
 
 const page = { state: null, knobs: [], patches: new Map(), settling: [], since: 0, isTurned: false };
-const connection = { open: false, moved: false };
+const connection = { open: false };
 const asked = { at: -Infinity };
 /** For checks: how it goes. */
 const seen = { frames: 0, sent: [], errors: [] };
@@ -25,7 +25,7 @@ function ask(message) {
 
 const link = new Link({
   open() {
-    Object.assign(connection, { open: true, moved: false });
+    connection.open = true;
     document.body.classList.remove("offline");
     note("");
     status();
@@ -86,10 +86,10 @@ function saved(text, wrong) {
 }
 
 async function offline() {
-  connection.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+  const moved = await hasMoved();
   if (connection.open) return;
   note(
-    connection.moved
+    moved
       ? "The program was started again and has another address. Open the new address that it printed."
       : "The program does not answer; the page tries again. The numbers are the last ones.",
   );

@@ -60,6 +60,9 @@ class Link {
   }
 }
 
+/** Whether nobody answers at this address because the program was started again, and has another one. */
+const hasMoved = () => fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+
 /** Lets a button copy the text of a place; where that is not allowed, the text is marked. */
 function copies(button, place) {
   const { textContent } = button;

@@ -69,9 +69,8 @@ function saved(text, wrong) {
   byId("name").setAttribute("aria-invalid", String(wrong));
 }
 
-/** Whether the program answers at this address no more because it was started again, and has another one. */
 async function findAddress() {
-  page.moved = await fetch(location.href, { method: "HEAD" }).then(({ status }) => status === 403, () => false);
+  page.moved = await hasMoved();
   status();
 }
 
