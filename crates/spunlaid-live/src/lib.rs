@@ -75,12 +75,7 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
             };
             let (session, remark) = fibre::begin(text, file, folder).map_err(rejected)?;
             let remark = remark.as_deref();
-            serve(
-                (Page::Fibre, port),
-                session.board(),
-                |heard, _| session.fly(&heard),
-                |at| ready(at, remark),
-            )
+            serve(Page::Fibre, port, session.board(), |heard, _| session.fly(&heard), |at| ready(at, remark))
         }
         Subject::Line => {
             let session = line::Session::new(text, file, folder)?;
