@@ -27,7 +27,7 @@ const WINGS: &[(&str, &[&[&str]])] = &[
     ),
     ("web", &[&["laydown", "surrogate"], &["map"], &["curtain", "scan"], &["fabric"]]),
     ("simulation", &[&["observe"], &["ensemble"], &["layers"], &["one_air"]]),
-    ("experiment", &[&["claim", "plausible"], &["study"], &["advice", "fit"]]),
+    ("experiment", &[&["claim", "plausible", "plant"], &["study"], &["advice", "fit"]]),
     ("input", &[]),
 ];
 

@@ -1,6 +1,7 @@
 //! `new`: the files that it writes, from nothing and from the numbers of a line.
 
 use crate::desk::{Desk, names, refusal, success};
+use spunlaid::input::{Resources, Turn, read_line, read_web};
 
 #[test]
 fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
@@ -403,4 +404,26 @@ fn rejects_a_line_that_is_not_whole_or_cannot_run() {
     assert_eq!(desk.entries(""), names(&["brief.toml"]), "nothing is left");
     let said = refusal(&mut desk.spunlaid("new line.toml --dtex 2"), 1);
     assert!(said.contains("--web"), "{said}");
+}
+
+#[test]
+fn the_knobs_of_every_new_line_can_be_turned_and_saved() {
+    let desk = Desk::new();
+    let melt = "--die-temperature 235 --melt-flow-rate 35 --hole-diameter 0.6 --quench 0.8";
+    let kinds = [("plain", ""), ("beams", "--beams 2"), ("cabin", "--cabin-pressure 3500"), ("melt", melt)];
+    for (name, options) in kinds {
+        let file = format!("{name}.toml");
+        let air = if name == "cabin" { LINE.len() - 2 } else { LINE.len() };
+        success(desk.spunlaid(&format!("new --web {file} {options}")).args(&LINE[..air]));
+        let (path, text) = (desk.path(&file), String::from_utf8(desk.read(&file)).unwrap());
+        let line = read_line(&text, &path.display().to_string(), &Resources::default()).unwrap();
+        let knobs = line.knobs();
+        assert!(knobs.len() >= 8, "{name}: {knobs:?}");
+        for knob in knobs {
+            let turn = Turn { name: knob.name, value: 1.1 * knob.value };
+            let turned = line.turned(&[turn], &Resources::default()).unwrap();
+            let again = read_web((&turned.text, &path.display().to_string()), &[]).unwrap().spec;
+            assert_eq!(format!("{again:?}"), format!("{:?}", turned.spec), "{name}: {:?}", turned.set);
+        }
+    }
 }

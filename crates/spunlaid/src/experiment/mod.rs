@@ -1,10 +1,11 @@
 //! Many simulations that answer one question: what a setting does, what to change, which settings made a scan.
 //!
 //! ```text
-//! claim, plausible → study (points of a design) → advice (what makes a web more even), fit (from a scan back)
+//! claim, plausible, plant → study (points of a design) → advice (what makes a web more even), fit (from a scan back)
 //! ```
 
 pub mod claim;
+mod plant;
 pub mod plausible;
 
 pub mod study;
@@ -21,6 +22,7 @@ pub use fit::{
     FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, MOST_TRIALS, MeasuredPatch,
     MeasuredWeb, Parameter, Question, Target, Texture, USUAL_WEBS, WebInProgress,
 };
+pub use plant::{PlantNumber, plant_numbers};
 pub use study::{
     Batch, Bundles, Contrast, Design, Experiment, Factor, Header, Journal, JournalState, Levels, Link, Point,
     PointResults, Progress, Quantity, Ranking, Rankings, Record, ReplicateOutcome, Replicates, Rounds, STUDY,

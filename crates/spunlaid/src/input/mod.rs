@@ -6,6 +6,7 @@
 mod count;
 mod data;
 mod document;
+mod edit;
 mod entry;
 mod file;
 mod influence;
@@ -31,8 +32,8 @@ pub use settle::Resources;
 pub use source::Source;
 pub use spinline::{SpinFile, read_spinline, write_spinline};
 pub use study::{
-    Changes, FitFile, StudyChanges, StudyFile, StudyNote, differences, parse_study, read_changes, read_fit,
-    read_study, starter_study,
+    Changes, FitFile, Knob, LineFile, StudyChanges, StudyFile, StudyNote, Turn, TurnedLine, differences,
+    parse_study, read_changes, read_fit, read_line, read_study, starter_study,
 };
 pub use web::{WebFile, read_web, write_web};
 pub use write::write_case;

@@ -16,6 +16,7 @@ mod case_files_at_random;
 mod case_notes;
 mod fuzz_findings;
 mod keys;
+mod knobs;
 mod one_file;
 mod rejects;
 mod removed;

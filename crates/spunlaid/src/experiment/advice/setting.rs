@@ -42,10 +42,14 @@ pub const DEPTH: Setting = stopped("depth", "depth of the slot");
 pub const ROW_PLACES: Setting = rebuilt("row_places", "distance of the rows");
 /// Charge per mass that the filaments carry.
 pub const CHARGE: Setting = running("charge", "charge of the filaments");
+/// Speed of the belt: the basis weight follows. No advice tries it.
+pub const BELT_SPEED: Setting = running("belt_speed", "belt speed");
+/// Mass of the web per area: the belt follows. No advice tries it.
+pub const BASIS_WEIGHT: Setting = running("basis_weight", "basis weight");
 /// None of the machine: a number that is a guess, and may be another one than is written.
 pub const GUESS: Setting = rebuilt("guess", "guessed number");
 
-/// All settings of the machine.
+/// All settings of the machine that advice tries.
 pub const SETTINGS: [Setting; 12] = [
     THROUGHPUT,
     HOLES,

@@ -1,4 +1,5 @@
-//! The webs of advice: the same web with one setting of the line changed, on the belt that lays the same weight.
+//! The settings of a line that can be turned, and the webs of advice: the same web with one of them changed, on the
+//! belt that lays the same weight.
 
 use super::super::Resources;
 use super::super::entry::Entry;
@@ -28,8 +29,10 @@ fn rounded(dimension: Dimension, number: f64, digits: usize) -> f64 {
     dimension.parse(&dimension.pretty_to(number, digits)).unwrap_or(number)
 }
 
-/// The key of the throughput of a hole.
+/// The key of the throughput of a hole, and those of the belt.
 const THROUGHPUT: &str = "line.throughput";
+const BELT_SPEED: &str = "layer.1.line.belt_speed";
+const BASIS_WEIGHT: &str = "layer.1.line.basis_weight";
 
 /// The throughput of a hole of a layer, with a power of the factor.
 fn throughput(layer: usize, power: f64) -> (String, f64) {
@@ -39,6 +42,37 @@ fn throughput(layer: usize, power: f64) -> (String, f64) {
 /// Keys that change together, each with the power of the factor by which it changes.
 type KeyPowers = Vec<(String, f64)>;
 
+/// A setting of the line, and the keys by which it can be turned.
+struct Ways {
+    setting: Setting,
+    /// The numbers of the layers in which it is turned, from 1; none where it is turned in all.
+    layers: Vec<usize>,
+    /// Keys that change together, the best ones first.
+    ways: Vec<KeyPowers>,
+}
+
+/// A key that a setting turns.
+#[derive(Clone, Debug)]
+pub(super) struct KnownKey {
+    pub(super) key: VariedKey,
+    /// Its value in the file [SI].
+    pub(super) from: f64,
+    /// The power of the factor by which it changes; zero for one that is held.
+    pub(super) power: f64,
+}
+
+/// A setting of the line with the keys that turn it.
+#[derive(Clone, Debug)]
+pub(super) struct LineKnob {
+    pub(super) setting: Setting,
+    /// As in [`Change::layers`].
+    pub(super) layers: Vec<usize>,
+    /// The first one says how far it is turned.
+    pub(super) known: Vec<KnownKey>,
+    /// The webs with less and with more of it; none of a setting of the belt.
+    pub(super) changes: Vec<Change>,
+}
+
 impl WebToChange<'_> {
     fn spec(&self) -> &WebSpec {
         self.base.spec()
@@ -46,38 +80,44 @@ impl WebToChange<'_> {
 
     /// The changes of the settings of the line.
     pub(super) fn changes_of_line(&self) -> Vec<Change> {
-        let (groups, all) = (self.equal_layers(), Vec::new());
-        let of_each = |layers: &[usize], keys: &dyn Fn(usize) -> KeyPowers| {
-            vec![layers.iter().flat_map(|layer| keys(*layer)).collect::<KeyPowers>()]
+        self.knobs().into_iter().flat_map(|knob| knob.changes).collect()
+    }
+
+    /// The settings of the line that can be turned.
+    pub(super) fn knobs(&self) -> Vec<LineKnob> {
+        self.settings().iter().filter_map(|ways| self.knob(ways)).collect()
+    }
+
+    /// The settings of the line, each with its ways.
+    fn settings(&self) -> Vec<Ways> {
+        let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
+        let of_each = |setting: Setting, layers: &[usize], keys: &dyn Fn(usize) -> KeyPowers| {
+            let ways = vec![layers.iter().flat_map(|layer| keys(*layer)).collect::<KeyPowers>()];
+            // Nobody has to say which layers where all are changed.
+            let layers = if layers.len() == every.len() { Vec::new() } else { layers.to_vec() };
+            Ways { setting, layers, ways }
         };
         let titre =
             |layer: usize| vec![(format!("layer.{layer}.fibre.linear_density"), 1.0), throughput(layer, 0.0)];
-        // Nobody has to say which layers where all are changed.
-        let named = |group| if groups.len() > 1 { group } else { &all };
-        let mut settings: Vec<(Setting, &Vec<usize>, Vec<KeyPowers>)> = Vec::new();
+        let (groups, mut settings) = (self.equal_layers(), Vec::new());
         for group in &groups {
-            let throughputs = of_each(group, &|layer| vec![throughput(layer, 1.0)]);
-            settings.push((setting::THROUGHPUT, named(group), throughputs));
-            settings.push((setting::HOLES, named(group), of_each(group, &|layer| self.holes(layer))));
+            settings.push(of_each(setting::THROUGHPUT, group, &|layer| vec![throughput(layer, 1.0)]));
+            settings.push(of_each(setting::HOLES, group, &|layer| self.holes(layer)));
         }
         if self.spec().flies() {
-            let every: Vec<usize> = (1..=self.spec().layers.len()).collect();
             // The spinline decides the titre.
             if self.base.number_of_cases("spinline.throughput").is_none() {
-                settings.push((setting::TITRE, &all, of_each(&every, &titre)));
+                settings.push(of_each(setting::TITRE, &every, &titre));
             }
-            settings.extend(self.settings_of_air().into_iter().map(|(setting, ways)| (setting, &all, ways)));
-            settings.push((setting::DEPTH, &all, of_each(&every, &|layer| self.depth(layer))));
-            settings.push((setting::ROW_PLACES, &all, of_each(&every, &|layer| self.row_places(layer))));
-            settings.push((setting::CHARGE, &all, of_each(&every, &|layer| self.charge(layer))));
+            let of_all = |(setting, ways)| Ways { setting, layers: Vec::new(), ways };
+            settings.extend(self.settings_of_air().into_iter().map(of_all));
+            settings.push(of_each(setting::DEPTH, &every, &|layer| self.depth(layer)));
+            settings.push(of_each(setting::ROW_PLACES, &every, &|layer| self.row_places(layer)));
+            settings.push(of_each(setting::CHARGE, &every, &|layer| self.charge(layer)));
         } else {
-            for group in &groups {
-                settings.push((setting::TITRE, named(group), of_each(group, &titre)));
-            }
+            settings.extend(groups.iter().map(|group| of_each(setting::TITRE, group, &titre)));
         }
-        let changes =
-            settings.iter().flat_map(|(setting, layers, ways)| self.changes_of(*setting, layers, ways));
-        changes.map(|change| self.refuse_outside(change)).collect()
+        settings
     }
 
     /// A change that is refused if it leads to numbers that no such line has.
@@ -185,40 +225,57 @@ impl WebToChange<'_> {
         web_key(name)?.value_in(&self.spec().alone(layer.checked_sub(1)?))?.number()
     }
 
-    /// The webs with less and with more of a setting, in the first of some ways in which both can be made;
-    /// none if there is no such way.
-    fn changes_of(&self, setting: Setting, layers: &[usize], ways: &[KeyPowers]) -> Vec<Change> {
-        let of_way = |way: &KeyPowers| -> Option<Vec<Change>> {
-            let known: Vec<(VariedKey, f64, f64)> = (way.iter())
-                .map(|(name, power)| {
-                    let key = self.base.varied(name).ok()?;
-                    let number = self.number(name, &key).filter(|number| *number != 0.0)?;
-                    Some((key, number, *power))
-                })
-                .collect::<Option<_>>()?;
-            let some: Vec<Change> =
-                STEPS.iter().filter_map(|step| self.changed(setting, layers, &known, *step)).collect();
-            (!some.is_empty() && !known.is_empty()).then_some(some)
-        };
-        ways.iter().find_map(of_way).unwrap_or_default()
+    /// The keys that turn a setting, in the first of its ways in which the web can be made with less and with more of
+    /// it; None if there is no such way.
+    fn knob(&self, Ways { setting, layers, ways }: &Ways) -> Option<LineKnob> {
+        ways.iter().find_map(|way| {
+            let known: Option<Vec<KnownKey>> =
+                way.iter().map(|(name, power)| self.known(name, *power)).collect();
+            let mut knob = LineKnob {
+                setting: setting::on_line_of(self.spec(), *setting),
+                layers: layers.clone(),
+                known: known.filter(|known| !known.is_empty())?,
+                changes: Vec::new(),
+            };
+            let made = STEPS.iter().filter_map(|step| self.changed(&knob, *step));
+            knob.changes = made.map(|change| self.refuse_outside(change)).collect();
+            (!knob.changes.is_empty()).then_some(knob)
+        })
     }
 
-    /// The web with the known keys changed by a step; None if it cannot be made.
-    fn changed(
-        &self,
-        setting: Setting,
-        layers: &[usize],
-        known: &[(VariedKey, f64, f64)],
-        step: Step,
-    ) -> Option<Change> {
+    /// A key that is changed; None if it has no number, or zero, which is no share of anything.
+    fn known(&self, name: &str, power: f64) -> Option<KnownKey> {
+        let key = self.base.varied(name).ok()?;
+        let from = self.number(name, &key).filter(|number| *number != 0.0)?;
+        Some(KnownKey { key, from, power })
+    }
+
+    /// The value of a knob in this web; None if it has none.
+    pub(super) fn value(&self, knob: &LineKnob) -> Option<f64> {
+        let key = &knob.known.first()?.key;
+        match knob.setting {
+            setting::BELT_SPEED => Some(self.spec().belt_speed()),
+            setting::BASIS_WEIGHT => Some(self.spec().weight()),
+            _ => self.number(&key.name, key),
+        }
+    }
+
+    /// The values of the keys of a knob after a step.
+    ///
+    /// * `digits` – of the first one, in its unit; others that were equal stay equal
+    pub(super) fn values(&self, knob: &LineKnob, step: Step, digits: usize) -> Vec<(VariedKey, f64)> {
         let mut factor = 1.0_f64;
-        let to = |(key, from, power): &(VariedKey, f64, f64)| {
+        let first = knob.known.first().map_or(f64::NAN, |known| known.from);
+        let to = |KnownKey { key, from, power }: &KnownKey| {
             let dimension = key.dimension();
             let to = match *power {
                 0.0 if self.is_held(key) => *from,
                 0.0 => rounded(dimension, *from, HELD),
                 1.0 if key.is_whole() || dimension == Dimension::Temperature => step.apply(&key.kind, *from),
-                1.0 => rounded(dimension, step.apply(&key.kind, *from), CHANGED),
+                1.0 => {
+                    let digits = if *from == first { digits } else { CHANGED };
+                    rounded(dimension, step.apply(&key.kind, *from), digits)
+                }
                 // A row stays as wide as its web, to the last digit.
                 _ => from * factor.powf(*power),
             };
@@ -228,7 +285,12 @@ impl WebToChange<'_> {
             }
             (key.clone(), to)
         };
-        let values: Vec<(VariedKey, f64)> = known.iter().map(to).collect();
+        knob.known.iter().map(to).collect()
+    }
+
+    /// The web with a knob turned by a step; None if it cannot be made.
+    fn changed(&self, knob: &LineKnob, step: Step) -> Option<Change> {
+        let values = self.values(knob, step, CHANGED);
         let mut made = self.with(&values).ok()?;
         let belt = made.spec.belt_speed_for(self.weight());
         let slowest = made.spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
@@ -236,13 +298,13 @@ impl WebToChange<'_> {
             return None;
         }
         made.spec.set_belt_speed(belt);
-        let changed = |((key, from, power), (_, to)): (&(VariedKey, f64, f64), &(VariedKey, f64))| {
+        let changed = |(KnownKey { key, from, power }, (_, to)): (&KnownKey, &(VariedKey, f64))| {
             (*power != 0.0 && from != to).then(|| self.changed_key(key, [*from, *to]))
         };
-        let keys: Vec<ChangedKey> = known.iter().zip(&values).filter_map(changed).collect();
-        let new = self.settings_of(&values);
-        let setting = setting::on_line_of(self.spec(), setting);
-        (!keys.is_empty()).then(|| self.change((setting, layers.to_vec()), keys, new, Ok(made)))
+        let keys: Vec<ChangedKey> = knob.known.iter().zip(&values).filter_map(changed).collect();
+        let new = self.settings_of(&values).chain(self.held_weight()).collect();
+        let setting = (knob.setting, knob.layers.clone());
+        (!keys.is_empty()).then(|| self.change(setting, keys, new, Ok(made)))
     }
 
     /// Whether the file says the throughput of a layer itself, so that it holds.
@@ -253,18 +315,32 @@ impl WebToChange<'_> {
         layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
     }
 
-    /// The keys and values that make a changed web of the file: the values, and what else has to be held.
-    fn settings_of(&self, values: &[(VariedKey, f64)]) -> Vec<(String, String)> {
-        let spec = self.spec();
+    /// Values as they are set in the file, without those that stand there.
+    pub(super) fn settings_of(&self, values: &[(VariedKey, f64)]) -> impl Iterator<Item = (String, String)> {
         let is_new =
             |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.base.value(key));
-        let mut new: Vec<(String, String)> =
-            values.iter().filter(is_new).map(|value| self.setting(value)).collect();
-        if spec.basis_weight.is_none() {
-            let weight = self.base.short_name("layer.1.line.basis_weight").to_owned();
-            new.push((weight, Dimension::BasisWeight.written(self.weight())));
-        }
-        new
+        values.iter().filter(is_new).map(|value| self.setting(value))
+    }
+
+    /// What is set so that the basis weight stays, if the file does not say it.
+    pub(super) fn held_weight(&self) -> Option<(String, String)> {
+        let weight = self.base.short_name(BASIS_WEIGHT).to_owned();
+        let is_free = self.spec().basis_weight.is_none();
+        is_free.then(|| (weight, Dimension::BasisWeight.written(self.weight())))
+    }
+
+    /// The knobs of the belt, under which the filaments fly as they did: one sets its speed, and the other one the
+    /// basis weight that the belt follows.
+    pub(super) fn knobs_of_belt(&self) -> Vec<LineKnob> {
+        let spec = self.spec();
+        let knob = |(setting, name, from): (Setting, &str, f64)| {
+            let key = self.base.varied(name).ok()?;
+            let known = vec![KnownKey { key, from, power: 1.0 }];
+            Some(LineKnob { setting, layers: Vec::new(), known, changes: Vec::new() })
+        };
+        let speed = (setting::BELT_SPEED, BELT_SPEED, spec.belt_speed());
+        let weight = (setting::BASIS_WEIGHT, BASIS_WEIGHT, spec.weight());
+        [speed, weight].into_iter().filter_map(knob).collect()
     }
 
     /// Mass per area of the changed webs [kg/m²].

@@ -4,6 +4,7 @@ mod base;
 mod changes;
 mod design;
 mod fit;
+mod knobs;
 mod line;
 mod links;
 mod plan;
@@ -13,6 +14,7 @@ mod write;
 
 pub use changes::{Changes, read_changes};
 pub use fit::{FitFile, read_fit};
+pub use knobs::{Knob, LineFile, Turn, TurnedLine, read_line};
 pub use points::StudyNote;
 pub use write::{differences, starter_study};
 

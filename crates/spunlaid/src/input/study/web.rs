@@ -9,7 +9,7 @@ use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value, VariedKey};
 use crate::ground::error::{Place, nearest_word};
 use crate::ground::{Error, Problem};
-use crate::simulation::layers::full_names::{full_name, value, web_key, without_numbers};
+use crate::simulation::layers::full_names::{displaced_by, full_name, value, web_key, without_numbers};
 use crate::simulation::{SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
@@ -60,6 +60,14 @@ impl WebBase {
         }
     }
 
+    /// The same, if it can be the file of a line.
+    ///
+    /// # Errors
+    /// As [`WebFile::within_reason`].
+    pub(super) fn within_reason(self) -> Result<Self, Error> {
+        Ok(Self { file: self.file.within_reason()?, ..self })
+    }
+
     /// The web before its keys vary.
     pub(super) const fn spec(&self) -> &WebSpec {
         &self.file.spec
@@ -73,6 +81,12 @@ impl WebBase {
     /// Whether its file has a list of layers.
     pub(super) fn is_layered(&self) -> bool {
         self.written.is_layered()
+    }
+
+    /// The keys of its file whose place these take, if they are set.
+    pub(super) fn displaced_by(&self, set: &[&str]) -> Vec<&str> {
+        let is_displaced = displaced_by(set, self.is_layered());
+        self.written.keys().filter(|name| is_displaced(name)).collect()
     }
 
     /// The name of a key in its file, which has no number of a layer where the file has no list of them.

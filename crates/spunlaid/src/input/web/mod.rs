@@ -130,6 +130,11 @@ impl WrittenWeb {
         self.values.get("layer").is_some()
     }
 
+    /// The full names of the keys that stand in it.
+    pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
+        self.values.all().map(|(key, _)| key)
+    }
+
     /// What is wrong with the full name of a key of a layer that is not there.
     pub(super) fn no_layer(&self, full: &str) -> Option<Fault> {
         let (number, _) = full.strip_prefix("layer.")?.split_once('.')?;
