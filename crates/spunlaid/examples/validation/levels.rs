@@ -1,11 +1,11 @@
 //! What two levels save: errors of webs in one air with and without coarse sheets, against the scatter of seeds.
 
 use crate::title;
+use cpu_time::ProcessTime;
 use spunlaid::ground::{Control, Isa};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WantedError, WebSpec};
 use std::sync::atomic::{AtomicBool, AtomicU64};
-use std::time::Instant;
 
 /// Sides of the patches that are looked at [m].
 const SIDES: [f64; 4] = [5e-3, 10e-3, 20e-3, 50e-3];
@@ -52,7 +52,7 @@ const LINES: [(&str, &str); 4] = [
     ),
 ];
 
-/// The CV and its whole error over each of [`SIDES`], and the time that they took [s].
+/// The CV and its whole error over each of [`SIDES`], and the processor time that they took [s].
 struct Found {
     cvs: Vec<[f64; 2]>,
     time: f64,
@@ -61,7 +61,7 @@ struct Found {
 fn find(spec: &WebSpec) -> Found {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
-    let begun = Instant::now();
+    let begun = ProcessTime::now();
     let mut web = Flyer::new(1, &stop, &|_, work| work()).web(spec).expect("it flies");
     let found = web.find(by).expect("it is laid");
     let time = begun.elapsed().as_secs_f64();

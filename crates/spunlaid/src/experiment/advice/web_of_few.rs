@@ -2,7 +2,7 @@
 
 use crate::ground::{Difference, Effect};
 use crate::simulation::WebSpec;
-use crate::web::map::Covariance;
+use crate::web::map::OfMean;
 use crate::web::{ExpectedCv, FewDoubt, LayerFew};
 
 /// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
@@ -58,10 +58,10 @@ impl WebOfFew {
                     here.iter().zip(&there).map(|(here, there)| of(*here, *there)).sum()
                 };
                 let parts: Vec<f64> = here.iter().zip(&there).map(|(here, there)| there - here).collect();
-                let of_mean = Covariance::of_means(&parts, &parts, *across);
+                let of_mean = OfMean::of(&parts, *across);
                 let moments = [sum(&|a, _| a * a), sum(&|_, b| b * b), sum(&|a, b| a * b)];
                 common.iter_mut().zip(moments).for_each(|(all, of_layer)| *all += of_layer);
-                variance += of_mean.variances[0];
+                variance += of_mean.variance;
                 degrees = degrees.min(of_mean.degrees);
             }
             let by_pitch = 0.5 * (after.of_halves - before.of_halves);

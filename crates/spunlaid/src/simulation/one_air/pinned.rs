@@ -146,12 +146,12 @@ impl PinnedLayer {
         };
         let mut look = |number: usize, laid: &BeamFindings, during: Range<f64>| {
             let laid = Laid::new([&beam, &beam], laid)?;
-            let few = look_at(&of_beam, (&laid, &during), &on.with_area(areas[number]), true, by)?;
-            if is_enough(&few) {
-                Ok(LookOfLayer { number, pinned: None, few })
-            } else {
-                Err(Error::no_fibre())
+            let few =
+                |is_filled| look_at(&of_beam, (&laid, &during), &on.with_area(areas[number]), is_filled, by);
+            if number == 0 && !is_enough(&few(false)?) {
+                return Err(Error::no_fibre());
             }
+            Ok(LookOfLayer { number, pinned: None, few: few(true)? })
         };
         let laid = watched.fly(&air, areas, see, &mut look, by)?;
         let block = air.block();

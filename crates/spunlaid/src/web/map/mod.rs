@@ -61,7 +61,7 @@ pub use laid_web::{
 };
 pub use lattice::Chance;
 pub use lay::{lay, pieces, strands};
-pub(crate) use levels::Covariance;
+pub(crate) use levels::OfMean;
 pub use measures::{OF_PATCHES, OF_WEBS};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
