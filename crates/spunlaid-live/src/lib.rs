@@ -75,18 +75,13 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
             };
             let (session, remark) = fibre::begin(text, file, folder).map_err(rejected)?;
             let remark = remark.as_deref();
-            serve(
-                (Page::Fibre, port),
-                session.board(),
-                |heard, _| session.fly(&heard),
-                |at| ready(at, remark),
-            )
+            serve(Page::Fibre, port, session.board(), |heard, _| session.fly(&heard), |at| ready(at, remark))
         }
         Subject::Line => {
             let session = line::Session::new(text, file, folder)?;
             let board = session.board();
             let fly = |heard, sender| session.fly(&heard, sender);
-            serve((Page::Line, port), board, fly, |at| ready(at, None))
+            serve(Page::Line, port, board, fly, |at| ready(at, None))
         }
     }
 }
@@ -95,7 +90,8 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
 ///
 /// * `fly` – the session: hears what pages ask, and may send to itself
 fn serve<M, P>(
-    (page, port): (Page, u16),
+    page: Page,
+    port: u16,
     board: Arc<Board<P>>,
     fly: impl FnOnce(mpsc::Receiver<M>, mpsc::SyncSender<M>) + Send + 'static,
     ready: impl FnOnce(&str),

@@ -60,7 +60,7 @@ impl Session {
     /// Turns a knob.
     fn turn(&mut self, name: &str, value: &KeyValue) -> Result<(), Answer> {
         let refused = |error: Error| Answer::rejected(complaints(&error));
-        let knobs = &self.web(self.before).knobs;
+        let knobs = &self.web(self.before).line.knobs;
         let Some(knob) = knobs.iter().find(|knob| knob.name == name) else {
             let names: Vec<&str> = knobs.iter().map(|knob| knob.name.as_str()).collect();
             return Err(Answer::refused(format!(
@@ -82,9 +82,8 @@ impl Session {
             self.show_web(known.number);
             return Ok(());
         }
-        let knobs = read_line(&line.text, &self.name, &self.resources).map_err(refused)?.knobs();
         self.last_number += 1;
-        self.webs.push(KnownWeb::new(self.last_number, turns, line, knobs));
+        self.webs.push(KnownWeb::new(self.last_number, turns, line));
         self.show_web(self.last_number);
         Ok(())
     }

@@ -81,7 +81,7 @@ pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Sl
     let of_knob = |knob: &Knob| {
         let unit = unit(knob);
         let value =
-            |web: &KnownWeb| web.knobs.iter().find(|other| other.name == knob.name).map(|one| one.value);
+            |web: &KnownWeb| web.line.knobs.iter().find(|other| other.name == knob.name).map(|one| one.value);
         let [is, was] = [now, before].map(|web| in_unit(knob, value(web).unwrap_or(knob.value), &unit));
         let [from, to] = knob.range.map(|end| in_unit(knob, end, &unit));
         json!({
@@ -100,7 +100,7 @@ pub(super) fn knobs(title: &str, before: &KnownWeb, now: &KnownWeb, slopes: &[Sl
         })
     };
     // Units and ranges stay those of the web of comparison while a knob is turned.
-    json!({"is": "knobs", "title": title, "knobs": before.knobs.iter().map(of_knob).collect::<Vec<_>>()})
+    json!({"is": "knobs", "title": title, "knobs": before.line.knobs.iter().map(of_knob).collect::<Vec<_>>()})
 }
 
 #[cfg(test)]

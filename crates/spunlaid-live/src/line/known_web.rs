@@ -5,7 +5,7 @@ use super::laid::Laid;
 use super::plan::WebState;
 use spunlaid::experiment::advice::Look;
 use spunlaid::experiment::{PlantNumber, plant_numbers};
-use spunlaid::input::{Knob, Turn, TurnedLine, WebSpec};
+use spunlaid::input::{Turn, TurnedLine, WebSpec};
 use std::sync::Arc;
 
 /// See the [module](self).
@@ -16,8 +16,6 @@ pub(super) struct KnownWeb {
     pub(super) turns: Vec<Turn>,
     pub(super) line: TurnedLine,
     pub(super) spec: Arc<WebSpec>,
-    /// The knobs as they are now.
-    pub(super) knobs: Vec<Knob>,
     pub(super) plant: Vec<PlantNumber>,
     /// What the turned knobs are called.
     pub(super) label: String,
@@ -32,19 +30,17 @@ pub(super) struct KnownWeb {
 
 impl KnownWeb {
     /// A web of which nothing is known.
-    ///
-    /// * `knobs` – as they are now
-    pub(super) fn new(number: u32, turns: Vec<Turn>, line: TurnedLine, knobs: Vec<Knob>) -> Self {
+    pub(super) fn new(number: u32, turns: Vec<Turn>, line: TurnedLine) -> Self {
         let spec = Arc::new(line.spec.clone());
         let of_turn = |turn: &Turn| {
-            let knob = knobs.iter().find(|knob| knob.name == turn.name)?;
+            let knob = line.knobs.iter().find(|knob| knob.name == turn.name)?;
             Some(format!("{} {}", knob.label, knob.dimension.pretty_to(turn.value, DIGITS)))
         };
         let labels: Vec<String> = turns.iter().filter_map(of_turn).collect();
         let label = if labels.is_empty() { "as in the file".to_owned() } else { labels.join(", ") };
         let (plant, steps) = (plant_numbers(&spec), steps(&spec));
         let (coarse, compared, laid) = (None, None, None);
-        Self { number, turns, line, spec, knobs, plant, label, steps, coarse, compared, laid }
+        Self { number, turns, line, spec, plant, label, steps, coarse, compared, laid }
     }
 
     pub(super) fn state(&self) -> WebState {

@@ -131,7 +131,7 @@ impl Session {
             return Err(Fault::new(what, remedy).into());
         }
         let is_elsewhere = path.as_ref().and_then(|path| path.parent()).is_some_and(|at| at != Path::new(""));
-        let first = KnownWeb::new(0, Vec::new(), line, file.knobs());
+        let first = KnownWeb::new(0, Vec::new(), line);
         let mut session = Self {
             file: Arc::new(file),
             path,
@@ -386,10 +386,8 @@ impl Session {
     /// A tension has been found.
     fn settled(&mut self, number: u32, line: TurnedLine) {
         let Some(place) = self.webs.iter().position(|web| web.number == number) else { return };
-        let KnownWeb { turns, knobs, .. } = &self.webs[place];
-        let knobs = read_line(&line.text, &self.name, &self.resources)
-            .map_or_else(|_| knobs.clone(), |new| new.knobs());
-        self.webs[place] = KnownWeb::new(number, turns.clone(), line, knobs);
+        let turns = self.webs[place].turns.clone();
+        self.webs[place] = KnownWeb::new(number, turns, line);
     }
 }
 

@@ -72,7 +72,7 @@ impl Session {
         });
         let laid = now.laid.as_ref().or(before.laid.as_ref());
         let found = laid.into_iter().flat_map(|laid| laid.notes.iter().cloned());
-        let no_sketch = self.no_sketch.iter().cloned();
+        let no_sketch = self.no_sketch.iter().cloned().chain(too_small(before, now));
         let mut all: Vec<String> = Vec::new();
         for note in of_line.chain(found).chain(no_sketch) {
             if !all.contains(&note) {
@@ -142,6 +142,17 @@ impl Session {
 fn of_plant(number: &PlantNumber, before: &KnownWeb) -> Json {
     let was = before.plant.iter().find(|other| other.name == number.name);
     json!({"name": number.name, "label": number.label, "now": number.text, "was": was.map(|was| &was.text)})
+}
+
+/// That a sample of filaments says nothing, where it does.
+fn too_small(before: &KnownWeb, now: &KnownWeb) -> Option<String> {
+    let says_nothing = match now.look_beside(before.number) {
+        _ if now.laid.is_some() => false,
+        Some(look) => look.changes.is_empty(),
+        None => before.laid.is_none() && before.coarse.as_ref().is_some_and(|look| look.cvs.is_empty()),
+    };
+    let text = "the sample of filaments is too small for first numbers; those of the complete web will come";
+    says_nothing.then(|| text.to_owned())
 }
 
 /// What a web costs that takes longer than the one before.

@@ -16,19 +16,18 @@ fn looks(threads: usize, webs: &[&WebFile]) -> Vec<(Vec<Look>, usize)> {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
     let mut all = Vec::new();
-    let mut seen = |fly: &mut dyn FnMut(&mut dyn FnMut(Seen))| {
+    let mut pinned = None;
+    for web in webs {
         let (mut looks, mut points) = (Vec::new(), 0);
-        fly(&mut |seen| match seen {
+        let mut see = |seen| match seen {
             Seen::Laid(stretch) => points += stretch.filaments.iter().map(Vec::len).sum::<usize>(),
             Seen::Look(look) => looks.push(look),
-        });
+        };
+        match &pinned {
+            None => pinned = Some(PinnedWeb::fly(&web.spec, &mut see, by).unwrap()),
+            Some(pinned) => pinned.compare(&web.spec, &mut see, by).unwrap(),
+        }
         all.push((looks, points));
-    };
-    let mut pinned = None;
-    seen(&mut |see| pinned = Some(PinnedWeb::fly(&webs[0].spec, see, by).unwrap()));
-    let pinned = pinned.unwrap();
-    for web in &webs[1..] {
-        seen(&mut |see| pinned.compare(&web.spec, see, by).unwrap());
     }
     all
 }
@@ -71,12 +70,21 @@ fn stat_a_changed_web_alone_in_the_room_and_beside_the_pinned_one_agree() {
     // Beside the pinned one nothing is shown of a flight.
     assert!(seen[1].1 > 0 && seen[2].1 == 0);
     for ((alone, _), (beside, _)) in seen[1..2].iter().zip(&seen[2..]) {
-        let [alone, beside] = [alone, beside].map(|looks| looks.last().unwrap().changes[1].clone());
+        let [alone, beside] = [alone, beside].map(|looks| looks.last().unwrap().changes[1]);
         // Twice the change of the distance changes the CV about twice as much.
         let (half, error) = (0.5 * beside.difference.value, 0.5 * beside.difference.standard_error);
         let off = (alone.difference.value - half) / alone.difference.standard_error.hypot(error);
         assert!(off.abs() < 3.0 && alone.in_common.unwrap() > 0.5, "{alone:?} {beside:?}");
     }
+}
+
+/// Half of 64 filaments leave open what those between them do, so the flight begins again with all of them.
+#[test]
+fn filaments_that_are_too_few_are_doubled() {
+    let web = read(&[("web.flown", "400"), ("belt.speed", "10 m/s")]);
+    let seen = looks(2, &[&web, &web]);
+    assert_eq!(seen[0].0.len(), LOOKS.len());
+    assert!(seen[1].0.iter().all(|look| look.changes.len() == 2), "{seen:?}");
 }
 
 #[test]

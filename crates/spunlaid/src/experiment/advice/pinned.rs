@@ -37,7 +37,8 @@ pub struct Look {
     pub area: f64,
     /// The CV over patches of each size, with the error of the coarse mesh.
     pub cvs: Vec<CvSoFar>,
-    /// The change of the CV from the pinned web; empty for the pinned web itself.
+    /// The change of the CV from the pinned web; empty for the pinned web itself, and where the few filaments of one of
+    /// both say too little.
     pub changes: Vec<Effect<f64>>,
 }
 
@@ -131,7 +132,8 @@ impl Looks {
     fn take(&mut self, seen: SeenOfLayer, look: impl Fn(f64, [Vec<LayerFew>; 2]) -> Look) -> Option<Seen> {
         match seen {
             SeenOfLayer::Laid(stretch) => Some(Seen::Laid(stretch)),
-            SeenOfLayer::Look(LookOfLayer { number, pinned, few }) => {
+            SeenOfLayer::Look(found) => {
+                let LookOfLayer { number, pinned, few } = *found;
                 let found = &mut self.found[number];
                 found[0].extend(pinned);
                 found[1].push(few);

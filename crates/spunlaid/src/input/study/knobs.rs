@@ -134,8 +134,8 @@ impl LineFile {
     /// The web with knobs turned, all of them together and from the file as it is written.
     ///
     /// The belt follows, so that the basis weight stays. Where the belt itself is turned, it has that speed, and where
-    /// the basis weight is turned, the web has that one; of both, the last one counts. A knob that stands where it stood
-    /// sets nothing.
+    /// the basis weight is turned, the web has that one; of both, the last one counts. A knob that stands where it
+    /// stood sets nothing.
     ///
     /// # Errors
     /// If a knob is not there, or takes no such value; if the web cannot be laid; or if numbers are outside of what is

@@ -18,7 +18,7 @@ use crate::ground::sort::sort_by_key;
 use crate::ground::{Control, Error, Fault};
 use crate::simulation::WebSpec;
 use crate::web::map::blocks_on;
-use crate::web::{Arrangement, LayerFew, Sheet, Window};
+use crate::web::{Arrangement, FewDoubt, LayerFew, Sheet, Window};
 use std::ops::{ControlFlow, Range};
 
 /// Size of the room, in what the layer needs: changed layers need up to so much more.
@@ -48,7 +48,7 @@ pub struct LaidStretch {
 /// What is seen of the flight of a layer.
 pub(crate) enum SeenOfLayer {
     Laid(LaidStretch),
-    Look(LookOfLayer),
+    Look(Box<LookOfLayer>),
 }
 
 /// A layer as its filaments have laid it by a look.
@@ -59,6 +59,9 @@ pub(crate) struct LookOfLayer {
     pub(crate) pinned: Option<LayerFew>,
     pub(crate) few: LayerFew,
 }
+
+/// Makes the look of a number from what has been laid during a time.
+type Look<'l> = &'l mut dyn FnMut(usize, &BeamFindings, Range<f64>) -> Result<LookOfLayer, Error>;
 
 /// A layer that was flown coarsely.
 #[derive(Debug)]
@@ -87,7 +90,8 @@ struct Watched<'a> {
 }
 
 impl PinnedLayer {
-    /// Flies a layer coarsely, and looks at what it has laid.
+    /// Flies a layer coarsely, and looks at what it has laid. If half of the usual filaments do not suffice at the first
+    /// look, it begins again with all of them.
     ///
     /// * `areas` – at which it is looked at [m²], in order
     ///
@@ -100,8 +104,30 @@ impl PinnedLayer {
         see: &mut dyn FnMut(SeenOfLayer),
         by: Control<'_>,
     ) -> Result<Self, Error> {
+        let mut suffices = true;
+        let mut is_enough = |few: &LayerFew| {
+            suffices = !matches!(few.doubt(), Some(FewDoubt::Own(_) | FewDoubt::Neighbours(_)));
+            suffices
+        };
+        match Self::fly_at(PITCHES, spec, number, areas, &mut is_enough, see, by) {
+            Err(_) if !suffices => Self::fly_at(1.0, spec, number, areas, &mut |_| true, see, by),
+            flown => flown,
+        }
+    }
+
+    /// * `pitches` – distance of the filaments, in the usual one
+    /// * `is_enough` – whether it goes on after the first look, of what is compared with changed webs
+    fn fly_at(
+        pitches: f64,
+        spec: &WebSpec,
+        number: usize,
+        areas: &[f64],
+        is_enough: &mut dyn FnMut(&LayerFew) -> bool,
+        see: &mut dyn FnMut(SeenOfLayer),
+        by: Control<'_>,
+    ) -> Result<Self, Error> {
         let area = areas.last().copied().unwrap_or_default();
-        let on = spec.flown_sheet(number, Some(Compared { area, pitches: PITCHES }));
+        let on = spec.flown_sheet(number, Some(Compared { area, pitches }));
         let on = on.ok_or_else(Error::no_fibre)?.with_area(area);
         let of_beam = coarse(spec, number, &on)?;
         let beam = of_beam.beam();
@@ -121,7 +147,11 @@ impl PinnedLayer {
         let mut look = |number: usize, laid: &BeamFindings, during: Range<f64>| {
             let laid = Laid::new([&beam, &beam], laid)?;
             let few = look_at(&of_beam, (&laid, &during), &on.with_area(areas[number]), true, by)?;
-            Ok(LookOfLayer { number, pinned: None, few })
+            if is_enough(&few) {
+                Ok(LookOfLayer { number, pinned: None, few })
+            } else {
+                Err(Error::no_fibre())
+            }
         };
         let laid = watched.fly(&air, areas, see, &mut look, by)?;
         let block = air.block();
@@ -157,7 +187,8 @@ impl PinnedLayer {
             let laid = Laid::new([&own_beam, &beam], &self.laid)?;
             let from = of_pinned.during.start.max(laid.during.start);
             for (number, area) in areas.iter().enumerate() {
-                see(SeenOfLayer::Look(look(number, &laid, from..from + area * per_area)?));
+                let found = look(number, &laid, from..from + area * per_area)?;
+                see(SeenOfLayer::Look(Box::new(found)));
             }
             return Ok(true);
         }
@@ -189,7 +220,7 @@ impl Watched<'_> {
         air: &SharedAir<'_>,
         areas: &[f64],
         see: &mut dyn FnMut(SeenOfLayer),
-        look: &mut dyn FnMut(usize, &BeamFindings, Range<f64>) -> Result<LookOfLayer, Error>,
+        look: Look<'_>,
         by: Control<'_>,
     ) -> Result<BeamFindings, Error> {
         let (mut next, mut shown) = (0, vec![0; self.of_beam.places.len()]);
@@ -203,7 +234,8 @@ impl Watched<'_> {
                 && to - from >= area * self.per_area
             {
                 let laid = BeamFindings { pace: self.pace, kept: curves(flying), ..BeamFindings::default() };
-                see(SeenOfLayer::Look(look(next, &laid, from..from + area * self.per_area)?));
+                let found = look(next, &laid, from..from + area * self.per_area)?;
+                see(SeenOfLayer::Look(Box::new(found)));
                 next += 1;
             }
             let needed = areas.last().map_or(0.0, |area| area * self.per_area) + self.longer;

@@ -54,6 +54,9 @@ impl BeamAir {
     }
 }
 
+/// Looks at beams after each block, and says whether they fly on.
+pub(super) type Watch<'w> = &'w mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> Result<ControlFlow<()>, Error>;
+
 /// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
 /// the first ones take; a beam may lay a little less than the sheet.
 ///
@@ -165,7 +168,7 @@ impl<'a> SharedAir<'a> {
     pub(super) fn fly_watched(
         &self,
         sinks: Vec<Sink<'_>>,
-        watch: &mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> Result<ControlFlow<()>, Error>,
+        watch: Watch<'_>,
         by: Control<'_>,
     ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
         let (started, mut spent) = (Instant::now(), TimeSpent::default());
