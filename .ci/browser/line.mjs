@@ -194,6 +194,7 @@ export async function checkLine(browser, tools) {
   await isKnown(page);
   await turnByHand(page, tools);
   await shot(page, "line-sketch");
+  for (const violation of await violations(page)) expect(false, `with a change: ${violation}`);
   const answer = await page.locator("h1").innerText();
   await refuse(page, tools);
   await isComplete(page);
