@@ -80,7 +80,7 @@ pub enum WantedError {
 }
 
 /// The error that is wanted if nothing is said.
-pub const USUAL_ERROR: f64 = 0.03;
+pub const USUAL_ERROR: f64 = 0.04;
 
 /// A layer before its fibres have been flown.
 #[derive(Clone, Debug, PartialEq)]

@@ -90,8 +90,8 @@ struct Watched<'a> {
 }
 
 impl PinnedLayer {
-    /// Flies a layer coarsely, and looks at what it has laid. If half of the usual filaments do not suffice at the first
-    /// look, it begins again with all of them.
+    /// Flies a layer coarsely, and looks at what it has laid. If half of the usual filaments do not suffice at the
+    /// first look, it begins again with all of them.
     ///
     /// * `areas` – at which it is looked at [m²], in order
     ///

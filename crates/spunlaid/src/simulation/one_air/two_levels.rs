@@ -36,8 +36,8 @@ const BY_PAIRS: f64 = 0.5;
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
 /// What is expected before anything is flown: relative variance of a CV that an area of 1 m² leaves open, and the part
 /// of it that coarse filaments do not give.
-const EXPECTED: f64 = 4e-4;
-const NOT_TOLD: f64 = 0.05;
+const EXPECTED: f64 = 6e-4;
+const NOT_TOLD: f64 = 0.08;
 
 /// A sheet that was flown finely.
 pub(super) struct FineSheet<'a> {
@@ -135,13 +135,16 @@ impl Flyer<'_> {
                 let combined = levels.combine().unwrap_or(alone);
                 return Ok(LayerFew { wanted: Some(wanted), ..combined });
             }
-            if variances.by_pairs > BY_PAIRS * limit {
+            let mut by_pairs = variances.by_pairs;
+            if by_pairs > BY_PAIRS * limit {
                 let other = spec.in_air(PAIRS | pairs);
                 pairs += 1;
                 let pair = self.fine_sheet(&other, number, &of_pairs)?;
                 levels.pairs.extend(pair);
+                // The sheets that it spares are not flown.
+                by_pairs *= (pairs - 1) as f64 / pairs as f64;
             }
-            let left = (limit - variances.by_pairs).max(0.5 * BY_PAIRS * limit);
+            let left = (limit - by_pairs).max(0.5 * BY_PAIRS * limit);
             // No more than as many again, because the variance is not known well yet.
             let needed = airs as f64 * ((variances.by_area + variances.by_pitch) / left - 1.0);
             more = (needed.ceil() as u64).clamp(1, airs);

@@ -123,7 +123,7 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .or_words(&[AUTO, NONE])
         .fixed()
-        .follows("3 %; of a web so small that all of it is flown, what its own clouds give")
+        .follows("4 %; of a web so small that all of it is flown, what its own clouds give")
         .meaning(
             "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in other airs are \
              flown coarsely until it is reached. `none` flies one sheet only.",
