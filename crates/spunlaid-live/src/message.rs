@@ -2,8 +2,8 @@
 
 use super::board::PageId;
 use serde::{Deserialize, Serialize};
-use spunlaid::ground::Error;
-use spunlaid::ground::error::{Place, Problem};
+use spunlaid::ground::error::Place;
+use spunlaid::ground::{Error, Problem};
 
 /// Size of the largest message that is read [bytes].
 pub(super) const LARGEST: usize = 1 << 18;
