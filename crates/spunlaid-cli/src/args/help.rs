@@ -36,14 +36,14 @@ Examples:
   spunlaid keys --study                the keys of the file of a study";
 
 pub(super) const LIVE_HELP: &str = "\
-Of the file of a web, the page shows the web of the line on its belt and the CV of its basis weight.
-Its knobs are sliders: turn one, and the change of the CV follows within seconds, compared in the
-same turbulence, then the web as `spunlaid web` lays it. Of a case, the page shows eight fibres in
-flight. Sliders change air and fibre while they fly; amplitude, frequency, their errors and spectra
-follow. A fed fibre is laid while you look. The page works offline; only programs of this machine
-that know its address can reach it. The program reads no other files than those that the file
-names, and writes only what you save on the page by name, into the folder where it was started.
-Ctrl-C ends it.
+Of the file of a web, the page shows the web of the line on its belt and its CV. The knobs of the
+line are sliders: turn one, and the change of the CV follows within seconds, compared in the same
+turbulence, then the web as `spunlaid web` lays it. Of a case, the page shows eight fibres in
+flight. Sliders change air and fibre while they fly; amplitude, frequency, their errors and
+spectra follow. A fed fibre is laid while you look. The page works offline; only programs of this
+machine that know its address can reach it. The program reads no other files than those that the
+file names, and writes only what you save on the page by name, into the folder where it was
+started. Ctrl-C ends it.
 
 Examples:
   spunlaid live line.toml              the web of a line; spunlaid new --web writes one

@@ -228,10 +228,12 @@ impl LineKnob {
     }
 
     fn label(&self) -> String {
-        let Setting { words, .. } = self.setting;
+        // A factor on a table has no unit that would say what it is.
+        let is_factor = self.known.first().is_some_and(|known| known.key.name.ends_with("_factor"));
+        let words = format!("{}{}", self.setting.words, if is_factor { ", as a factor" } else { "" });
         let layers: Vec<String> = self.layers.iter().map(ToString::to_string).collect();
         match &layers[..] {
-            [] => words.to_owned(),
+            [] => words,
             [layer] => format!("{words}, layer {layer}"),
             _ => format!("{words}, layers {}", layers.join(", ")),
         }
