@@ -1,4 +1,4 @@
-//! What a changed web says at each look, in the gusts of a pinned one: its time as a share of that of the whole web,
+//! What a changed web says at each look, in the turbulence of a pinned one: its time as a share of that of the whole web,
 //! and whether the changes are off by as much as their errors say.
 
 use crate::title;
@@ -33,7 +33,7 @@ pub fn shares() {
     let changes = read_changes(file, Overrides::from(&[]), Changes::OfLine).expect("it is read");
     let larger: Vec<&Change> =
         changes.iter().filter(|change| change.refusal.is_none()).skip(1).step_by(2).collect();
-    title("looks at changed webs in the gusts of the pinned one");
+    title("looks at changed webs in the turbulence of the pinned one");
     let begun = processor_time();
     let stop = AtomicBool::new(false);
     let mut web = Flyer::new(1, &stop, &|_, work| work()).web(&spec).expect("it flies");

@@ -1,4 +1,4 @@
-//! A web that others are compared with in the same gusts, one after another.
+//! A web that others are compared with in the same turbulence, one after another.
 
 use crate::same_air::read;
 use spunlaid::experiment::advice::{LOOKS, Look, PinnedWeb, Seen};
@@ -11,7 +11,7 @@ fn line(set: &[(&str, &str)]) -> WebFile {
     read(&[&[("web.flown", "1000"), ("belt.speed", "10 m/s")], set].concat())
 }
 
-/// What is seen of a web, and of changed ones in its gusts: looks, and the number of points that were shown.
+/// What is seen of a web, and of changed ones in its turbulence: looks, and the number of points that were shown.
 fn looks(threads: usize, webs: &[&WebFile]) -> Vec<(Vec<Look>, usize)> {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
@@ -41,7 +41,7 @@ fn identical_looks_at_a_web_and_a_changed_one_whatever_the_threads() {
 
 /// Its error is that of the coarse mesh, 1.5 % of the CV.
 #[test]
-fn limit_a_web_in_the_gusts_of_itself_has_not_changed() {
+fn limit_a_web_in_its_own_turbulence_has_not_changed() {
     let web = line(&[]);
     // A stiffness that does not matter makes the flight another one.
     let other = line(&[("fibre.youngs_modulus", "2.0000001 GPa")]);
@@ -85,6 +85,16 @@ fn filaments_that_are_too_few_are_doubled() {
     let seen = looks(2, &[&web, &web]);
     assert_eq!(seen[0].0.len(), LOOKS.len());
     assert!(seen[1].0.iter().all(|look| look.changes.len() == 2), "{seen:?}");
+}
+
+/// What passes of the air during a block is the same above both belts, although the sheets have other lengths. Blocks of
+/// 50 mm of each sheet by itself would have nothing in common (0.01).
+#[test]
+fn stat_a_web_on_a_slower_belt_has_the_clouds_of_the_pinned_one() {
+    let seen = looks(2, &[&line(&[]), &line(&[("belt.speed", "8 m/s")])]);
+    for change in &seen[1].0.last().unwrap().changes {
+        assert!(change.in_common.unwrap() > 0.5, "{change:?}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A web with which changed ones are compared in the same gusts, one after another, while somebody watches.
+//! A web with which changed ones are compared in the same turbulence, one after another, while somebody watches.
 
 use super::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use crate::ground::{Control, Effect, Error};
@@ -72,7 +72,7 @@ impl PinnedWeb {
         Ok(Self { spec: spec.clone(), layers })
     }
 
-    /// Flies a changed web in the gusts of this one, one layer after another.
+    /// Flies a changed web in its turbulence, one layer after another.
     ///
     /// # Errors
     /// As of [`PinnedWeb::fly`].

@@ -1,4 +1,4 @@
-//! A layer that was flown coarsely, beside which changed ones fly in the same gusts, one after another.
+//! A layer that was flown coarsely, beside which changed ones fly in the same turbulence, one after another.
 //!
 //! ```text
 //! layer → a room with some space to spare → its flight, block by block → looks at the sheet so far
@@ -147,7 +147,7 @@ impl PinnedLayer {
         let mut look = |number: usize, laid: &BeamFindings, during: Range<f64>| {
             let laid = Laid::new([&beam, &beam], laid)?;
             let few =
-                |is_filled| look_at(&of_beam, (&laid, &during), &on.with_area(areas[number]), is_filled, by);
+                |is_filled| look_at(&of_beam, &laid, &during, &on.with_area(areas[number]), is_filled, by);
             if number == 0 && !is_enough(&few(false)?) {
                 return Err(Error::no_fibre());
             }
@@ -158,7 +158,7 @@ impl PinnedLayer {
         Ok(Self { number, room, on, block, laid })
     }
 
-    /// Flies the same layer of a changed web in the gusts of this one; false if it does not fit into the room.
+    /// Flies the same layer of a changed web in its turbulence; false if it does not fit into the room.
     ///
     /// * `own` – the web of this layer
     ///
@@ -178,7 +178,7 @@ impl PinnedLayer {
         let of_pinned = Laid::new([&own_beam, &own_beam], &self.laid)?;
         let look = |number: usize, laid: &Laid<'_>, during: Range<f64>| {
             let on = self.on.with_area(areas[number]);
-            let few_of = |of_beam, laid| look_at(of_beam, (laid, &during), &on, false, by);
+            let few_of = |of_beam, laid| look_at(of_beam, laid, &during, &on, false, by);
             let pinned = Some(few_of(&pinned, &of_pinned)?);
             Ok::<_, Error>(LookOfLayer { number, pinned, few: few_of(&other, laid)? })
         };
@@ -186,7 +186,9 @@ impl PinnedLayer {
         if flies_as(&other, &pinned) {
             let laid = Laid::new([&own_beam, &beam], &self.laid)?;
             let from = of_pinned.during.start.max(laid.during.start);
-            for (number, area) in areas.iter().enumerate() {
+            let to = of_pinned.during.end.min(laid.during.end);
+            let is_laid = |area: &f64| to - from >= area * per_area;
+            for (number, area) in areas.iter().enumerate().filter(|(_, area)| is_laid(area)) {
                 let found = look(number, &laid, from..from + area * per_area)?;
                 see(SeenOfLayer::Look(Box::new(found)));
             }
@@ -293,10 +295,13 @@ fn coarse<'a>(spec: &'a WebSpec, number: usize, on: &FlownSheet) -> Result<Layer
 
 /// What a few filaments say of a layer, from what they have laid during a time.
 ///
+/// * `on` – the sheet of the pinned layer, whose blocks are those of all layers: what passes of the air during one of
+///   them is the same
 /// * `is_filled` – whether the filaments between them are filled in, as they are for the CV of one layer by itself
 fn look_at(
     of_beam: &LayerBeam<'_>,
-    (laid, during): (&Laid<'_>, &Range<f64>),
+    laid: &Laid<'_>,
+    during: &Range<f64>,
     on: &FlownSheet,
     is_filled: bool,
     by: Control<'_>,
@@ -306,7 +311,7 @@ fn look_at(
     let beam = of_beam.beam();
     let is_filled = is_filled || few.arrangement == Arrangement::Rows;
     let curves = is_filled.then(|| few.curves(&sheet, &beam, &flown)).transpose()?;
-    few.tell((&sheet, blocks_on(&sheet)), (&beam, &flown), curves.as_ref(), (by.threads, by.stop))
+    few.tell((&sheet, blocks_on(&on.sheet)), (&beam, &flown), curves.as_ref(), (by.threads, by.stop))
 }
 
 /// A room that is larger than the air of a beam needs.
