@@ -111,32 +111,32 @@ function isNews(place, ...what) {
   return differs;
 }
 
-function state(told) {
+function state(message) {
   const last = page.state;
-  page.state = told;
-  if (last && told.generation < last.generation) restart();
-  if (last && told.pinned !== last.pinned) pinned();
-  page.isTurned = told.now !== told.pinned;
+  page.state = message;
+  if (last && message.generation < last.generation) restart();
+  if (last && message.pinned !== last.pinned) pinned();
+  page.isTurned = message.now !== message.pinned;
   if (!page.isTurned) for (const patch of page.patches.values()) patch.now = patch.change = null;
-  if (!last || told.generation !== last.generation) {
+  if (!last || message.generation !== last.generation) {
     [page.settling.old, page.since] = [true, performance.now()];
-    belt.clearNow(told.generation);
+    belt.clearNow(message.generation);
   }
-  say("command", told.command);
-  if (!last || (byId("name").value === last.save_name)) byId("name").value = told.save_name;
-  say("play", told.stands ? "Go" : "Pause");
-  byId("play").setAttribute("aria-pressed", String(!told.stands));
-  const isNew = told.trouble && told.trouble !== last?.trouble;
-  if (isNew) note(told.trouble);
-  showPlant(told.plant);
-  showAnswers(told.answers);
-  showNotes(told.notes);
-  showWork(told.work);
+  say("command", message.command);
+  if (!last || (byId("name").value === last.save_name)) byId("name").value = message.save_name;
+  say("play", message.stands ? "Go" : "Pause");
+  byId("play").setAttribute("aria-pressed", String(!message.stands));
+  const isNew = message.trouble && message.trouble !== last?.trouble;
+  if (isNew) note(message.trouble);
+  showPlant(message.plant);
+  showAnswers(message.answers);
+  showNotes(message.notes);
+  showWork(message.work);
   showNumbers();
   status();
 }
 
-/** The program was started again and counts anew. */
+/** The program was started again, and its generations begin at zero. */
 function restart() {
   page.patches.clear();
   page.settling = [];
@@ -153,18 +153,18 @@ function pinned() {
   belt.pin();
 }
 
-function found(told) {
-  if (!page.state || told.generation < page.state.generation) return;
-  for (const patch of told.patches) {
+function found(message) {
+  if (!page.state || message.generation < page.state.generation) return;
+  for (const patch of message.patches) {
     const kept = page.patches.get(patch.side_m) ?? { side: patch.side_m };
     if (patch.before) kept.before = patch.before;
     // A number gives way to a newer one only.
-    if (patch.now) [kept.now, kept.of] = [patch.now, told.generation];
-    if (patch.change) [kept.change, kept.changeOf] = [patch.change, told.generation];
+    if (patch.now) [kept.now, kept.of] = [patch.now, message.generation];
+    if (patch.change) [kept.change, kept.changeOf] = [patch.change, message.generation];
     page.patches.set(patch.side_m, kept);
   }
   const shown = judged();
-  const number = shown && (page.isTurned ? shown.of === told.generation && shown.now : shown.before);
+  const number = shown && (page.isTurned ? shown.of === message.generation && shown.now : shown.before);
   const isNew = page.settling.old || JSON.stringify(number) !== page.settling.last;
   if (number && isNew) {
     if (page.settling.old) page.settling = [];

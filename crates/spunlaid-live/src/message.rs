@@ -24,7 +24,7 @@ pub(super) enum Command {
     Go {},
     /// Go on by one recorded instant and stop.
     Step {},
-    /// Start the fibres anew, straight and at rest; of a line all knobs as in the web of comparison.
+    /// Start the fibres again, straight and at rest; of a line all knobs as in the web of comparison.
     Reset {},
     /// Begin the statistics anew.
     Forget {},

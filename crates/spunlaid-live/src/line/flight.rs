@@ -88,13 +88,13 @@ pub(super) fn fly(file: Arc<LineFile>, name: String, jobs: &Receiver<Job>, news:
         let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
         let ended = catch_unwind(AssertUnwindSafe(|| pilot.work(number, work, by)));
         // A fault of the program has said what it is.
-        pilot.tell(number, What::Ended(ended.unwrap_or(Err(Error::no_fibre()))));
+        pilot.report(number, What::Ended(ended.unwrap_or(Err(Error::no_fibre()))));
     }
 }
 
 impl Pilot {
     /// Who does not listen any more hears nothing.
-    fn tell(&self, of: u64, what: What) {
+    fn report(&self, of: u64, what: What) {
         let _ = self.news.send(Heard::Flight(News { of, what }));
     }
 
@@ -109,12 +109,12 @@ impl Pilot {
             Work::Pin(spec) => {
                 // The memory of the one before is free first.
                 self.pinned = None;
-                let pinned = PinnedWeb::fly(&spec, &mut |seen| self.tell(number, What::Seen(seen)), by)?;
+                let pinned = PinnedWeb::fly(&spec, &mut |seen| self.report(number, What::Seen(seen)), by)?;
                 self.pinned = Some(pinned);
             }
             Work::Compare(spec) => {
                 let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
-                pinned.compare(&spec, &mut |seen| self.tell(number, What::Seen(seen)), by)?;
+                pinned.compare(&spec, &mut |seen| self.report(number, What::Seen(seen)), by)?;
             }
             Work::Lay(spec) => return self.lay(number, &spec, by).map(|laid| End::Laid(Box::new(laid))),
             Work::Try(text, tried) => self.try_changes(number, &text, &tried, by)?,
@@ -127,7 +127,7 @@ impl Pilot {
         let (all, flown) = (steps(spec), AtomicU64::new(0));
         let follow = |flights: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
             let done = || flown.load(Ordering::Relaxed) + flights.done.load(Ordering::Relaxed);
-            let share = || self.tell(number, What::Share(done() as f64 / all.max(1) as f64));
+            let share = || self.report(number, What::Share(done() as f64 / all.max(1) as f64));
             look_while(LOOK, share, work);
             flown.fetch_add(flights.done.load(Ordering::Relaxed), Ordering::Relaxed);
         };
@@ -153,7 +153,7 @@ impl Pilot {
         left.sort_by_key(|(_, change)| steps(&change.experiment.spec));
         let count = left.len();
         for (i, (place, change)) in left.into_iter().enumerate() {
-            self.tell(number, What::Share(i as f64 / count as f64));
+            self.report(number, What::Share(i as f64 / count as f64));
             let mut last = Vec::new();
             let mut see = |seen| {
                 if let Seen::Look(look) = seen {
@@ -163,8 +163,8 @@ impl Pilot {
             match pinned.compare(&change.experiment.spec, &mut see, by) {
                 Err(Error::Interrupted) => return Err(Error::Interrupted),
                 // A change with which no line could run says nothing.
-                Err(_) => self.tell(number, What::Tried(Box::new(change), place, Vec::new())),
-                Ok(()) => self.tell(number, What::Tried(Box::new(change), place, last)),
+                Err(_) => self.report(number, What::Tried(Box::new(change), place, Vec::new())),
+                Ok(()) => self.report(number, What::Tried(Box::new(change), place, last)),
             }
         }
         Ok(())

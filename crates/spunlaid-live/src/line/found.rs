@@ -27,7 +27,7 @@ pub(super) struct Cv {
 struct CvChange {
     value: f64,
     standard_error: f64,
-    /// Whether it is told from zero at a look.
+    /// Whether it is significant at a look.
     is_sure: bool,
 }
 
