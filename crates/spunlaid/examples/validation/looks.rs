@@ -1,5 +1,5 @@
-//! What a changed web says at each look, in the turbulence of a pinned one: its time as a share of that of the whole web,
-//! and whether the changes are off by as much as their errors say.
+//! What a changed web says at each look, in the turbulence of a pinned one: its time as a share of that of the whole
+//! web, and whether the changes are off by as much as their errors say.
 
 use crate::title;
 use spunlaid::experiment::Change;

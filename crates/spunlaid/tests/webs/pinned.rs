@@ -87,8 +87,8 @@ fn filaments_that_are_too_few_are_doubled() {
     assert!(seen[1].0.iter().all(|look| look.changes.len() == 2), "{seen:?}");
 }
 
-/// What passes of the air during a block is the same above both belts, although the sheets have other lengths. Blocks of
-/// 50 mm of each sheet by itself would have nothing in common (0.01).
+/// What passes of the air during a block is the same above both belts, although the sheets have other lengths. Blocks
+/// of 50 mm of each sheet by itself would have nothing in common (0.01).
 #[test]
 fn stat_a_web_on_a_slower_belt_has_the_clouds_of_the_pinned_one() {
     let seen = looks(2, &[&line(&[]), &line(&[("belt.speed", "8 m/s")])]);
