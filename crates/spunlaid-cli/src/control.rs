@@ -38,8 +38,8 @@ pub(crate) fn settled_with<T>(
     resources.settle(read, |resources| {
         let (done, most) = (AtomicU64::new(0), resources.most_steps());
         let label = match resources.wanted() {
-            1 => "flying for the tension at the end of the spinline".to_owned(),
-            several => format!("flying for the tensions at the ends of {several} spinlines"),
+            1 => "simulating the tension at the end of the spinline".to_owned(),
+            several => format!("simulating the tensions at the ends of {several} spinlines"),
         };
         progress::follow(&done, most, &label, quiet, || resources.fly(control(threads, &done)))
     })

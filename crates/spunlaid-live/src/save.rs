@@ -25,7 +25,7 @@ pub(super) fn plain_name(given: &str) -> Result<String, String> {
     {
         return Err(format!(
             "\"{}\" cannot be the name of the file: the case is saved into the folder where the program was \
-            started, so a name has no / or \\, does not begin with a full stop and is no device of Windows (NUL, \
+            started. A name has no / or \\, does not begin with a full stop and is no device of Windows (NUL, \
             COM1). Write letters, digits, spaces, - and _, at most {LONGEST} in all, as my_case",
             given.chars().take(LONGEST).map(|c| if c.is_control() { '?' } else { c }).collect::<String>()
         ));

@@ -322,7 +322,8 @@ impl Study {
     fn write(&self, py: Python<'_>, figures: Figures<'_>) -> PyResult<()> {
         let figures = figure_files(figures)?;
         let Some(out) = &self.out else {
-            let text = "the study was flown without a folder; name one: out = \"results/study\"".to_owned();
+            let text =
+                "the study was computed without a folder; name one: out = \"results/study\"".to_owned();
             return Err(raised_as(py, "FolderError", text));
         };
         guarded(py, || {

@@ -51,7 +51,7 @@ pub(crate) fn holds_files_of_others(folder: &Path, first: &str, more: usize) -> 
     let others = if more == 0 { String::new() } else { format!(" and {more} more") };
     let fault = Fault::new(
         format!("holds other files already ({first}{others}), and results are not mixed with them"),
-        "name another folder, or write beside them",
+        "name another folder, or write next to them",
     );
     Error::folder(folder, fault.option("--out, --force"))
 }

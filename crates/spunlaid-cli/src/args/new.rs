@@ -158,8 +158,8 @@ pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
         "60 m/s",
     ),
     (&["distance"], Usual, "Distance from the slot to the belt", "0.5 m"),
-    (&["slot-depth"], IfKnown, "Depth of the slot", "20 mm, a guess"),
-    (&["turbulence"], IfKnown, "Turbulence of the air at its end", "10 %, a guess"),
+    (&["slot-depth"], IfKnown, "Slot gap", "20 mm, assumed"),
+    (&["turbulence"], IfKnown, "Turbulence of the air at its end", "10 %, assumed"),
     (&["thickness"], IfKnown, "Thickness of the finished fabric", "not known"),
 ];
 
@@ -222,7 +222,7 @@ fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     // `PA 6` is two words.
     let among = || (1..=2).rev().flat_map(|count| words.windows(count)).find_map(named);
     let value = among().ok_or_else(|| format!("write one of {all} before the melt flow rate"))?;
-    let remark = "the melt flow rate beside the polymer is not used: write it as --melt-flow-rate, and the line \
+    let remark = "the melt flow rate next to the polymer is not used: write it as --melt-flow-rate, and the line \
         begins at the die";
     Ok(Given { value, remark: Some(remark.to_owned()) })
 }

@@ -45,8 +45,8 @@ fn unknown_table(columns: usize) -> Fault {
     let of_numbers = format!("has rows of {columns} numbers without names, as a map of basis weight has");
     Fault::new(
         format!("{of_numbers}, not a velocity record"),
-        "for a map, give the side of a pixel, and the mean basis weight unless the numbers are in kg/m²: \
-        --pixel \"1 mm\" --weight \"17 g/m²\"; for a velocity record, name the columns of the velocity: --columns 2",
+        "for a map, write --pixel \"1 mm\" (the side of a pixel) and, unless the numbers are in kg/m², --weight \
+        \"17 g/m²\"; for a velocity record, name the columns of the velocity: --columns 2",
     )
 }
 

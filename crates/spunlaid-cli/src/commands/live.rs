@@ -79,7 +79,7 @@ fn open_browser(address: &str) -> std::io::Result<()> {
 /// Says that this program has no page.
 #[cfg(not(feature = "live"))]
 pub(crate) fn live(_: &Live) -> Result<(), Failure> {
-    let message = "this program was built without the page on which fibres fly";
+    let message = "this program was built without the live page";
     Err(spunlaid::ground::Fault::new(message, "build it with the feature `live`, which is there by default")
         .into())
 }

@@ -24,7 +24,7 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
 
     let fibre_steps = AtomicU64::new(0);
     let computing = control(arguments.threads, &fibre_steps);
-    let label = format!("flying {}", counted(flying.fibres(), "fibre"));
+    let label = format!("simulating {}", counted(flying.fibres(), "fibre"));
     let (steps, quiet) = (flying.steps(), arguments.output.quiet);
     let flown = progress::follow(&fibre_steps, steps, &label, quiet, || flying.fly(computing))?;
     let contents = PaperFolder {

@@ -26,9 +26,9 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let by = control(run.threads, &fibre_steps);
     let (started, plans, asked) = (Instant::now(), FinerPlans::for_case(&case), case.run.replicates);
     let fibres = counted(asked, "fibre");
-    let before = |left| aside(&run.output, &format!("going on: {left} of {fibres} were flown before"));
+    let before = |left| aside(&run.output, &format!("going on: {left} of {fibres} were simulated before"));
     let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), before);
-    let (steps, label) = (case.run.steps * asked, format!("flying {fibres}"));
+    let (steps, label) = (case.run.steps * asked, format!("simulating {fibres}"));
     let flown = progress::follow(&fibre_steps, steps, &label, quiet, work)?;
     let Flown { results, paths, replicates, kept } = flown;
     let paused = || Failure::Paused { done: replicates, total: Some(asked), noun: "fibre" };

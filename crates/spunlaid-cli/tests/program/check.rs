@@ -131,7 +131,7 @@ fn analytic_check_tells_the_numbers_of_a_web() {
         m/s; 20 m of filament on each metre of belt\n",
         "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
         "#   nothing is flown: the spread and the noise are given\n",
-        "#   the filaments are independent of each other, which gives a lower bound of the unevenness\n",
+        "#   the filaments are independent of each other, which gives a lower bound of the CV\n",
         "# expected, on ",
         "\n#   the web: about ",
         "\n#   advice, ",

@@ -31,7 +31,7 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
         said.contains("b against a\nCompared paired by replicate") && said.contains("(8 pairs)"),
         "{said}"
     );
-    assert!(said.contains("beyond chance"), "{said}");
+    assert!(said.contains("differ significantly"), "{said}");
     assert_eq!(desk.entries("c"), names(&["comparison.json", "figures", "origin.toml", "report.html"]));
     let found = json(&desk, "a b");
     let one = &found["comparisons"][0];

@@ -67,14 +67,11 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
         let text = text.replace(['\u{a0}', '\u{202f}', '\u{2009}'], " ");
         for part in [
             // The headline says both, and no basis weight, which is an input.
+            &format!("CV at least {:.1} ± {error:.1} % over 10 mm patches", 100.0 * of_web),
             &format!(
-                "The weight varies by at least {:.1} % over 10 mm: ± {error:.1} by chance",
-                100.0 * of_web
+                " patches; {from} to {to} % with the assumed values; the filaments are independent of each"
             ),
-            &format!(
-                " by chance, {from} to {to} % with what was assumed; the filaments are independent of each"
-            ),
-            "Guesses, of which the error knows nothing",
+            "The error excludes these assumed values",
             &format!("the CV over patches of 10 mm lies between {from} and {to} %"),
             "Filaments per metre: 1000",
             "Half of the throughput of a hole, 0.3 g/min, cannot be laid: ",

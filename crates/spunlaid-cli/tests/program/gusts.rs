@@ -27,7 +27,7 @@ fn slices_are_the_air_of_the_replicate() {
     let desk = Desk::new();
     let arguments = format!("air brief.toml --frames {FRAMES} --duration 40ms --replicate 3 --out a");
     let said = success(&mut desk.with(&arguments, &SMALL));
-    assert!(said.contains("Gusts of") && said.contains("open a/report.html"), "{said}");
+    assert!(said.contains("Turbulence of") && said.contains("open a/report.html"), "{said}");
     // The same numbers without a folder.
     let json = success(&mut desk.with(&arguments.replace("--out a", "--json"), &SMALL));
     assert!(
@@ -82,7 +82,7 @@ fn air_that_is_the_same_across_is_shown_as_neighbours_share_it() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && said.contains("air.lateral = \"uniform\""), "{said}");
     let page = String::from_utf8(desk.read("a/report.html")).unwrap();
-    assert!(page.contains("as neighbours share it") && page.contains("Gusts across the end of the way"));
+    assert!(page.contains("as neighbours share it") && page.contains("Eddies across the end of the path"));
 }
 
 #[test]

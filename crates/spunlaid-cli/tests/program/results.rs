@@ -232,7 +232,8 @@ fn invariant_headline_table_notes_and_json_have_one_error() {
         whole_errors += usize::from(number("error") > 1.5 * number("standard_error"));
         let shown = tidy(plus_minus(1e3 * number("mean"), Some(1e3 * number("error"))));
         assert!(tidy(row(label).to_owned()).contains(&shown), "{shown}\n{said}");
-        let headlines: Vec<_> = said.lines().filter(|line| line.starts_with("The free end swings")).collect();
+        let headlines: Vec<_> =
+            said.lines().filter(|line| line.starts_with("Amplitude of the free end")).collect();
         assert_eq!(headlines.len(), 1, "{said}");
         assert!(column != "amplitude_y_m" || tidy(headlines[0].to_owned()).contains(&shown), "{said}");
     }

@@ -66,7 +66,7 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let advice = without_commands(advice);
     assert_eq!(without_commands(desk.summary("one")["advice"].take()), advice);
     let said = desk::success(&mut desk.spunlaid("web beams.toml --out without --no-advice"));
-    assert!(said.contains("more even was not tried") && !said.contains("trying"), "{said}");
+    assert!(said.contains("more uniform was not computed") && !said.contains("trying"), "{said}");
     assert!(desk.summary("without").get("advice").is_none());
     refusal(&mut desk.spunlaid("web beams.toml --advice --no-advice"), 1);
 

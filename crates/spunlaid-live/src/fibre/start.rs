@@ -53,7 +53,7 @@ fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<
     let [asked_step, step] = [run.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
     let note = format!(
         "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the \
-        fibres fly with \"{}\" and {step}",
+        fibres move with \"{}\" and {step}",
         run.scheme.name(),
         Scheme::ImplicitTension.name()
     );

@@ -49,9 +49,7 @@ impl Session {
             Command::Save { name, replace } => return self.save(name, *replace).map(Some),
             Command::Look { .. } => {}
             Command::Case { .. } | Command::Pace { .. } | Command::Step {} | Command::Forget {} => {
-                return Err(Answer::refused(
-                    "the page of a line knows no such message; that of a fibre does",
-                ));
+                return Err(Answer::refused("the page of a line has no such message; that of a fibre does"));
             }
         }
         Ok(None)
@@ -119,7 +117,7 @@ impl Session {
         // Numbers that are not known are NaN, and equal to nothing.
         let is_same = |saved: LineFile| cases_of(saved.spec()) == cases_of(&line.spec);
         if self.is_elsewhere && !saved.is_ok_and(is_same) {
-            let text = "the line names files beside it, which a file in this folder would not find; start \
+            let text = "the line names files next to it, which a file in this folder would not find; start \
                 `spunlaid live` in the folder of the line";
             return Err(Answer::refused(text));
         }

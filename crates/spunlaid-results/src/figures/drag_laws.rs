@@ -19,8 +19,8 @@ pub(crate) fn of_files(drag: &Drag, diameter: f64) -> Vec<Figure> {
         let chart = chart
             .line(Series::new(&name, INK).width(2.5), &between)
             .scatter(Series::spots(&format!("{name}, rows"), INK).unlabelled(), &rows);
-        let caption = "The drag law of the case beside those that have a name and what was measured: its rows, and \
-            the interpolation between them.";
+        let caption = "The drag law of the case next to the named laws and to measurements: its rows, and the \
+            interpolation between them.";
         Figure::new(&chart, caption)
     };
     let mut figures = Vec::new();

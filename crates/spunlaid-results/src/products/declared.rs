@@ -115,12 +115,12 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         let (summary, report): (Json, _) =
             (serde_json::from_str(&read("summary.json")).unwrap(), read("report.html"));
         assert!(!text.contains("NaN") && !report.contains("NaN"), "{text}");
-        let says_all = report.contains("every filament of the sheet was flown");
+        let says_all = report.contains("every filament of the sheet was simulated");
         assert_eq!(says_all, findings.patches[0].evidence == Evidence::AllInOneAir, "{text}");
         if findings.patches[0].doubt.is_some() {
             let patch = &summary["web"]["patches"][0];
             assert!(patch["cv"].is_null() && patch.get("cv").is_some(), "{patch}");
-            assert_eq!(patch["no_interval"], "too few filaments were flown");
+            assert_eq!(patch["no_interval"], "too few filaments simulated");
         }
         for declared in OF_WEBS {
             let column = declared.column;

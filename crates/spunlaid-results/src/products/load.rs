@@ -65,7 +65,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         false => "",
     };
     Some(section.brief().caption(format!(
-        "The force is the drag on the flown filaments (without implicit tension the balance of their momentum), ± one \
+        "The force is the drag on the simulated filaments (without implicit tension the balance of their momentum), ± one \
         standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken \
         to keep its mass flow.{heat}"
     )))
@@ -82,12 +82,12 @@ pub fn load_words(load: &Load) -> String {
     });
     let missing = load.air.is_none().then(|| match load.places.is_empty() {
         true => {
-            "What the filaments do to their air can be found with the size of the slot: line.depth, beside \
+            "What the filaments do to their air can be found with the size of the slot: line.depth, next to \
             line.filaments_per_metre."
                 .to_owned()
         }
         false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it \
-        in line.depth, beside line.filaments_per_metre."
+        in line.depth, next to line.filaments_per_metre."
             .to_owned(),
     });
     let on_way = load.at_belt().map(on_way);

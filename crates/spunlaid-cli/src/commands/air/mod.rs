@@ -17,9 +17,9 @@ use spunlaid_results::products::air::{AirFolder, AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.
-const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres flies in turbulence of its \
-    own, which is the same across. What is shown is its air with air.lateral = \"von-karman\", as neighbours \
-    share it";
+const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres is simulated in independent \
+    turbulence, which is the same across. What is shown is its air with air.lateral = \"von-karman\", as \
+    neighbours share it";
 
 pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     if air.sources {
@@ -32,8 +32,8 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let (case, _) = air.source.read(&[], &resources)?;
     if !case.air.records.is_empty() {
         let fault = Fault::new(
-            "has the air of a record (air.record), which was measured at one point, so that nothing is known of its \
-             gusts in space",
+            "has the air of a record (air.record), which was measured at one point, so nothing is known of its \
+             eddies in space",
             "take the numbers and the spectrum of the record (spunlaid analyse) instead of it",
         );
         return Err(FileError::from(Problem::with_path(&air.source.case, fault)).into());

@@ -34,7 +34,7 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     let delivery = Delivery::open::<SourcesFolder<'_>>(invocation, [path], format!("{name}_sources"), shown)?;
     let done = AtomicU64::new(0);
     let (steps, replicates) = (case.run.steps * case.run.replicates, case.run.replicates);
-    let label = format!("flying {}", counted(replicates, "fibre"));
+    let label = format!("simulating {}", counted(replicates, "fibre"));
     let fly = || Sources::fly(case, &curtain, control(air.threads, &done));
     let sources = progress::follow(&done, steps, &label, quiet, fly)?;
     let contents = SourcesFolder::new(name, (input, case, notes), sources);
@@ -47,11 +47,11 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
 fn flown_case(web: &WebSpec) -> Result<&Case, Fault> {
     let [layer] = &web.layers[..] else {
         let layers = web.layers.len();
-        let each = format!("has {layers} layers, each in air of its own");
+        let each = format!("has {layers} layers, each in its own air");
         let message = format!("{each}, and sources are those of the filaments of one");
         return Err(Fault::new(message, "write a file for each layer"));
     };
-    let message = "lays known curves, and sources are those of flown filaments";
+    let message = "lays known curves, and sources are those of simulated filaments";
     let remedy = "name a case in laydown.case, or write its tables into the file";
     layer.source.case().ok_or_else(|| Fault::new(message, remedy))
 }
@@ -60,6 +60,6 @@ fn no_filaments() -> Fault {
     Fault::new(
         "does not say how many filaments there are, and sources are those of all filaments of a metre of width",
         "add [line] with filaments_per_metre = 5000 and [web] with the width and the length of a piece of its web, or \
-         name the file of a web that flies this case",
+         name the file of a web of this case",
     )
 }

@@ -43,6 +43,6 @@ fn show(kind: &str, (text, notes): (&str, &[Note]), comments: &[String], command
     say::text(text);
     say::line("");
     comments.iter().for_each(|comment| say::line(&format!("# {comment}")));
-    let ready = if is_doubtful { "doubtful, see the warnings above; as it stands" } else { "ready" };
+    let ready = if is_doubtful { "see the warnings above; as it is" } else { "ready" };
     say::line(&format!("# {ready}: spunlaid {command} {}", source.words(&stem(&source.case, kind))));
 }

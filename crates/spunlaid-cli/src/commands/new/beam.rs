@@ -51,6 +51,6 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         flow = significant(of_beam * 3600.0, 4),
         in_all = in_all,
         depth = length(value(&given.slot_depth).unwrap_or(DEPTH)),
-        guess = if given.slot_depth.is_none() { ", a guess" } else { "" },
+        guess = if given.slot_depth.is_none() { ", assumed" } else { "" },
     )
 }

@@ -23,8 +23,8 @@ pub(crate) fn new(new: &New, invocation: &Invocation) -> Result<(), Failure> {
     let (path, shown) = (&new.file, new.file.display());
     let case = if new.fed { starter_case_of_fed() } else { starter_case() };
     if is_standard(path) && (new.web || new.study) {
-        let of_web = "is standard output, and a web is written with the table of its air beside it";
-        let of_study = "is standard output, and a study stands beside the file that it varies";
+        let of_web = "is standard output, and a web is written with the table of its air next to it";
+        let of_study = "is standard output, and a study is written next to the file that it varies";
         let fault = Fault::new(if new.web { of_web } else { of_study }, "name a file");
         return Err(Error::folder(path, fault).into());
     }

@@ -75,7 +75,7 @@ fn filament(line: &NewLine<'_>) -> String {
 fn blown(line: &NewLine<'_>, cabin: Cabin) -> String {
     let coefficient = match line.given.air_speed {
         Some(_) => "of this pressure and the measured speed",
-        None => "assumed: a measured speed gives it (--air-speed beside --cabin-pressure)",
+        None => "assumed: a measured speed gives it (--air-speed with --cabin-pressure)",
     };
     format!(
         "cabin_pressure = \"{}\"   # above that under the belt: {} at the slot, Mach {}\n\

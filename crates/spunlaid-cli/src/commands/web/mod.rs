@@ -58,7 +58,7 @@ fn flying(quiet: bool) -> impl Fn(Flights<'_>, &mut (dyn FnMut() + Send)) {
         let Flights { path, fibres, done, steps, time_step } = flights;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let seconds = significant(steps as f64 * time_step, 3);
-        let label = format!("flying {} of {name}, {seconds} fibre-seconds", counted(fibres, "fibre"));
+        let label = format!("simulating {} of {name}, {seconds} fibre-seconds", counted(fibres, "fibre"));
         progress::follow(done, steps, &label, quiet, work);
     }
 }

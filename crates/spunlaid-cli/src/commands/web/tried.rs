@@ -21,7 +21,7 @@ pub(super) fn kept(delivery: &Delivery<'_>) -> Option<(PathBuf, Log)> {
     let log = Log::open(&file, KEPT_OUTCOMES).ok()?;
     let is_whole = !log.torn && log.damaged == 0;
     if !log.keys().is_empty() || !is_whole {
-        let torn = if is_whole { "" } else { "; a torn or damaged record is flown again" };
+        let torn = if is_whole { "" } else { "; a torn or damaged record is simulated again" };
         let flights = counted(log.keys().len() as u64, "flight");
         delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
     }

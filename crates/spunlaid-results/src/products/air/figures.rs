@@ -59,19 +59,19 @@ fn figure(case: &Case, slices: &Slices, i: usize, range: f64) -> Figure {
     let way = significant(case.way_of_air() * MM, 3);
     let (title, axis, caption) = match i {
         0 => (
-            "Gusts on the way",
+            "Eddies along the path",
             if case.line.is_some() { "*x* from the inlet (mm)" } else { "*x* from the root (mm)" },
             "Velocity of the air in machine direction in the plane of the way and the machine direction \
-            through the middle. The mean flow goes to the right; filaments that come down here are swung by \
+            through the middle. The mean flow goes to the right; filaments that land here are moved by \
             what they meet."
                 .to_owned(),
         ),
         _ => (
-            "Gusts across the end of the way",
+            "Eddies across the end of the path",
             "*z*, cross direction (mm)",
             format!(
-                "The same {way} mm from the start of the way, seen along it. Filaments beside each other \
-                that lie in one patch of colour are swung together."
+                "The same {way} mm from the start of the way, seen along it. Neighbouring filaments \
+                that lie in one patch of colour move together."
             ),
         ),
     };

@@ -22,13 +22,13 @@ pub fn air_report<'a>(
     let summary = summary(case, slices);
     let computed = Section::new("methods", "How it was computed").paragraph(
         "The air is a field of eddies in space with the lateral structure of von Kármán’s isotropic \
-        turbulence, carried by the mean flow (air.lateral = \"von-karman\"). Fibres of this case that fly \
+        turbulence, carried by the mean flow (air.lateral = \"von-karman\"). Fibres of this case \
         with the same seed and replicate meet this air. Waves across the flow \
         that are shorter than 2π length scales over air.lateral_cutoff are left out.",
     );
     let file = Section::new("file", "The case").file("case-toml", toml).caption(
         "along.pvd and across.pvd open the velocities, all three components, in ParaView, which shows \
-        them one after the other; all numbers are in summary.json, beside this page.",
+        them one after the other; all numbers are in summary.json, next to this page.",
     );
     Report::new("air", headline)
         .lead(summary)

@@ -149,7 +149,7 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
         &chart,
         "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and \
         bands are 95 % intervals: they hold the CV of all such webs, with the error of the model where \
-        fibres were flown. An open circle has no interval, so nothing is said about its difference; the \
+        fibres were simulated. An open circle has no interval, so nothing is said about its difference; the \
         table says why.",
     )
 }
@@ -175,9 +175,9 @@ pub fn overlaid_spectra(webs: &[ComparedSpectrum], cell: f64) -> Option<Figure> 
     }
     let about_blur = blurred.map_or_else(String::new, |(web, wave)| {
         format!(
-            " Waves shorter than {} mm, in the grey part, are below the blur of {}: one more pixel of blur \
-            would take more than one per cent of their amplitude, so the web itself is stronger there than \
-            its picture. The noise of a camera is in its spectrum, too.",
+            " Waves shorter than {} mm, in the grey part, are below the blur of {}. One more pixel of blur \
+            would take more than one per cent of their amplitude, so the web itself has stronger waves there than \
+            its scan. The noise of a camera is in its spectrum, too.",
             significant(wave * MM, 2),
             web.name
         )

@@ -48,7 +48,7 @@ pub struct ComparedMeasure {
     pub means: [Estimate; 2],
     /// None where there are too few replicates for an error, or there is a doubt.
     pub difference: Option<Difference>,
-    /// What a verdict within chance follows from, if the standard errors alone do not show it.
+    /// What a verdict of no significance follows from, if the standard errors alone do not show it.
     pub remark: Option<String>,
     /// Why one of the numbers is not to be had, so that nothing is said about the difference.
     pub doubt: Option<String>,
@@ -126,9 +126,9 @@ impl ComparedMeasure {
         let verdict = match self.difference {
             None => self.doubt.clone().unwrap_or_else(|| "too few data".to_owned()),
             Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same".to_owned(),
-            Some(d) if d.is_beyond_chance() => "beyond chance".to_owned(),
+            Some(d) if d.is_beyond_chance() => "significant".to_owned(),
             Some(_) => {
-                self.remark.iter().fold("within chance".to_owned(), |v, remark| format!("{v}: {remark}"))
+                self.remark.iter().fold("not significant".to_owned(), |v, remark| format!("{v}: {remark}"))
             }
         };
         [mean(&self.means[0]), mean(&self.means[1]), difference, verdict]

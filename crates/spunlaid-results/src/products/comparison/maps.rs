@@ -110,9 +110,9 @@ fn round_length(most: f64) -> f64 {
 /// What is said below pictures of webs.
 pub(super) fn caption(Pictures { sides: [width, length], pixel, .. }: &Pictures) -> String {
     format!(
-        "The middle of each web, {} across and {} along it, at the same scale and in the same shades: the \
+        "The middle of each web, {} across and {} along it, at the same scale and in the same shades. The \
         same shade is the same basis weight relative to the mean of the piece, lighter where there is less \
-        fibre. Black and white are three standard deviations of the most uneven piece apart from the mean. \
+        fibre. Black and white are three standard deviations of the least uniform piece from the mean. \
         The machine direction runs downwards. A pixel is {} wide in all pictures; finer maps are averaged to \
         it.",
         metres(*width),

@@ -20,7 +20,7 @@ pub fn comparison_report<'a>(
     let title = title(comparisons);
     let beside = pictures.map(|webs| {
         let view = View::new(&Beside::new(webs), &[]);
-        Section::new("pictures", "Beside each other").view(view).caption(caption(&webs.pictures))
+        Section::new("pictures", "Next to each other").view(view).caption(caption(&webs.pictures))
     });
     Report::new("compare", title)
         .with_all(beside)
@@ -40,8 +40,8 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     let section = Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
-            "Compared {reason}. {beyond} of {all} measures differ beyond chance (the 95\u{202f}% interval of \
-            the difference leaves out zero); of twenty without any difference, one would by chance."
+            "Compared {reason}. {beyond} of {all} measures differ significantly at 95\u{202f}% (the confidence \
+            interval of the difference excludes zero); of twenty equal measures, one is expected to."
         ))
         .table(table.rows(measures.iter().map(row)))
         .caption(format!("{errors} The difference has its standard error, towards the other value."));
@@ -84,9 +84,9 @@ fn title(comparisons: &[Comparison]) -> String {
     let differing = |comparison: &Comparison| match comparison.beyond_chance() {
         (_, 0) => match first_doubt(comparison) {
             Some(doubt) => format!("what differs is not known: {doubt}"),
-            None => "too few data to tell what differs".to_owned(),
+            None => "too few data to say what differs".to_owned(),
         },
-        (0, all) => format!("none of {all} measures differs beyond chance"),
+        (0, all) => format!("none of {all} measures differs significantly at 95\u{202f}%"),
         (beyond, all) => {
             format!("{beyond} of {all} measures differ{}", clearest(comparison).unwrap_or_default())
         }

@@ -105,7 +105,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
             weight(first)
         ),
         errors: "CV of the basis weight over square patches, ± one standard error: from the waves of each piece of \
-            web, and, where a few filaments were flown for all, from their small number.",
+            web and, where a sample of filaments was simulated, from its small size.",
         measures,
         causes: causes([first, other]),
     })
@@ -187,9 +187,9 @@ mod tests {
             }
             let verdict = of(1).cells()[3].clone();
             let told = if first.value > 1.0 && !is_beyond {
-                "within chance: 8.6 has the 95 % interval 7.45 to 23.8"
+                "not significant: 8.6 has the 95 % interval 7.45 to 23.8"
             } else {
-                "beyond chance"
+                "significant"
             };
             assert_eq!(verdict, told);
         }

@@ -47,7 +47,7 @@ fn unevenness(fit: &Fit) -> Figure {
     let patches: Vec<CurveRow> = fit.numbers.iter().filter_map(patch).collect();
     let chart = Chart::new(
         "fit_cv",
-        "Unevenness of the scan and of the simulated webs",
+        "CV of the scan and of the simulated webs",
         Axis::logarithmic("Side of a patch (mm)").in_column("patch_mm"),
         Axis::logarithmic("Coefficient of variation CV (%)").in_column("cv_percent"),
     );

@@ -162,7 +162,7 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
         };
         format!(
             "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs \
-            than any of them from the others. By chance alone this happens with {chance} % of such scans. \
+            than any of them from the others. This happens with {chance} % of scans that such webs give. \
             {others}"
         )
     });
@@ -207,7 +207,7 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             "a change of the first with one of the second".to_owned()
         };
         all.push(format!(
-            "The scan cannot tell {} and {} apart (correlation {}): {how} leaves it almost as it is. Measure \
+            "The scan cannot separate {} and {} (correlation {}): {how} leaves it almost as it is. Measure \
             one of them in another way, write its value in the file, and do not seek it.",
             one.key.name,
             other.key.name,

@@ -23,7 +23,7 @@ pub fn fit_report<'a>(
     let title = title(fit);
     let [width, length] = target.sides().map(|side| Dimension::Length.pretty(side));
     let summary = format!(
-        "Fitted to {scan}: a piece of {width} across and {length} along the web, beside {} simulated webs of \
+        "Fitted to {scan}: a piece of {width} across and {length} along the web, against {} simulated webs of \
         each trial.",
         fit.webs
     );
@@ -53,9 +53,9 @@ fn values(fit: &Fit) -> Section<'static> {
         .table(table.rows(fit.keys.iter().map(row)))
         .paragraphs(sentences_of(fit).into_iter().chain(refused(fit)))
         .caption(
-            "The interval is that of a scan of this size: each simulated web took the place of the scan, and \
-            the values that would be found for it scatter as those for a real scan do. The noise and the \
-            blur of the camera, the few flown fibres and the surrogate are in it, as far as they are known. \
+            "The interval is that of a scan of this size: each simulated web in turn replaced the scan, and \
+            the values found for it scatter as those for a real scan do. The noise and the \
+            blur of the camera, the sample of simulated fibres and the surrogate are in it, as far as they are known. \
             That the model of the line is right is not: other settings of keys that were not sought give \
             other values.",
         )

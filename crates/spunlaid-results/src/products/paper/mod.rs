@@ -55,7 +55,7 @@ impl PaperFolder<'_> {
     fn report(&self, toml: &str) -> Report<'_> {
         let holds = self.claims.iter().filter(|claim| claim.verdict == Verdict::Holds).count();
         let headline = match self.claims.len() {
-            0 => "The paper’s figures, drawn anew".to_owned(),
+            0 => "The paper’s figures, drawn again".to_owned(),
             all => format!("{holds} of the paper’s {all} claims hold"),
         };
         let verdicts = "The program computes the verdicts from the data. A trend is almost linear if a straight line \

@@ -26,7 +26,7 @@ pub fn analysis_report<'a>(
     let remarks: String = remarks.iter().map(|remark| format!(" {remark}.")).collect();
     let [of_air, components] = numbers(analysis);
     let computed = Section::new("methods", "How it was computed").descriptions(steps).caption(
-        "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, beside this page.",
+        "The curves are in spectrum.csv and autocorrelation.csv, all numbers in analysis.json, next to this page.",
     );
     Report::new("analyse", headline)
         .lead(summary + &remarks)
@@ -159,9 +159,9 @@ fn steps(analysis: &Analysis) -> Vec<(&'static str, String)> {
                 that ends at the cut-off has the same variance and the same plateau. {}",
                 hertz(flat.until),
                 if flat.from < spectrum.step {
-                    "The record is too short for segments, so that the mean is that of the Fourier components of the \
-                     whole record, at least ten if they lie below a third of the cut-off; it is corrected by half of \
-                     what the spectra of an exponential correlation and of von Kármán have fallen there."
+                    "The record is too short for segments, so the mean is that of the Fourier components of the \
+                     whole record, at least ten if they lie below a third of the cut-off. It is corrected by half of \
+                     the decrease that the spectra of an exponential correlation and of von Kármán have there."
                 } else {
                     "The mean ends at an eighth of the cut-off unless --flat-until gives another frequency. There most \
                      spectra have begun to fall, which makes the plateau one to two per cent too low and the cut-off \

@@ -125,7 +125,7 @@ fn error_of_mesh(case: &Case) -> Vec<String> {
             significant(100.0 * plan.share_of_run, 2)
         ),
         Err(why) => format!(
-            "  a run does not check it: {why}; or fly the case again with --set fibre.element_length=\"{half}\""
+            "  a run does not check it: {why}; or run the case again with --set fibre.element_length=\"{half}\""
         ),
     }];
     if case.line.is_none() && case.air.rms() > 0.0 {
@@ -214,7 +214,7 @@ fn idle_threads(case: &Case, threads: u64) -> Option<String> {
     let full = each * threads;
     (case.run.replicates < full && case.flights() < threads).then(|| {
         format!(
-            "  run.replicates = {full} take as long: a thread flies {each} at a time, and {threads} are free"
+            "  run.replicates = {full} take as long: a thread simulates {each} at a time, and {threads} are free"
         )
     })
 }

@@ -57,7 +57,7 @@ fn meaning(check: &FinerCheck) -> &'static str {
     let has_order = check.changes.iter().any(|change| change.is_second_order);
     match (check.refined, check.error_of_step()) {
         (Refinement::TimeStep, Some(1.0)) => {
-            "The finer step stands for the limit, so the difference is the error of the step."
+            "The finer step is taken as the limit, so the difference is the error of the step."
         }
         (Refinement::TimeStep, Some(_)) => "The error of the step is at most about 2.5 times as large.",
         (Refinement::TimeStep, None) => {
@@ -148,7 +148,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
             length(finer_elements(check))
         );
     }
-    "This run is too short to show whether their error is below 3 %; fly for longer".to_owned()
+    "This run is too short to show whether their error is below 3 %; simulate a longer time".to_owned()
 }
 
 #[cfg(test)]

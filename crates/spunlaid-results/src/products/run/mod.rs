@@ -168,7 +168,7 @@ impl RunFolder {
         if !is_whole {
             let asked = case.run.replicates;
             notes.push(format!(
-                "{replicates} of {asked} replicates: the run was interrupted, and the same command flies the others"
+                "{replicates} of {asked} replicates: the run was interrupted, and the same command simulates the others"
             ));
             Arc::make_mut(&mut case).run.replicates = replicates;
         }

@@ -61,7 +61,7 @@ pub fn scan_report<'a>(
     let caption = picture_note(&sheet) + spots + &marks_note(fabric);
     let read = Section::new("file", "The scan").table(Table::of_facts(facts)).caption(
         "The map is in map.npy (kg/m², or parts of the mean where that is not known; one row of the web after \
-        the other), all numbers in summary.json, beside this page.",
+        the other), all numbers in summary.json, next to this page.",
     );
     let web = Section::new("web", "The web on a light table")
         .view(sheet.view())
@@ -95,14 +95,13 @@ fn title(findings: &Findings) -> String {
     let (Some(guess), Some(patch)) = (findings.guess, patch) else {
         return headline(patch, false, None);
     };
-    let varies = |by: &str| {
-        format!("The weight varies by {by} {} over {}: {guess}.", rough(patch), millimetres(patch.patch))
-    };
+    let varies =
+        |by: &str| format!("CV {by} {} over {} patches: {guess}.", rough(patch), millimetres(patch.patch));
     match guess {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
         Doubt::White => varies("at least"),
         Doubt::Shading => varies("about"),
-        _ => format!("The CV of the web is not known: {guess}."),
+        _ => format!("CV not known: {guess}."),
     }
 }
 
@@ -124,7 +123,7 @@ fn uneven(findings: &Findings) -> Section<'static> {
     let heads = ["Patch", "CV", "95 % interval"].into_iter();
     let heads = heads.chain(told_of(findings).map(|measure| measure.label));
     let is_map = is_map(findings);
-    Section::new("verdict", "What makes it uneven")
+    Section::new("verdict", "What makes it non-uniform")
         .paragraphs(verdict(findings))
         .table(Table::new(heads).rows(findings.patches.iter().map(|patch| row(findings, patch))))
         .caption(format!(
@@ -140,7 +139,7 @@ fn uneven(findings: &Findings) -> Section<'static> {
 
 /// What is said below streaks.
 const ABOUT_STREAKS: &str = "Fits of normal profiles to the mean along the machine, less a polynomial of fourth \
-    degree over the whole width, so that no shading counts and no streak is wider than a sixth of the scan. One scan \
+    degree over the whole width, so no shading counts and no streak is wider than a sixth of it. One scan \
     of twenty without streaks has one or a period. What the lamp or the scanner makes stays at its position when the \
     web is moved: move it, and scan again.";
 

@@ -42,7 +42,7 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     };
     let met = sources.cells.iter().filter(|cell| cell.hits > 0).count();
     let lead = format!(
-        "{} flown filaments, for {} per metre of width, have met {met} of the {} cells of the field. The sources are \
+        "{} simulated filaments, for {} per metre of width, have met {met} of the {} cells of the field. The sources are \
          Su + Sp U per volume, means over time and replicates with standard errors.{without_heat}",
         sources.replicates,
         number(sources.filaments_per_metre),
@@ -70,10 +70,10 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     });
     let difference = match sources.are_steady() {
         true => {
-            "they differ by chance, and with elements longer than a hundredth of the way by what the belt does to the \
-             last of them"
+            "they differ by the sampling error and, with elements longer than a hundredth of the path, by what the belt \
+             does to the last of them"
         }
-        false => "they differ by more than chance, so the flights are not steady and no fields are written",
+        false => "they differ significantly, so the motion is not steady and no fields are written",
     };
     let sums = Section::new("sums", "Sums")
         .open()
@@ -106,12 +106,12 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     let arrays_of_heat = if sources.heat.is_ok() { "Sh, ShT, heat, " } else { "" };
     let fields = format!(
         "sources.vtu has the cells with Su, Sp, {arrays_of_heat}their standard errors, the force in the given air and \
-         the number of hits.{openfoam} All sums are in summary.json, beside this page."
+         the number of hits.{openfoam} All sums are in summary.json, next to this page."
     );
     let fields = if sources.are_steady() {
         fields
     } else {
-        "All sums are in summary.json, beside this page.".to_owned()
+        "All sums are in summary.json, next to this page.".to_owned()
     };
     let file = Section::new("file", "The input").file("case-toml", toml).caption(fields);
     Report::new("air", headline)

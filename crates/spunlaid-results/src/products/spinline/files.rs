@@ -130,7 +130,7 @@ pub fn write_stations(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])])
 pub fn model_error(has_low_birefringence: bool) -> String {
     let of_modulus = if has_low_birefringence {
         "The birefringence of polypropylene is 3 to 5 times too low, because crystals orient more than the \
-        stress of the melt does; so the modulus that follows from it is too low, and neither is an estimate \
+        stress of the melt does. The modulus that follows from it is too low as well. Neither is an estimate \
         of a real filament."
     } else {
         "The modulus can be wrong by a factor of two."
@@ -174,7 +174,7 @@ pub fn filament(case: &Case) -> Vec<String> {
 pub fn freezing(solution: &Solution) -> String {
     let point = solution.freezing;
     format!(
-        "The thread is drawn {}-fold and freezes {} below the die, at {}, {}, under a stress of {} MPa and \
+        "The filament is drawn {}-fold and solidifies {} below the die, at {}, {}, under a stress of {} MPa and \
         while it cools at {} K/s.",
         significant(solution.draw_ratio(), 3),
         Dimension::Length.pretty_to(point.distance, 3),

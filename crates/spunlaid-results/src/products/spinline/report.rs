@@ -36,11 +36,11 @@ pub fn spinline_report<'a>(
         )
         .file("spinline-toml", toml)
         .caption(
-            "The thread from the die to the end is in spinline.parquet, all numbers are in summary.json, and \
-            the numbers of each figure in figures/, beside this page.",
+            "The filament from the die to the end is in spinline.parquet, all numbers are in summary.json, and \
+            the numbers of each figure are in figures/, next to this page.",
         );
     let (main, others) = figures.split_at(MAIN.min(figures.len()));
-    let thread = Section::new("thread", "The thread from the die to the end").figures(main).open();
+    let thread = Section::new("thread", "The filament from the die to the end").figures(main).open();
     Report::new("spin", headline)
         .lead(summary(spec, rows))
         .with(thread)
@@ -132,7 +132,7 @@ pub(crate) fn section_of_fibre<'a>(case: &Case, results: &SpinResults, figures: 
         _ => "diameter, density and speed",
     };
     let sentences = results.rows.first().map(|solution| {
-        format!("{} {} This gives the fibre that flies its {gives}.", headline(solution), freezing(solution))
+        format!("{} {} This gives the simulated fibre its {gives}.", headline(solution), freezing(solution))
     });
     section(Section::new("spinline", "Spinline"), sentences.into_iter().collect(), results, figures)
 }
@@ -191,10 +191,10 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
     };
     vec![
         (
-            "The thread",
+            "The filament",
             format!(
                 "One filament in steady state, with values averaged over its cross-section: {melt}. It is \
-                solid from the temperature at which the polymer freezes.{crystals}"
+                solid below the solidification temperature of the polymer.{crystals}"
             ),
         ),
         (

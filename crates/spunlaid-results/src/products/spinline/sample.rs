@@ -55,13 +55,13 @@ pub fn influences() -> Vec<Influence> {
         Tried { change, effects: effects.to_vec(), at_first: Vec::new() }
     };
     vec![
-        one("spinline.velocity_factor", "Air velocity along the thread, from 10 m/s", false, -0.78),
+        one("spinline.velocity_factor", "Air velocity along the filament, from 10 m/s", false, -0.78),
         one("spinline.throughput", "Throughput", false, 0.43),
         one("drag.friction_coefficient", "Friction coefficient *β*", false, -0.30),
         one("spinline.melt_flow_rate", "Melt flow rate", false, -0.27),
         one("spinline.die_temperature", "Die temperature", true, -0.057),
         one("spinline.temperature_offset", "Air temperature", true, -0.018),
-        one("spinline.material.freezing_temperature", "Freezing temperature", true, 0.006),
+        one("spinline.material.freezing_temperature", "Solidification temperature", true, 0.006),
         one("spinline.hole_diameter", "Hole diameter", false, 0.14),
     ]
 }

@@ -80,7 +80,7 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
         the points best, or from one word to another, ± one standard error. Grey values \
         have a 95\u{202f}% confidence interval that contains zero. “Explained” is the fraction of the variation \
         between points that straight lines explain (adjusted R²). If it is low, the response is curved or the factors \
-        act together, and the figures tell more than the ranking. {}",
+        act together, and the figures say more than the ranking. {}",
         intervals(study)
     )))
 }
@@ -100,7 +100,7 @@ fn points_in_short(study: &Study, results: &[PointResults]) -> Section<'static> 
     let title = if study.noun() == "web" {
         let is_of_web = |i: &usize| IN_SHORT.contains(&study.quantities[*i].figure.name);
         shown.retain(is_of_web);
-        "Unevenness, CV in % ± its error by all causes that are known, over patches of this side"
+        "CV of basis weight in %, ± its total standard error, over patches of this side"
     } else {
         shown.truncate(MEASURES);
         "Points"
@@ -177,13 +177,13 @@ fn cited(study: &Study) -> Vec<Reference> {
 fn question(study: &Study) -> String {
     let names: Vec<String> = study.factors.iter().map(|factor| name_of_key(&factor.key.name)).collect();
     let what = match study.points.first().map(|point| &point.experiment) {
-        Some(Experiment::Web(_)) => "evenness of the web",
+        Some(Experiment::Web(_)) => "uniformity of the web",
         Some(Experiment::Spinline(_)) => "filament",
         Some(Experiment::Case(case)) if case.line.is_some() => "laid fibre",
         _ => "fibre’s motion",
     };
     match names.as_slice() {
-        [] if study.noun() == "web" => "How even is the web?".to_owned(),
+        [] if study.noun() == "web" => "How uniform is the web?".to_owned(),
         [] if study.noun() == "spinline" => "Which filament does the line make?".to_owned(),
         [] => "How does the fibre move?".to_owned(),
         [one] => format!("How does the {what} depend on the {one}?"),
@@ -205,7 +205,7 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let known = effects.iter().filter(|effect| effect.difference.is_beyond_chance());
     let Some(effect) = known.max_by(|a, b| size(a).total_cmp(&size(b))) else {
         let all_known = effects.iter().all(|effect| effect.difference.known_half_width().is_some());
-        return all_known.then(|| format!("{label} does not change beyond chance"));
+        return all_known.then(|| format!("{label} does not change significantly"));
     };
     let name = name_of_key(&study.factors[effect.of.factor].key.name);
     let [from, to] = ends(study, effect.of);
@@ -328,7 +328,7 @@ fn phases(study: &Study) -> &'static str {
     } else if study.noun() == "web" {
         "Replicate 1 of every point has the same random numbers, and likewise replicate 2 and so on, as far as the \
          keys allow. Errors are those of the scatter of the webs of a point, or of the parts of a single web; \
-         where a few filaments were flown for all, with the error by these."
+         where a sample of filaments was simulated, with the error of the sample."
     } else if study.common_phases {
         "Common phases: replicate 1 of every point has the same random phases of the turbulence, and \
         likewise replicate 2 and so on. Differences between points are therefore more certain than their \

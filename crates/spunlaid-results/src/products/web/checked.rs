@@ -142,7 +142,7 @@ fn air(spec: &WebSpec) -> Vec<String> {
         let path = layer.source.path().display();
         match &layer.source {
             LaydownSource::Surrogate(_) => {
-                vec!["  nothing is flown: the spread and the noise are given".to_owned()]
+                vec!["  nothing is simulated: the standard deviations and the noise are given".to_owned()]
             }
             LaydownSource::Case { case, .. } => {
                 let eddies = format!("  {path}: its eddies lie in space (air.lateral = \"von-karman\")");
@@ -182,7 +182,7 @@ fn place_in_field(placed: &PlacedField, filaments: &Filaments) -> String {
     let [_, machine, cross] = placed.axes().map(Axis::name);
     format!(
         "  the middle of the slot is at {} of the field (air.field_root); filaments are fed {fed} from there along the \
-        machine direction, {machine}, and side by side along the cross direction, {cross}, where all meet the same \
+        machine direction, {machine}. They hang side by side along the cross direction, {cross}, in the same \
         mean flow",
         PlacedField::in_words(placed.root)
     )
@@ -202,8 +202,8 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         let of = if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() };
         match flight.is_few {
             true => format!(
-                "  {}{of} fly in one field of eddies, on a sheet of {width} × {length}; the web of {all} \
-                follows from them (web.flown){}",
+                "  {}{of} are simulated in shared turbulence, on a sheet of {width} × {length}; the web of {all} \
+                is estimated from them (web.flown){}",
                 counted(flight.filaments, "filament"),
                 match flight.coarse_sheets {
                     0 => String::new(),
@@ -214,7 +214,7 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
                 }
             ),
             false => format!(
-                "  all {}{of} fly in one field of eddies, so that neighbours come down together",
+                "  all {}{of} are simulated in shared turbulence, so neighbours land together",
                 counted(flight.filaments, "filament")
             ),
         }
@@ -318,17 +318,16 @@ fn guesses(spec: &WebSpec) -> Vec<String> {
         return Vec::new();
     }
     let each = format!(
-        "  {}: spunlaid web also gives the CV for half and twice of each, from a few filaments",
+        "  {}: spunlaid web also gives the CV for half and twice of each, from a sample of filaments",
         spec.guessed.join(", ")
     );
-    vec!["guesses (web.guessed)".to_owned(), each]
+    vec!["assumed values (web.guessed)".to_owned(), each]
 }
 
 /// That the web is a lower bound, and the way out of it.
 fn independent() -> Vec<String> {
     vec![
-        "  the filaments are independent of each other, which gives a lower bound of the unevenness"
-            .to_owned(),
-        "  to fly them in one air, as in a line: name a case in laydown.case".to_owned(),
+        "  the filaments are independent of each other, which gives a lower bound of the CV".to_owned(),
+        "  to simulate them in shared turbulence, as in a line: name a case in laydown.case".to_owned(),
     ]
 }

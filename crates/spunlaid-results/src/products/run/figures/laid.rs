@@ -147,7 +147,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     let label = |direction| Axis::linear(&format!("{direction} direction (mm)"));
     let chart = Chart::new(
         "footprint",
-        "Where the fibre comes down",
+        "Where the fibre lands",
         label("Machine").in_column("md_mm"),
         label("Cross").in_column("cd_mm"),
     )
@@ -156,10 +156,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     .when_empty("too little has been laid to be shown");
     let half = REACH * md.max(cd);
     if points.is_empty() || !(md > 0.0 && cd > 0.0 && half.is_finite()) {
-        return Figure::new(
-            &chart,
-            "Too little was laid after the spin-up to say where the fibre comes down.",
-        );
+        return Figure::new(&chart, "Too little was laid after the spin-up to say where the fibre lands.");
     }
     let values = density(&points, half);
     let largest = values.iter().copied().fold(0.0, f64::max);
@@ -185,8 +182,8 @@ fn footprint(case: &Case, results: &Results) -> Figure {
         .path(Series::new("1 *σ*", VERMILION).width(1.8), ellipse(1.0))
         .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed(&[7.0, 4.0]), ellipse(2.0));
     let caption = format!(
-        "Share of the fibre per square centimetre of belt, about the straight trace, which a fibre would leave \
-         that came down at one place; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: \
+        "Fraction of the fibre per square centimetre of belt, about the straight trace that a fibre \
+         would leave if it landed at one point; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: \
          {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal \
          distribution it would be 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),

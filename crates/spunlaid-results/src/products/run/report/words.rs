@@ -39,11 +39,13 @@ fn found(case: &Case, estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
         (true, _) => "The free end does not move sideways.".to_owned(),
         (false, true) if frequency.mean.is_finite() => {
             let frequency = estimate_text(&frequency, 1.0);
-            format!("The free end swings {amplitudes}, at a mean frequency of {frequency}{THIN}Hz.")
+            format!("Amplitude of the free end: {amplitudes}, at a mean frequency of {frequency}{THIN}Hz.")
         }
-        (false, true) => format!("The free end swings {amplitudes}."),
+        (false, true) => format!("Amplitude of the free end: {amplitudes}."),
         (false, false) => {
-            format!("The free end moves by {amplitudes} (standard deviation) without swinging through zero.")
+            format!(
+                "Amplitude of the free end: {amplitudes} (standard deviation). It does not cross its axis."
+            )
         }
     };
     (sentence, !moving.is_empty())
@@ -80,7 +82,7 @@ pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
         format!(
             "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over \
             arc in the table, and the finest bends in the pictures) is a result as well. Halve \
-            fibre.element_length to see how well it stands."
+            fibre.element_length to check it."
         )
     } else {
         format!(
@@ -154,7 +156,7 @@ pub(super) fn case(case: &Case) -> String {
     if let Some(line) = case.line {
         let support = if fibre.root == Root::Clamped { "" } else { ", free to turn at the inlet," };
         return format!(
-            "A fibre of {} diameter is fed at {}{support} and comes down {medium}, on a belt {} below the \
+            "A fibre of {} diameter is fed at {}{support} and falls {medium} onto a belt {} below the \
             inlet that moves at {}. {computed} The fibre is divided into elements of {}.",
             length(fibre.diameter),
             quantity(line.feed_speed, "m/s"),

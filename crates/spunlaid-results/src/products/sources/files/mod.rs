@@ -31,8 +31,8 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
     (!sources.are_steady()).then(|| {
         format!(
             "the force of the filaments on the air is {drag} N/m by their drag and {balance} N/m by the balance of \
-             their momentum, which differ by more than chance: the flights are not steady, most likely because \
-             run.spin_up = {} is too short for filaments that need {} to come down. No fields are written; write \
+             their momentum, which differ significantly. The motion is not steady, most likely because \
+             run.spin_up = {} is too short for filaments that need {} to land. No fields are written; write \
              run.spin_up = \"{}\" or more, and lengthen run.duration by as much",
             time(spin_up),
             time(way),
@@ -54,8 +54,8 @@ pub fn outside_of_cells(sources: &Sources) -> Option<String> {
     (share > MUCH_OUTSIDE).then(|| {
         format!(
             "{} % of the force of the filaments on the air is outside of the cells of air.field and is in no source: \
-             {} N/m beside {} N/m. Does the field reach from the inlet to the belt, and as far to both sides as the \
-             filaments swing?",
+             {} N/m of {} N/m. Does the field reach from the inlet to the belt, and as far to both sides as the \
+             filaments move?",
             significant(share * 100.0, 2),
             significant(outside, 3),
             significant(inside, 3)

@@ -34,7 +34,7 @@ pub fn spinline_figures(prefix: &str, rows: &[Solution], influences: &[Influence
 /// from there on.
 const BEYOND_FREEZING: f64 = 1.25;
 
-/// A quantity of the thread, in the unit of its axis.
+/// A quantity of the filament, in the unit of its axis.
 type Quantity = fn(&Station) -> f64;
 
 /// A row of filaments to draw: its name, nothing if there is only one, and its colour.
@@ -101,8 +101,9 @@ fn with_points<'a, P: Iterator<Item = (f64, f64)>>(
 ) -> Chart {
     rows.iter().enumerate().fold(chart, |chart, (i, row)| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
-        let line = Series::new(&row.label("thread"), row.colour).width(2.0);
-        let freezing = Series::new("freezing point", row.colour).named(&row.label("freezing point"));
+        let line = Series::new(&row.label("filament"), row.colour).width(2.0);
+        let freezing =
+            Series::new("solidification point", row.colour).named(&row.label("solidification point"));
         let frozen = row.solution.freezing.distance * MM;
         chart
             .line(keyed(line, is_keyed), points(row))
@@ -115,19 +116,19 @@ fn about_freezing(rows: &[ThreadRow<'_>]) -> String {
     let [first, ..] = rows else { return String::new() };
     let rows = if first.name.is_empty() { "" } else { " of each row" };
     format!(
-        "The dashed line marks the freezing point{rows}: from there on the filament is solid and keeps its speed."
+        "The dashed line marks the solidification point{rows}: from there on the filament keeps its speed."
     )
 }
 
 fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
-    let title = "Speed and diameter of the thread";
+    let title = "Speed and diameter of the filament";
     let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
     let speed = with_rows(speed, rows, |station| station.speed, true);
     let speed = with_air(speed, rows, |station| station.air_velocity);
     let diameter = chart(prefix, "diameter", title, Axis::logarithmic("Diameter *d* (µm)"));
     let diameter = with_rows(diameter, rows, |station| station.diameter * MICROMETRES, false);
     let caption = format!(
-        "Speed and diameter of the thread, averaged over its cross-section, and the velocity of the air along it. {}",
+        "Speed and diameter of the filament, averaged over its cross-section, and the velocity of the air along it. {}",
         about_freezing(rows)
     );
     Figure::stacked(
@@ -148,26 +149,26 @@ fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
 }
 
 fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
-    let title = "Temperature of the thread and of the air";
+    let title = "Temperature of the filament and of the air";
     let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
     let chart = with_rows(chart, rows, |station| station.temperature - ZERO_CELSIUS, true);
     let chart = with_air(chart, rows, |station| station.air_temperature - ZERO_CELSIUS);
     let caption = format!(
-        "Temperature of the thread, averaged over its cross-section, and of the air around it. {}",
+        "Temperature of the filament, averaged over its cross-section, and of the air around it. {}",
         about_freezing(rows)
     );
     Figure::new(&chart, caption)
 }
 
 fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
-    let title = "Tension and stress of the thread";
+    let title = "Tension and stress of the filament";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
     let tension = with_rows(tension, rows, |station| station.tension * 1e3, true);
     let stress = chart(prefix, "stress", title, Axis::linear("Stress *N*_{1} (MPa)").zero_based());
     let stress = with_rows(stress, rows, |station| station.stress * 1e-6, false);
     let caption = format!(
-        "Above, the force in the thread; below, the stress in its cross-section. The stress at the freezing \
-        point orients the polymer, and so decides birefringence and modulus. {}",
+        "Above, the force in the filament; below, the stress in its cross-section. The stress at the \
+        solidification point orients the polymer, and so decides birefringence and modulus. {}",
         about_freezing(rows)
     );
     Figure::stacked(
@@ -180,7 +181,7 @@ fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
 
 /// From the freezing point on it is zero, at once.
 fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
-    let title = "Strain rate of the thread";
+    let title = "Strain rate of the filament";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
     let chart = with_points(
@@ -195,20 +196,19 @@ fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
         true,
     );
     let caption = format!(
-        "How fast the thread is stretched, up to a little below the freezing point. {}",
+        "Rate of stretching of the filament, up to a little below the solidification point. {}",
         about_freezing(rows)
     );
     Figure::new(&chart, caption)
 }
 
 fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
-    let title = "Transformed share of the polymer";
-    let up = Axis::linear("Transformed share *θ* (–)").zero_based().in_column("transformed");
+    let title = "Transformed fraction of the polymer";
+    let up = Axis::linear("Transformed fraction *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);
     let chart = with_rows(chart, rows, |station| station.transformed, true);
     let caption = format!(
-        "The share of the crystals that could form which has formed; 1 is the crystallinity that the polymer \
-        reaches. {}",
+        "Crystallinity over the largest crystallinity that the polymer reaches. {}",
         about_freezing(rows)
     );
     Figure::new(&chart, caption)
@@ -227,7 +227,8 @@ fn curtain_figure(prefix: &str, rows: &[Solution]) -> Figure {
             )
     };
     let diameter = chart("diameter", "Diameter *d*, cold (µm)", |row| row.final_diameter * MICROMETRES);
-    let freezing = chart("freezing", "Freezing point, below the die (mm)", |row| row.freezing.distance * MM);
+    let freezing =
+        chart("freezing", "Solidification point, below the die (mm)", |row| row.freezing.distance * MM);
     Figure::stacked(
         &format!("{prefix}_rows"),
         title,

@@ -35,9 +35,9 @@ fn the_numbers_of_a_figure_are_those_of_the_thread() {
     let csv = |name: &str| figures.iter().find(|figure| figure.name == name).unwrap().table().csv();
     let text = csv("l_speed_and_diameter");
     assert_eq!(text.lines().next(), Some("series,distance_from_the_die_mm,speed_m_s,diameter_um"));
-    let last = text.lines().rfind(|line| line.starts_with("thread,") && !line.ends_with(',')).unwrap();
+    let last = text.lines().rfind(|line| line.starts_with("filament,") && !line.ends_with(',')).unwrap();
     let end = rows[0].end();
-    assert_eq!(last, format!("thread,{},,{}", 1e3 * end.distance, 1e6 * end.diameter));
+    assert_eq!(last, format!("filament,{},,{}", 1e3 * end.distance, 1e6 * end.diameter));
     let frozen = 1e3 * rows[0].freezing.distance;
     assert!(text.contains(&format!("freezing point,{frozen},")), "{text}");
     let influences = csv("l_influences");

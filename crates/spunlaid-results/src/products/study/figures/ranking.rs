@@ -68,8 +68,8 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         ""
     };
     let caption = format!(
-        "Change of the {} from the least to the greatest value of each factor, on the straight line that \
-        fits the points best while the other factors stay constant.{of_words} The bars are 95 % confidence \
+        "Change of the {} from the least to the greatest value of each factor, by linear regression with the \
+        other factors constant.{of_words} Bars are 95 % confidence \
         intervals; if a bar crosses zero, there may be no effect.{explained}",
         group.figure.words,
     );

@@ -32,7 +32,7 @@ fn octaves(clouds: &Clouds, cell: f64) -> Figure {
         .collect();
     let chart = Chart::new(
         "web_clouds",
-        "Which clouds make the web uneven",
+        "Clouds that contribute to the CV",
         Axis::logarithmic("Wavelength (mm), an octave each").in_column("wavelength_mm"),
         Axis::linear("Part of CV^{2} (%^{2})").zero_based().in_column("part_of_cv_squared_percent2"),
     );
@@ -75,7 +75,7 @@ fn spectrum(clouds: &Clouds) -> Figure {
     Figure::new(
         &chart,
         "One-sided power spectral density of the basis weight over its mean, by wave number along each \
-        direction and averaged over the other; its integral over wave number (one over the wavelength) is \
+        direction and averaged over the other. Its integral over wave number (one over the wavelength) is \
         CV² of the cells. Mean over square tiles of the sheet with a Hann window.",
     )
 }

@@ -33,9 +33,9 @@ pub(super) fn charge(laid: &LaidWeb) -> Option<Figure> {
     }
     Some(Figure::new(
         &chart,
-        "Where the filaments hung above the belt at the end of their flight, as a mean over the time in \
-        which one comes down: the places in machine direction between which 95 % and half of the length of \
-        all filaments hangs, over the distance from the inlet. Their charge drives them apart.",
+        "Positions of the filaments above the belt at the end of the simulation, as a mean over the time in \
+        which one lands. 95 % and half of the length of all filaments hang between these positions in machine \
+        direction, over the distance from the inlet. Their charge drives them apart.",
     ))
 }
 
@@ -73,9 +73,9 @@ pub(super) fn neighbours(layers: &[LayerFlown]) -> Option<Figure> {
     }
     Some(Figure::new(
         &chart,
-        "Correlation of the places where two filaments of the web come down at equal fed length, over the \
-        distance of their inlets in cross direction: one if they come down beside each other all the time, \
-        zero if their places are independent. Filaments of one row are compared with those of the same \
+        "Correlation of the positions where two filaments of the web land at equal fed length, over the \
+        distance of their inlets in cross direction. It is one if they always land next to each other, and \
+        zero if their positions are independent. Filaments of one row are compared with those of the same \
         row, those in a slot wherever they hang in its depth. Bars are one standard error, from the scatter \
         between stretches of the fibre and from the places of the filaments.",
     ))

@@ -37,17 +37,17 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
     let (name, title, what) = match are_guesses {
         true => (
             "web_guesses",
-            "How much the guesses matter",
-            "when a number that is a guess is half or twice as large",
+            "Influence of the assumed values",
+            "when an assumed value is half or twice as large",
         ),
         false => (
             "web_advice",
-            "What would make the web more even",
+            "What would make the web more uniform",
             "at the same basis weight when one setting of the line is changed and the belt follows",
         ),
     };
     let caption = format!(
-        "Change of the CV over patches of {side}, as a share of it, {what}. The bars are 95 % confidence \
+        "Change of the CV over patches of {side}, as a fraction of it, {what}. The bars are 95 % confidence \
         intervals; if a bar crosses zero, there may be no effect."
     );
     let figure = EffectsFigure { name: name.to_owned(), title: title.to_owned(), panels: vec![panel] };

@@ -72,7 +72,7 @@ fn directions(findings: &Findings) -> Figure {
     };
     let orientation = &found.cos_squared;
     rose.figure(format!(
-        "Share of the mass by direction, in the sense in which the fibre was fed, times the number of \
+        "Fraction of the mass by direction, in the sense in which the fibre was fed, times the number of \
         classes. The mean of the squared cosine of the angle to the machine direction is {}; without \
         orientation it is ½. MD over CD: {}.",
         crate::numbers::plus_minus(orientation.mean, orientation.standard_error),

@@ -38,8 +38,8 @@ pub(super) fn laid(web: &Web, findings: &Findings) -> Figure {
             "edge of the web",
             format!(
                 "The dashed lines are the edges of the web at {} and {} mm, 3 σ_CD beyond the outermost \
-                filaments or where the sheet cuts it. It is thinner in the grey strips beside them, {} and \
-                {} mm wide: these show here only, and no other number holds them.",
+                filaments or where the sheet cuts it. It is thinner in the grey strips next to them, {} and \
+                {} mm wide. These are shown here only and are in no other number.",
                 millimetres(edges[0]),
                 millimetres(edges[1]),
                 millimetres(margins[0] - edges[0]),
@@ -47,8 +47,8 @@ pub(super) fn laid(web: &Web, findings: &Findings) -> Figure {
             ),
         ),
     };
-    let streaks = "These are streaks, which filaments at fixed places leave in the web; they are weaker \
-        where nozzles stand at an even pitch (line.rows).";
+    let streaks = "These are streaks, which filaments at fixed positions leave in the web; they are weaker \
+        where the holes have a constant pitch (line.rows).";
     profiles(&findings.laid.map, GRAMS, streaks, &SheetPosition { edges, margins, label, words })
 }
 
@@ -71,7 +71,7 @@ pub(super) fn streaks(search: &StreakSearch) -> Figure {
     let mut chart = Chart::new("web_streaks", "", x, Axis::linear("Basis weight from the mean (%)"));
     let chance = limits.first().map_or(0.0, |limit| limit.amplitude * PER_CENT);
     let band = [(0.0, -chance, chance), (width, -chance, chance)];
-    chart = chart.band(Series::new("within chance, of the narrowest streaks", GREY), band);
+    chart = chart.band(Series::new("not significant, of the narrowest streaks", GREY), band);
     for (i, streak) in streaks.iter().enumerate() {
         let series = Series::new("streak", VERMILION);
         let half = WIDTH / 2.0 * streak.sigma;

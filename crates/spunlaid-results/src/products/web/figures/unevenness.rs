@@ -12,7 +12,7 @@ use spunlaid_charts::{Axis, Chart, Figure, Series};
 pub(crate) fn empty_chart() -> Chart {
     Chart::new(
         "web_cv",
-        "Unevenness over the size of the patches",
+        "CV of basis weight over the size of the patches",
         Axis::logarithmic("Side of a patch (mm)").in_column("patch_mm"),
         Axis::logarithmic("Coefficient of variation CV (%)").in_column("cv_percent"),
     )
@@ -31,9 +31,9 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
     let chart = joined(chart, Series::spots("this scan", BLUE), &found);
     Figure::new(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean. Bars are one standard error by \
-         chance, that of one piece of web; there is none where it cannot be known. Dashed: the CV of the noise of the \
-         pixels alone, as it was given, or else the most that neighbouring pixels allow; the finest structure of \
+        "Standard deviation of the basis weight of square patches over its mean. Bars are the sampling error of \
+         one piece of web (one standard error); there is none where it cannot be known. Dashed: the CV of the noise \
+         of the pixels alone, as it was given, or the most that neighbouring pixels allow. The finest structure of \
          the web is in it.",
     )
 }
@@ -49,13 +49,16 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let straight = patches().map(|patch| (patch.map.patch * MM, patch.straight_fibres * PER_CENT));
     let mut chart = empty_chart().line(Series::reference("straight fibres at random"), straight);
     let is_shared = findings.laid.evidence() != Evidence::Known;
-    let of_single =
-        if is_shared { "the same filaments in airs of their own" } else { "expected, from single fibres" };
+    let of_single = if is_shared {
+        "the same filaments in independent turbulence"
+    } else {
+        "expected, from single fibres"
+    };
     if !single.is_empty() {
         chart = chart.line(Series::new(of_single, VERMILION).width(1.8), &single);
     }
     let of_few = findings.patches.iter().any(|patch| patch.few.is_some());
-    let spots = if of_few { "the web of all filaments, from the flown ones" } else { "this map" };
+    let spots = if of_few { "the web of all filaments, from the simulated ones" } else { "this map" };
     let spots = Series::spots(spots, BLUE);
     let chart = if is_shared { joined(chart, spots, &map) } else { chart.scatter(spots, &map) };
     let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
@@ -72,10 +75,10 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
     let caption = format!(
         "Standard deviation of the basis weight of square patches over its mean; the sheet is {cut}. Bars \
-        are one standard error of the map by chance, from its waves. The expected curve is that of independent \
-        filaments {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the same mass in \
-        all directions would give CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the \
-        first layer’s fibre: the distance to them is what the loops of the lay-down cost.",
+        are the sampling error of the map (one standard error), from its waves. The expected curve is that of \
+        independent filaments {places}, from the lengths that one fibre leaves in each patch. Straight fibres of the \
+        same mass in all directions would give CV² = 0.946 line density/(basis weight · side), {} % at 10 mm for the \
+        first layer’s fibre. The difference between the two is due to the loops of the laydown.",
         significant(tenth, 2)
     );
     Figure::new(&chart, caption)
@@ -86,13 +89,13 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
 /// * `of_few` – whether a few filaments were flown for all
 fn shared_air(places: &str, of_few: bool) -> String {
     let bars = match of_few {
-        true => "by chance, from the waves of the map of the flown filaments, and because few were flown",
-        false => "by chance, from the waves of the map",
+        true => "from the waves of the map of the simulated filaments, and from the size of this sample",
+        false => "from the waves of the map",
     };
     format!(
         "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on \
         which every filament lies as it does after its start. Bars are one standard error {bars}. The curve \
-        below is what the same filaments {places} would give if each had an air of its own: the sum of their \
+        below is what the same filaments {places} would give in independent turbulence: the sum of their \
         own variances, without what neighbours do together. Straight fibres are those of the same \
         mass in all directions at random."
     )
@@ -128,7 +131,7 @@ pub(super) fn histogram(map: &Map, weights: Weights) -> Figure {
         "web_histogram",
         "Basis weight, cell by cell",
         Axis::linear(weights.axis).tight(),
-        Axis::linear(&format!("Share of the cells (% per {})", weights.unit.replace('²', "^{2}")))
+        Axis::linear(&format!("Fraction of the cells (% per {})", weights.unit.replace('²', "^{2}")))
             .zero_based(),
     )
     .path(Series::reference("normal distribution").adorning(), (0..=200).map(normal))

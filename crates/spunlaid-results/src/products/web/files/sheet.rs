@@ -26,8 +26,8 @@ const NOTES: f64 = 250.0;
 const LINE: f64 = 13.0;
 
 /// What the numbers are, below them.
-const MEANING: &str = "Simulated, not measured. A number stands with its standard error, as a bound, or as a \
-    range; one without an error is counted, given, or exactly that of the simulated sheet. Bonds, finish and \
+const MEANING: &str = "Simulated, not measured. A number has its standard error, or is a bound or a \
+    range. One without an error is counted, given, or exactly that of the simulated sheet. Bonds, finish and \
     the thickness that a calender makes are not in any of them. What each number is: docs/fabric.md.";
 
 /// The page, as PDF.
@@ -65,7 +65,7 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
             let error = told.standard_error.map(|error| 100.0 * error);
             format!("{}{THIN}%", plus_minus(100.0 * told.cv, error))
         });
-        let cv = cv.unwrap_or_else(|| "not known: too few filaments were flown".to_owned());
+        let cv = cv.unwrap_or_else(|| "not known: too few filaments simulated".to_owned());
         let side = number(1e3 * patch.map.patch);
         rows.push([format!("CV of the basis weight over patches of {side}{THIN}mm"), cv]);
     }

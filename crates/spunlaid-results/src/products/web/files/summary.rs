@@ -86,7 +86,7 @@ pub fn summary_of_web(
     let patches = findings.patches.iter().map(|patch| {
         let why = match patch.doubt {
             None => "the map is too small",
-            Some(_) => "too few filaments were flown",
+            Some(_) => "too few filaments simulated",
         };
         let interval = patch.interval().ok_or_else(|| why.to_owned());
         let side = patch.map.patch;

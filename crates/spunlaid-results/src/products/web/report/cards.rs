@@ -116,7 +116,7 @@ pub(crate) fn fabric(fabric: &Fabric) -> Card {
 /// # Errors
 /// If a picture cannot be drawn.
 pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, Failure> {
-    let section = Section::new("scale", "How even is that?");
+    let section = Section::new("scale", "How uniform is that?");
     let section = match Scale::new(map, judged)? {
         Some(scale) => section.view(View::new(&scale, &[])),
         None => section,

@@ -39,11 +39,11 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
     };
     let none = || [Vec::new(), Vec::new()];
     let Some(advice) = tried.advice else {
-        return card(none(), untried("What would make it more even", tried.awaited));
+        return card(none(), untried("What would make it more uniform", tried.awaited));
     };
     let Some(patch) = judged_by(findings, advice).filter(|_| !advice.tried.is_empty()) else {
-        let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case to \
-            fly (laydown.case).";
+        let why = "No change can be tried, because no setting of the line of this web can be changed. Name a case \
+            (laydown.case).";
         return card(none(), why.to_owned());
     };
     let row = |(tried, effect): Found<'_>, also: String| {
@@ -79,16 +79,17 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         advice.tried.len()
     );
     let mut words = match improvements.len() {
-        0 => format!("None lowers {about}, by more than 1{THIN}% and beyond chance."),
-        1 => format!("Change of {about}; no other lowers it by more than 1{THIN}% and beyond chance."),
+        0 => format!("None lowers {about}, by more than 1{THIN}%, significantly."),
+        1 => format!("Change of {about}; no other lowers it by more than 1{THIN}%, significantly."),
         _ => format!("Change of {about}: what lowers it most."),
     };
     if advice.is_confirmed && !improvements.is_empty() {
-        words += " From a second flight in another air, because the best of many changes is overrated.";
+        words +=
+            " From a second simulation in other turbulence, because the best of many changes is overrated.";
     }
     words += &unconfirmed(spec, advice, patch);
     if !spec.flies() {
-        words += " The lay-down itself is taken as it is, because no fibre was flown.";
+        words += " The laydown itself is taken as given, because no fibre was simulated.";
     }
     card(rows, words)
 }
@@ -96,8 +97,8 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
 /// That something is tried next, or was not.
 fn untried(what: &str, awaited: bool) -> String {
     match awaited {
-        true => format!("{what} is tried next."),
-        false => format!("{what} was not tried: spunlaid web with --advice tries it."),
+        true => format!("{what}: computed next."),
+        false => format!("{what} was not computed: spunlaid web with --advice computes it."),
     }
 }
 
@@ -126,7 +127,7 @@ fn unconfirmed(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
     let words = |tried: &Tried| {
         let again = tried.on(patch).map_or_else(String::new, per_cent);
         format!(
-            " In a first air it seemed to fall with {} as well; in a second one that changed it by {again}{THIN}%.",
+            " In a first simulation it seemed to fall with {} as well; in a second one the change was {again}{THIN}%.",
             describe(&tried.change, spec)
         )
     };
@@ -148,7 +149,7 @@ fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
         return String::new();
     }
     format!(
-        " With these the filaments come down in other clouds, although the air is the same, so that only a \
+        " With these changes the filaments land in other clouds, although the turbulence is the same, so only a \
         large effect is seen: {}.",
         names.join("; ")
     )
@@ -220,19 +221,19 @@ pub(super) fn effects_table(
         (advice.failed.iter()).map(|(change, why)| format!("{}: {why}", describe(change, spec))).collect();
     let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
     let mut error = if advice.tried.iter().any(in_same_air) {
-        "from blocks of both webs which the same air has laid, so that what both have by chance does not count"
+        "from blocks of both webs in the same turbulence, so the sampling error that both have in common does not count"
     } else if findings.laid.evidence() != Evidence::Known {
         "which counts both maps as independent"
     } else {
-        "from paths with the same random numbers before and after; the lay-down itself (σ MD, σ CD, A) is \
-        taken as it is, because no fibre was flown"
+        "from paths with the same random numbers before and after; the laydown itself (σ MD, σ CD, A) is \
+        taken as given, because no fibre was simulated"
     }
     .to_owned();
     if advice.is_confirmed {
-        error += "; the best ones were flown once more in another air";
+        error += "; the best ones were simulated once more in other turbulence";
     }
     let (what, held) = if are_guesses {
-        ("when a guessed number has another value".to_owned(), "All other numbers stay as they are")
+        ("when an assumed value is another one".to_owned(), "All other numbers stay as they are")
     } else {
         let weight = grams(findings.within().basis_weight());
         let what = format!(
@@ -245,8 +246,8 @@ pub(super) fn effects_table(
         )
     };
     let mut caption = format!(
-        "Change of the CV as a share of it {what}: over patches of each size, ± one standard error, {error}. \
-        Grey values may be by chance. {held}. The command below each change lays that web."
+        "Change of the CV as a fraction of it {what}: over patches of each size, ± one standard error, {error}. \
+        Grey values are not significant at 95 %. {held}. The command below each change lays that web."
     );
     if let Some(patch) = judged_by(findings, advice).filter(|_| !are_guesses) {
         caption += &clouds_apart(spec, advice, patch);
@@ -278,9 +279,9 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
         return card(
             Vec::new(),
             match spec.guessed.is_empty() {
-                true => "The file of this web calls no number a guess (web.guessed).".to_owned(),
+                true => "The file of this web names no assumed value (web.guessed).".to_owned(),
                 false => untried(
-                    &format!("What half and twice of the guessed {names} do to the CV"),
+                    &format!("The CV with half and twice of the assumed {names}"),
                     tried.awaited && tried.guesses.is_none() && tried.advice.is_none(),
                 ),
             },
@@ -300,12 +301,12 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
     let rows: Vec<Row> = sorted.iter().filter_map(row).collect();
     let place = format!("over patches of {}", millimetres(patch));
     let words = match (rows.is_empty(), guesses.range(patch)) {
-        (true, _) => "No web with half or twice of the guesses could be flown.".to_owned(),
-        (false, [1.0, 1.0]) => format!("None of these guesses changes the CV {place} beyond chance."),
+        (true, _) => "No web with half or twice of the assumed values could be simulated.".to_owned(),
+        (false, [1.0, 1.0]) => format!("None of these assumed values changes the CV {place} significantly."),
         (false, ends) => {
             let [from, to] = ends.map(|end| significant(PER_CENT * end * cv, 2));
             format!(
-                "Guesses, of which the error knows nothing: with half and twice of each the CV {place} lies between \
+                "The error excludes these assumed values: with half and twice of each, the CV {place} lies between \
                 {from} and {to}{THIN}%. The first one counts most."
             )
         }
@@ -313,8 +314,8 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
     let unknown = match sorted.iter().all(|tried| tried.on(patch).is_some()) {
         true => "",
         false => {
-            " Where there is no number, too few filaments were flown of that web: its command flies as many as it \
-             takes."
+            " Where there is no number, too few filaments of that web were simulated: its command simulates as many as \
+             it takes."
         }
     };
     card(rows, words + unknown + &failed_words(guesses))
@@ -325,7 +326,7 @@ fn failed_words(guesses: &Advice) -> String {
     let failed = guesses.failed.iter().filter_map(|(change, why)| {
         let key = change.keys.first()?;
         let part = if key.to < key.from { "Half" } else { "Twice" };
-        let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be flown" };
+        let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be simulated" };
         Some(format!(
             " {part} of the {}, {}, {verb}: {why}.",
             in_sentence(label(&key.key)),

@@ -237,8 +237,8 @@ pub(crate) fn picture_note(Sheet { pixel, chance, .. }: &Sheet) -> String {
         wheel, two fingers, the buttons or the keys + and −; the key 0 shows the whole web.{}",
         millimetres(*pixel),
         if has_chance {
-            " Beside it, at the same scale and in the same shades, straight fibres of the same mass at random: what \
-             chance alone makes."
+            " Next to it, at the same scale and in the same shades: straight fibres of the same mass at random, the \
+             most uniform web that randomness allows."
         } else {
             ""
         }

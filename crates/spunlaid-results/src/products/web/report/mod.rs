@@ -85,7 +85,7 @@ pub fn web_report<'a>(
             ]
             .map(Section::from),
         )
-        .with(Section::new("doubt", "What its error is made of").paragraph(error).told())
+        .with(Section::new("doubt", "Contributions to its error").paragraph(error).told())
         .with(uneven(web, findings, sentences))
         .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
@@ -100,13 +100,15 @@ pub fn web_report<'a>(
 
 /// All that was changed, and all that was guessed.
 fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'static> {
-    let all =
-        [("What would make it more even", tried.advice), ("How much the guesses matter", tried.guesses)];
+    let all = [
+        ("What would make it more uniform", tried.advice),
+        ("Influence of the assumed values", tried.guesses),
+    ];
     let tables = all.into_iter().filter_map(|(heading, effects)| {
         Some((heading, effects_table(spec, findings, (effects?, tried.beside))?))
     });
     tables.fold(
-        Section::new("tried", "All that was changed and guessed"),
+        Section::new("tried", "All changes and assumed values"),
         |section, (heading, (table, caption))| section.heading(heading).table(table).caption(caption),
     )
 }
@@ -115,10 +117,10 @@ fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'
 ///
 /// * `verdict` – what makes it so, without what is said first
 fn uneven(web: &Web, findings: &Findings, verdict: Vec<String>) -> Section<'static> {
-    Section::new("verdict", "How uneven over which size, by the CV of the basis weight")
+    Section::new("verdict", "CV of the basis weight over patches of each size")
         .paragraphs(verdict)
         .table(patch_table(findings))
-        .caption(format!("{CV_OF_PATCHES} [What its error is made of](#doubt) stands above."))
+        .caption(format!("{CV_OF_PATCHES} Its error is explained [above](#doubt)."))
         .paragraph(sentences([summary(web), laid_weight(web, findings)]))
         .both()
 }
@@ -142,7 +144,7 @@ fn file(layers: &[Layer], toml: &str) -> Section<'static> {
         .file("web-toml", toml)
         .caption(
             "The map is in map.npy (kg/m², one row of the web after the other), map.png (16 bit), the \
-            fibres of the window in fibres.vtp, all numbers in summary.json, beside this page.",
+            fibres of the window in fibres.vtp. All numbers are in summary.json, next to this page.",
         )
 }
 
@@ -175,8 +177,7 @@ fn laid_weight(web: &Web, findings: &Findings) -> String {
         return String::new();
     }
     format!(
-        "The line makes {} in the mean, and this piece has {}: clouds that its ends and edges cut are in it by \
-        chance.",
+        "The line makes {} on average, and this piece has {}: its ends and edges cut some clouds.",
         grams(made),
         grams_with_error(laid)
     )
@@ -197,21 +198,21 @@ fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Strin
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
     let remedy = match enough.is_finite() {
-        true => format!("Leave web.flown out: then as many fly as it takes, {enough} or more for each metre"),
-        false => "Fly all of them, web.flown = \"all\"".to_owned(),
+        true => format!("Leave web.flown out to simulate as many as needed, {enough} or more for each metre"),
+        false => "Simulate all of them, web.flown = \"all\"".to_owned(),
     };
-    format!("The CV of the web is not known: too few filaments were flown. {remedy}.")
+    format!("CV not known: too few filaments simulated. {remedy}.")
 }
 
 /// What half and twice of the assumed values make of the CV, for a headline.
 fn assumed_words(told: &Unevenness, guesses: Option<&Advice>) -> String {
     let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(told.patch).is_some());
     match guesses.filter(known).map(|guesses| guesses.range(told.patch)) {
-        None => "without what was assumed".to_owned(),
-        Some([1.0, 1.0]) => "and no more with what was assumed".to_owned(),
+        None => "the error excludes assumed values".to_owned(),
+        Some([1.0, 1.0]) => "and no other with the assumed values".to_owned(),
         Some(ends) => {
             let [from, to] = ends.map(|end| significant(PER_CENT * end * told.cv, 2));
-            format!("{from} to {to}{THIN}% with what was assumed")
+            format!("{from} to {to}{THIN}% with the assumed values")
         }
     }
 }
@@ -222,7 +223,9 @@ pub(crate) fn below(judged: Option<Judged>) -> [String; 2] {
     let over = format!(" over {}", millimetres(patch));
     [
         told.map_or_else(String::new, |(cv, error)| format!("CV of this web: {}{over}", per_cent(cv, error))),
-        chance.map_or_else(String::new, |cv| format!("By chance: {}{THIN}%", significant(PER_CENT * cv, 3))),
+        chance.map_or_else(String::new, |cv| {
+            format!("Random straight fibres: {}{THIN}%", significant(PER_CENT * cv, 3))
+        }),
     ]
 }
 
@@ -231,23 +234,23 @@ pub(crate) fn below(judged: Option<Judged>) -> [String; 2] {
 fn air_sentence(findings: &Findings) -> String {
     let independent = findings.seen().and_then(|patch| Some((patch, patch.independent()?)));
     match (findings.laid.evidence(), independent) {
-        (Evidence::Known, _) => "This is a lower bound: in a line neighbours hang in the same gusts \
-            and come down together, and σ and A of one filament do not say how. Name a case whose filament \
-            lies as this one (laydown.case) in place of the numbers to fly them in one air."
+        (Evidence::Known, _) => "This is a lower bound: in a line neighbours hang in the same eddies \
+            and land together, and σ and A of one filament do not say how. Name a case whose filament \
+            lies like this one (laydown.case) instead of the numbers to simulate them in shared turbulence."
             .to_owned(),
         (_, Some((patch, independent))) if patch.doubt.is_some() => format!(
-            "In airs of their own the same filaments would give {}, which is a lower bound.",
+            "In independent turbulence the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
         ),
         (_, Some((patch, independent))) => format!(
-            "In airs of their own the same filaments would give {}, {} times less: here neighbours hang in \
-            the same gusts, which carry them aside together and lay them in ropes and clouds.",
+            "In independent turbulence the same filaments would give {}, {} times less. Here neighbours hang in \
+            the same eddies, which move them together and lay them in ropes and clouds.",
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
-        (Evidence::AllInOneAir, None) => "All filaments were flown in one air.".to_owned(),
+        (Evidence::AllInOneAir, None) => "All filaments were simulated in shared turbulence.".to_owned(),
         (Evidence::FewInOneAir, None) => {
-            "All filaments hang in one air, in which a few were flown.".to_owned()
+            "All filaments hang in shared turbulence, in which a sample of them was simulated.".to_owned()
         }
     }
 }
@@ -260,7 +263,7 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
         let [behind, .., before] = last.places;
         Some(format!(
             "Charged with {}, the filaments{} drive each other apart: 95 % of them hang within {} along the \
-            machine direction just above the belt. The field beside them is {} at most, and air breaks \
+            machine direction just above the belt. The field next to them is {} at most, and air breaks \
             down at {}.",
             Dimension::SpecificCharge.pretty(layer.charge?),
             if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() },
@@ -282,21 +285,21 @@ fn error_sentences(findings: &Findings) -> String {
     };
     match (patch.evidence, patch.doubt) {
         (Evidence::Known, _) => {
-            "The error is by chance only; that of the surrogate is not known, because no fibre \
-            was flown."
+            "The error is the sampling error only; that of the surrogate is not known, because no fibre \
+            was simulated."
                 .to_owned()
         }
         (Evidence::AllInOneAir, _) => {
-            "The error is by chance: every filament of the sheet was flown, and another \
-            piece of the same web, in other gusts, has another CV."
+            "The error is the sampling error: every filament of the sheet was simulated, and another \
+            piece of the same web, in other eddies, has another CV."
                 .to_owned()
         }
         (Evidence::FewInOneAir, Some(_)) => {
             format!("{}; they are too few for the CV of all, and the map is no better.", flown(findings))
         }
         (Evidence::FewInOneAir, None) => format!(
-            "{}; the others follow from them. Chance contributes {} to the error, because the clouds \
-            on this area are few, and the small number of flown filaments {}.",
+            "{}; the web of all is estimated from them. The area contributes {} to the error, because it has \
+            few clouds, and the size of the sample {}.",
             flown(findings),
             part(error.chance),
             part(error.flight)
@@ -312,10 +315,13 @@ fn flown(findings: &Findings) -> String {
     let sheets = sheets.join(" and of ");
     let area: f64 = findings.laid.few().map(|few| few.area).sum();
     let coarse = match findings.laid.few().any(LayerFew::is_of_two_levels) {
-        true => format!(", and as many with a coarse mesh in other airs: {} m² in all", significant(area, 2)),
+        true => format!(
+            ", and as many with a coarse mesh in other turbulence: {} m² in all",
+            significant(area, 2)
+        ),
         false => String::new(),
     };
-    format!("Of all filaments, {filaments} were flown, evenly across, on a sheet of {sheets}{coarse}")
+    format!("{filaments} filaments were simulated, evenly spaced across, on a sheet of {sheets}{coarse}")
 }
 
 fn layer(layer: &Layer) -> Row {
@@ -345,11 +351,11 @@ fn verdict(findings: &Findings) -> Vec<String> {
     let cv = patch.single_fibres.filter(|_| !is_shared).map_or(patch.map.cv, |(cv, _)| cv);
     let ratio = cv / patch.straight_fibres;
     let why = if is_shared {
-        "filaments that come down together make clouds"
+        "filaments that land together make clouds"
     } else if ratio > 1.05 {
-        "each fibre comes back to its own place again and again, which makes clouds"
+        "each fibre returns to its own position again and again, which makes clouds"
     } else {
-        "nozzles at an even pitch make up for the unevenness of the loops"
+        "holes at a constant pitch make up for the variation of the loops"
     };
     sentences.push(format!(
         "Over patches of {} the {}CV is {} times that of straight fibres of the same mass at random: {why}.",

@@ -92,7 +92,7 @@ pub(crate) fn words(Judged { patch, told, interval, chance, .. }: Judged) -> Str
         format!(" Chance alone, in straight fibres at random, gives {}{THIN}%.", significant(100.0 * cv, 3))
     });
     let Some((cv, error)) = told else {
-        return format!("How uneven this web is over patches of {size} is not known.{chance}");
+        return format!("The CV of this web over patches of {size} is not known.{chance}");
     };
     let interval = interval.map_or_else(String::new, |ends| {
         let ends = ends.map(|end| significant(100.0 * end, 3));

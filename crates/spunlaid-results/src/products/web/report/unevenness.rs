@@ -1,7 +1,7 @@
 //! How uneven a web is, in the words that the reports of laid and of scanned webs share, and the table of its patches.
 
 use crate::files::measured::text;
-use crate::numbers::{HARD, THIN, plus_minus, rounded, significant};
+use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::table::{Row, Table};
 use crate::page::words::millimetres;
 use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
@@ -13,26 +13,20 @@ pub(super) const PER_CENT: f64 = 100.0;
 
 /// What is said below every table of CVs.
 pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
-    one standard error, in percentage points as the CV is; the interval holds the CV of all such webs in 95 % of \
-    the cases.";
+    one standard error, in percentage points as the CV is. The confidence interval holds the CV of all such webs in \
+    95 % of the cases.";
 
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
 /// * `assumed` – what is to be said of assumed values, because the error is that of sampling alone
 pub(crate) fn headline(patch: Option<&Unevenness>, is_bound: bool, assumed: Option<String>) -> String {
     let Some(Unevenness { cv, standard_error, patch, .. }) = patch else {
-        return "The CV of the web is not known: the web is smaller than the patches.".to_owned();
+        return "CV not known: the web is smaller than the patches.".to_owned();
     };
-    let (cv, error) = rounded(PER_CENT * cv, standard_error.map(|error| PER_CENT * error));
     let at_least = if is_bound { "at least " } else { "" };
-    let error = error.map(|error| format!("±{HARD}{error} by chance"));
-    let error: Vec<String> = error.into_iter().chain(assumed).collect();
-    format!(
-        "The weight varies by {at_least}{cv}{THIN}% over {}{}{}{}.",
-        millimetres(*patch),
-        if error.is_empty() { "" } else { ": " },
-        error.join(", "),
-        if is_bound { "; the filaments are independent of each other" } else { "" }
-    )
+    let independent = is_bound.then(|| "the filaments are independent of each other".to_owned());
+    let further: String = assumed.into_iter().chain(independent).map(|words| format!("; {words}")).collect();
+    let cv = per_cent(*cv, *standard_error);
+    format!("CV {at_least}{cv} over {} patches{further}.", millimetres(*patch))
 }
 
 pub(crate) fn per_cent(cv: f64, error: Option<f64>) -> String {
@@ -48,7 +42,7 @@ pub(crate) fn largest_clouds(clouds: &Clouds) -> Option<String> {
     let whole: f64 = octaves.iter().map(|(_, variance)| variance.mean).sum();
     let (waves, variance) = octaves.iter().max_by(|a, b| a.1.mean.total_cmp(&b.1.mean))?;
     Some(format!(
-        "Of all octaves of wavelength, that of {} to {} holds most of the variance: {} % of what lies between {} and \
+        "The octave of wavelengths from {} to {} contributes most of the variance: {} % of that between {} and \
          {}{}.",
         millimetres(waves[0]),
         millimetres(waves[1]),
@@ -63,8 +57,8 @@ pub(crate) fn largest_clouds(clouds: &Clouds) -> Option<String> {
 pub(super) fn patch_table(findings: &Findings) -> Table {
     // That of a web of few filaments holds what these do too.
     let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
-        true => ["Patch", "CV of this web", "by chance", "95 % interval"],
-        false => ["Patch", "CV of this map", "by chance", "95 % by chance"],
+        true => ["Patch", "CV of this web", "sampling error", "95 % interval"],
+        false => ["Patch", "CV of this map", "sampling error", "95 % interval"],
     };
     let declared = columns(findings);
     let row = |patch: &PatchFindings| {
