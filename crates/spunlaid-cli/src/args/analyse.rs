@@ -112,10 +112,10 @@ pub(crate) struct Scan {
     /// the largest that the file can hold]
     #[arg(long, value_name = "LEVEL", conflicts_with = "lamp", value_parser = above_zero)]
     pub(crate) white: Option<f64>,
-    /// Take the lamp as even. Otherwise, without --lamp, its shading is taken out as a smooth surface
+    /// Take the lamp as uniform. Otherwise, without --lamp, its shading is taken out as a smooth surface
     #[arg(long)]
     pub(crate) keep_shading: bool,
-    /// Take the whole picture as web. Otherwise the bare lamp or a bare strip beside it, dust and blots are left out
+    /// Take the whole picture as web. Otherwise the bare lamp or a bare strip next to it, dust and blots are left out
     #[arg(long)]
     pub(crate) keep_spots: bool,
     /// Standard deviation of the noise of a single pixel, which is then taken out

@@ -23,7 +23,7 @@ pub(crate) struct Fit {
     pub(crate) spectrum: bool,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Set a key of the web or of the case that it flies, as line.belt_speed="6 m/s"; can be repeated
+    /// Set a key of the web or of its case, as line.belt_speed="6 m/s"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     /// Simulated webs of each trial; more make the intervals more certain

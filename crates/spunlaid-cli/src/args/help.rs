@@ -7,17 +7,17 @@ Examples:
   spunlaid new --web line.toml                      a web from the numbers of a line
   spunlaid keys field                               explain the keys about a field
   spunlaid check my.toml                            show mesh, limits, expected time and memory
-  spunlaid run my.toml                              fly it; then open results/my/report.html
+  spunlaid run my.toml                              simulate it; then open results/my/report.html
   spunlaid run my.toml --set air.velocity=\"20 m/s\" --out results/faster
-  spunlaid live my.toml                             change it while it flies, on a page
-  spunlaid sweep my_study.toml                      fly it with many values of some keys
+  spunlaid live my.toml                             change it while it moves, on a page
+  spunlaid sweep my_study.toml                      simulate it with many values of some keys
   spunlaid spin my_line.toml                        from the die to the solid filament
   spunlaid web my_web.toml                          lay a fabric of many such filaments
-  spunlaid web cases/web.toml                       lay thousands of filaments: how even is it?
+  spunlaid web cases/web.toml                       lay thousands of filaments: how uniform is it?
   spunlaid fit my_web.toml --to results/scan --vary air.length_scale   the settings of a scan
   spunlaid compare results/my results/faster        say what differs between two runs
   spunlaid analyse wire.csv                         make the air of a case from a velocity record
-  spunlaid analyse scan.png --pixel \"0.1 mm\"       say how even your own web is
+  spunlaid analyse scan.png --pixel \"0.1 mm\"       measure how uniform your own web is
 
 A case is a small text file that describes fibre, air and run, and feed and belt of a fibre that
 is laid. Quantities have a unit: \"50 µm\" or \"50 um\", \"10 m/s\", \"2 GPa\".
@@ -36,14 +36,14 @@ Examples:
   spunlaid keys --study                the keys of the file of a study";
 
 pub(super) const LIVE_HELP: &str = "\
-Of the file of a web, the page shows the web of the line on its belt and its CV. The knobs of the
+For the file of a web, the page shows the web of the line on its belt and its CV. The knobs of the
 line are sliders: turn one, and the change of the CV follows within seconds, compared in the same
-turbulence, then the web as `spunlaid web` lays it. Of a case, the page shows eight fibres in
-flight. Sliders change air and fibre while they fly; amplitude, frequency, their errors and
-spectra follow. A fed fibre is laid while you look. The page works offline; only programs of this
-machine that know its address can reach it. The program reads no other files than those that the
-file names, and writes only what you save on the page by name, into the folder where it was
-started. Ctrl-C ends it.
+turbulence, then the web as `spunlaid web` lays it. For a case, the page shows eight moving fibres.
+Sliders change air and fibre while they move; amplitude, frequency, their errors and spectra
+follow. A fed fibre is laid while you look. The page works offline; only programs of this machine
+that have its address can reach it. The program reads no other files than those that the file
+names, and writes only what you save on the page by name, into the folder where it was started.
+Ctrl-C ends it.
 
 Examples:
   spunlaid live line.toml              the web of a line; spunlaid new --web writes one
@@ -55,12 +55,12 @@ pub(super) const RUN_HELP: &str = "\
 The results folder holds
   report.html          for the browser: the moving fibre, figures, table; works offline
   summary.json         every result with mean, standard error and the replicates' values
-  case.toml            the case with every default; running it gives the same bits
+  case.toml            the case with every default; running it gives bit-identical results
   origin.toml          the command and the file; the same command replaces these results
   case_files/          copies of the files that the case names
   end_node.parquet     the free end over time      energy.parquet   both energy ledgers over time
   shape.pvd, shape/    the fibre over time, for ParaView (open shape.pvd)
-  laid.parquet         of a fed fibre, in place of end_node.parquet: where each point lies
+  laid.parquet         of a fed fibre, instead of end_node.parquet: where each point lies
   laid.vtp             the same of the first fibres as curves, for ParaView
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
 
@@ -69,7 +69,7 @@ Examples:
   spunlaid run cases/table1.toml --set fibre.diameter=\"18 um\" --replicates 40 --out results/fine";
 
 pub(super) const SWEEP_HELP: &str = "\
-A study is a small text file beside the case it varies:
+A study is a small text file next to the case it varies:
 
   case = \"table1.toml\"
   design = \"grid\"           # or \"one-at-a-time\", \"paired\", \"latin-hypercube\"
@@ -85,7 +85,7 @@ A study is a small text file beside the case it varies:
   [link]                     # keys that follow from others
   \"air.cutoff_frequency\" = \"air.velocity / (4 * air.length_scale)\"    # or just \"taylor\"
 
-If a sweep is interrupted, the same command continues it and gives the same bits. After an edit,
+If a sweep is interrupted, the same command continues it with bit-identical results. After an edit,
 the same command replaces a finished study when the new one is complete. The results folder
 holds
   report.html          for the browser: the study, table, figures, ranking
@@ -93,14 +93,13 @@ holds
   results.json         the same with the ranking
   results.parquet      the same            replicates.parquet   a row per fibre
   figures/             the report's figures as SVG and PNG, and their numbers as CSV
-  study.toml, case.toml   the study as it was run; sweeping it again gives the same bits
+  study.toml, case.toml   the study as it was run; sweeping it again gives the same results
   case_files/          copies of the files that the case names
   journal              the results of every fibre; with it the study can be continued
 
-A study may vary a web in place of a case, with `web = \"web.toml\"` in place of `case`, keys of
-the web or of the case that it flies, and `replicates` webs of each point. Designs, links,
-replicates and files are the same; the results are the unevenness over patches, and web.toml
-stands for case.toml.
+A study may vary a web instead of a case, with `web = \"web.toml\"` instead of `case`, keys of the
+web or of its case, and `replicates` webs of each point. Designs, links, replicates and files are
+the same; the results are the CV over patches, and web.toml replaces case.toml.
 
 Examples:
   spunlaid sweep cases/studies/velocity.toml
@@ -112,12 +111,12 @@ pub(super) const AIR_HELP: &str = "\
 The air is the field of eddies that neighbouring fibres share (air.lateral = \"von-karman\"). A
 case whose air is the same everywhere across is shown as if it had this key.
 
-With --sources the filaments of a line are flown in its CFD field, and the momentum that they give
+With --sources the filaments of a line are simulated in its CFD field. The momentum that they give
 to each cell is written for the CFD program, and their heat if they come from a spinline. The file
 is a web, or a case with [line] and [web], because the filaments per metre of width have to be
 known.
 
-With --at the air of the case is given at the places of a table: velocity u, v, w and its magnitude
+With --at the air of the case is given at the positions of a table: velocity u, v, w and its magnitude
 [m/s], k [m²/s²], length [m] and cut-off frequency [Hz] of the eddies, for every kind of air. Cells
 are empty where the air is not known, as outside of a field.
 
@@ -129,8 +128,8 @@ Examples:
   spunlaid air cases/openfoam_diffuser.toml --at points.csv   x [mm],y [mm],z [mm]";
 
 pub(super) const SPIN_HELP: &str = "\
-A spinline is a table of a small text file, or of a case, where it takes the place of feed.speed
-and fibre.diameter:
+A spinline is a table of a small text file, or of a case, where it replaces feed.speed and
+fibre.diameter:
 
   [spinline]
   polymer = \"pp\"                 # pp, pet, pa6, pla, pe, or a file with the constants of yours
@@ -143,20 +142,20 @@ and fibre.diameter:
   end = \"free\"                   # or take_up_speed = \"3000 m/min\"
   # rows = 10                    # rows of holes that share the quench air, with
   # filaments_per_metre_and_row = 250
-  [drag]                         # friction of the air on the thread, as in a case
+  [drag]                         # friction of the air on the filament, as in a case
   # along = \"matsui\"
 
 `spunlaid keys spinline` explains every key. The results folder holds
   report.html        for the browser: figures, table, what decides the diameter; works offline
-  summary.json       diameter, line density, speed, freezing point, stress, birefringence, errors
-  spinline.parquet   the thread and the air around it from the die to the end
+  summary.json       diameter, titre, speed, solidification point, stress, birefringence, errors
+  spinline.parquet   the filament and its air from the die to the end
   figures/           every figure as SVG, PNG and CSV
-  spinline.toml      the spinline with every default; solving it again gives the same bits
+  spinline.toml      the spinline with every default; solving it again gives the same results
   origin.toml        the command and the file; the same command replaces these results
   case_files/        copies of the files that it names
 
-If no steady state exists, as where the filament is not solid at the end, the message says why and
-what to do, the exit code is 1, and nothing is written.
+If no steady state exists, for example because the filament is not solid at the end, the message
+says why and what to do, the exit code is 1, and nothing is written.
 
 Examples:
   spunlaid spin cases/spinline.toml
@@ -167,7 +166,7 @@ pub(super) const WEB_HELP: &str = "\
 A web is a small text file:
 
   [line]
-  filaments_per_metre = 5000      # at random places, or the rows of nozzles of a beam:
+  filaments_per_metre = 5000      # at random positions, or rows of holes:
   # rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]
   [web]
   width = \"1 m\"
@@ -176,20 +175,20 @@ A web is a small text file:
 and how a filament lies, in one of three ways:
 
   - the tables of a case, [fibre], [feed], [belt], [air], [drag] and [run], in the same file: its
-    filament is flown. `spunlaid run`, `spin` and `air` take the file too
-  - [laydown] case = \"spunbond.toml\": they stand in that file, which several webs may share
+    filament is simulated. `spunlaid run`, `spin` and `air` take the file too
+  - [laydown] case = \"spunbond.toml\": they are in that file, which several webs may share
   - [laydown] sigma_md, sigma_cd and noise: the numbers of the surrogate, which `spunlaid run`
-    gives, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the unevenness
+    gives, with [fibre] and in [line] feed_speed and belt_speed: a lower bound of the CV
 
-A throughput and a basis weight may stand in [line] in place of the speeds. Several beams are
-[[layer]] tables, each with its own [layer.line]; what stands above them holds for all.
+[line] may have a throughput and a basis weight instead of the speeds. Several beams are [[layer]]
+tables, each with its own [layer.line]; keys above them hold for all.
 `spunlaid keys` and `spunlaid keys --web` explain every key. The results folder holds
-  report.html    for the browser: the web on a light table, what would make it more even, figures
+  report.html    for the browser: the web on a light table, how to make it more uniform, figures
   summary.json   basis weight, CV over patches with errors, directions, clouds, advice
   map.npy, map.png     the basis weight of each cell
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
-  web.toml       the file with every default; laying it again gives the same bits
+  web.toml       the file with every default; laying it again gives the same results
   origin.toml    the command and the file; the same command replaces these results
 
 Examples:
@@ -199,15 +198,15 @@ Examples:
   spunlaid web two_beams.toml --set layer.2.line.filaments_per_metre=4000";
 
 pub(super) const FIT_HELP: &str = "\
-A web is laid again and again with other values of the keys, until its unevenness over patches
-is that of the scan. Each trial lays the same webs with the same random numbers, cut to the size
+A web is laid again and again with other values of the keys, until its CV over patches is that of
+the scan. Each trial lays the same webs with the same random numbers, cut to the size
 of the scan. The scan comes from `spunlaid analyse`; patches that its camera has blurred by more
-than 10 % are not compared. The keys may be those of the web or of the case that it flies; a
-case is flown anew in each trial. Without a range, a value may be five times smaller or larger
+than 10 % are not compared. The keys may be those of the web or of its case, which is
+simulated again in each trial. Without a range, a value may be five times smaller or larger
 than that of the file.
 
-If a fit is interrupted, the same command continues it and gives the same bits. The results folder
-holds
+If a fit is interrupted, the same command continues it with bit-identical results. The results
+folder holds
   report.html    for the browser: values with 95 % intervals, curves, residuals, profiles
   fit.json       all numbers                 trials.csv   the misfit of each trial
   web.toml       the web with the values that were found; with case_files/ if it names files
@@ -225,7 +224,7 @@ The results folder holds
   figures/      every figure as SVG and PNG, and its numbers as CSV
   summary.json  the claims, their evidence and verdicts      case.toml  the base case, Table 1
 
-It flies the studies cases/paper/*.toml of the repository, which are built into the program.
+It runs the studies cases/paper/*.toml of the repository, which are built into the program.
 
 Examples:
   spunlaid reproduce                                       with the paper's scheme
@@ -270,8 +269,9 @@ pub(super) const COMPARE_HELP: &str = "\
 Every run is compared with the first. Runs with the same seed and the same eddies are compared
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
 `spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. You may
-name a file in place of a folder: a web is laid first, a case flown, a scan analysed; the results
-are in results/NAME_flown and results/NAME_analysed. A scan that needs options is analysed before.
+name a file instead of a folder: a web is laid first, a case simulated, a scan analysed; the
+results are in results/NAME_flown and results/NAME_analysed. Analyse a scan that needs options
+first.
 
 The results folder holds
   report.html       for the browser: a table for each pair, and the curves in one picture each
@@ -285,10 +285,10 @@ Examples:
   spunlaid compare scan.png line.toml          my scan against my line, in one step";
 
 pub(super) const CHECK_HELP: &str = "\
-Of a case it prints every default, the mesh, the limits of the time step, and the expected time
-and memory. Of a web it prints the numbers of its line: grams per minute and hole, dtex, holes per
-metre, g/m², the speed of the belt, kg/h from each metre of width, and in which air the filaments
-hang. Of a study it prints its points. The output is itself such a file.
+For a case it prints every default, the mesh, the limits of the time step, and the expected time
+and memory. For a web it prints the numbers of its line: grams per minute per hole, dtex, holes per
+metre, g/m², the speed of the belt, kg/h from each metre of width, and the air of the filaments. For
+a study it prints its points. The output is itself such a file.
 
 Examples:
   spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"
@@ -298,8 +298,8 @@ Examples:
 pub(super) const NEW_HELP: &str = "\
 Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a
 web, from the numbers by which a line is known; in a terminal it asks for those that are not
-given. The file also has the filament, which `spunlaid run` flies alone; a table of the air between
-slot and belt is written beside it: FILE line.toml makes line.toml and line_air.csv. Each number
+given. The file also has the filament, which `spunlaid run` simulates alone. A table of the air
+between slot and belt is written next to it: FILE line.toml makes line.toml and line_air.csv. Each number
 that follows from others has a comment that says how.
 
 Examples:
@@ -314,7 +314,7 @@ Examples:
     --basis-weight \"15 g/m²\" --holes 22500 --width \"4.5 m\" --beams 2 --air-speed \"70 m/s\"
   spunlaid new --web line.toml --belt-speed \"250 m/min\" --thickness \"0.25 mm\"   asks for the rest";
 
-/// Of commands that go on where they were left.
+/// Help of `--force` for commands that continue after an interruption.
 pub(super) const FORCE_HELP: &str = "Start again; deletes what is in the output folder. A complete one of \
     the same command is replaced without it";
 

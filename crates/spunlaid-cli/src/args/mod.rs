@@ -31,8 +31,8 @@ use spunlaid::ground::{Dimension, Fault, Removed};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Simulate fibres from the die to the web: how the melt is drawn, how fibres swing in turbulent air, how even the web
-/// is
+/// Simulate fibres from the die to the web: how the melt is drawn, how fibres move in turbulent air, how uniform the
+/// web is
 #[derive(Debug, Parser)]
 #[command(name = "spunlaid", version, about, after_help = EXAMPLES, propagate_version = true)]
 pub(crate) struct Arguments {
@@ -43,46 +43,46 @@ pub(crate) struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Fly the fibres of a case and write table, data, figures and report
+    /// Simulate the fibres of a case and write table, data, figures and report
     #[command(after_help = RUN_HELP, mut_arg("json", |json| json.help("Print summary.json instead of the \
         table; without --out, write no files")))]
     Run(Run),
-    /// Fly a case with many values of its keys, and rank which keys matter
+    /// Simulate a case with many values of its keys, and rank which keys matter
     #[command(after_help = SWEEP_HELP, mut_arg("force", |force| force.help(FORCE_HELP)))]
     #[command(mut_arg("json", |json| json.help("Print results.json instead of the table")))]
     Sweep(Sweep),
-    /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, freezing point
+    /// Solve a spinline, from the hole of the spinneret to the solid filament: diameter, speed, solidification
     #[command(after_help = SPIN_HELP)]
     Spin(Spin),
-    /// Lay a web of many filaments: map of its basis weight, how uneven it is, directions
+    /// Lay a web of many filaments: map of its basis weight, uniformity, fibre directions
     #[command(after_help = WEB_HELP)]
     Web(Web),
-    /// Find the settings whose webs are as uneven as a scanned one, with their intervals
+    /// Find the settings whose webs have the CV of a scanned one, with their intervals
     #[command(after_help = FIT_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the web>_fit]")), mut_arg("force", |force| force.help(FORCE_HELP)))]
     #[command(mut_arg("json", |json| json.help("Print fit.json instead of the table")))]
     Fit(Fit),
-    /// Show the turbulent air of a case: pictures of its gusts, slices for ParaView, numbers at given places
+    /// Show the turbulent air of a case: pictures of its eddies, slices for ParaView, numbers at given positions
     #[command(after_help = AIR_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/<name of the case>_air], or file for the numbers of --at")))]
     Air(Air),
-    /// Open a page: the web of a line while you turn its knobs, or eight fibres in flight while you change them
+    /// Open a page: the web of a line while you turn its knobs, or eight moving fibres while you change them
     #[command(after_help = LIVE_HELP)]
     Live(Live),
     /// Reproduce every result figure of the paper and test its claims
     #[command(after_help = REPRODUCE_HELP, mut_arg("out", |out| out.help("Folder for the results [default: \
         results/paper]")))]
     Reproduce(Reproduce),
-    /// Make the air of a case from a velocity record, or measure how even the web of a scan is
+    /// Make the air of a case from a velocity record, or measure how uniform the web of a scan is
     #[command(after_help = ANALYSE_HELP, mut_arg("json", |json| json.help("Print analysis.json, or \
         summary.json of a web, instead of the table")))]
     Analyse(Box<Analyse>),
-    /// Compare the results of runs or of webs: differences, whether they are beyond chance, curves in one picture
+    /// Compare the results of runs or of webs: differences, whether they are significant, curves in one figure
     #[command(after_help = COMPARE_HELP, mut_arg("out", |out| out.help("Folder for the report [default: \
         results/<name>_against_<name>]")), mut_arg("json", |json| json.help("Print comparison.json instead \
         of the table; without --out, write no files")))]
     Compare(Compare),
-    /// Show a case, a web or a study with all defaults and what follows from it, without flying it
+    /// Show a case, a web or a study with all defaults and what follows from it, without a simulation
     #[command(after_help = CHECK_HELP)]
     Check(Check),
     /// Explain the keys of a case or of a web: meaning, allowed values, default
@@ -140,7 +140,7 @@ pub(crate) struct Sweep {
     /// Confirm the number of points; needed above 10000 points
     #[arg(long, value_name = "N", value_parser = whole(0))]
     pub(crate) points: Option<u64>,
-    /// Print the case or the web of point K, counted from 1, and fly nothing
+    /// Print the case or the web of point K, counted from 1, and simulate nothing
     #[arg(long, value_name = "K", value_parser = whole(0))]
     pub(crate) print_point: Option<u64>,
     #[command(flatten)]
@@ -212,20 +212,20 @@ pub(crate) struct Web {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Set a key of the web, as line.belt_speed="6 m/s", or change it, as line.throughput="+20 %"; or one of the
-    /// case that it flies, as belt.distance="0.4 m"; can be repeated
+    /// Set a key of the web, as line.belt_speed="6 m/s", or change it, as line.throughput="+20 %"; or one of
+    /// its case, as belt.distance="0.4 m"; can be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_and_value)]
     pub(crate) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(crate) threads: Threads,
-    /// Try which settings make the web more even, also where that takes long: where every filament of a web in
-    /// one air is flown, or flights are long
+    /// Try which settings make the web more uniform, also where that takes long: where every filament is
+    /// simulated in shared turbulence, or the simulated time is long
     #[arg(long)]
     pub(crate) advice: bool,
-    /// Do not try which settings make the web more even, which takes two flights for each
+    /// Do not try which settings make the web more uniform, which takes two simulations for each
     #[arg(long, conflicts_with = "advice")]
     pub(crate) no_advice: bool,
-    /// Judge settings and guesses by the CV over patches of this side, as 10mm, one of web.patches; or for
+    /// Judge settings and assumed values by the CV over patches of this side, as 10mm, one of web.patches; or for
     /// thin-places or strips by the patches that these follow [default: 10 mm, or the size nearest to it]
     #[arg(long = "for", value_name = "PATCH")]
     pub(crate) judged_by: Option<String>,

@@ -20,10 +20,10 @@ pub(crate) struct New {
     /// A fibre that is fed at an inlet and laid on a moving belt, in place of one of fixed length
     #[arg(long, conflicts_with = "web")]
     pub(crate) fed: bool,
-    /// The file of a web, with the case of its filament and a table of the air beside it
+    /// The file of a web, with the case of its filament and a table of the air next to it
     #[arg(long)]
     pub(crate) web: bool,
-    /// Write FILE_study.toml beside FILE, a study of this case, web or spinline; a case that does not exist
+    /// Write FILE_study.toml next to FILE, a study of this case, web or spinline; a case that does not exist
     /// yet is written too
     #[arg(long, conflicts_with = "web")]
     pub(crate) study: bool,
@@ -64,8 +64,8 @@ pub(crate) struct LineNumbers {
     /// Speed of the air at the end of the slot in m/s, or with its unit, as "3600 m/min"
     #[arg(long, value_name = "SPEED", requires = "web", value_parser = in_unit(Dimension::Velocity, "m/s"))]
     pub(crate) air_speed: Option<Given<f64>>,
-    /// Pressure of the cabin above that under the belt in Pa in place of that speed, or with its unit, as
-    /// "14 inH2O"; beside it, the two give the coefficient of speed of the slot
+    /// Pressure of the cabin above that under the belt in Pa instead of that speed, or with its unit, as
+    /// "14 inH2O"; the two together give the coefficient of speed of the slot
     #[arg(long, value_name = "PRESSURE", requires = "web", value_parser = in_unit(Dimension::Pressure, "Pa"))]
     pub(crate) cabin_pressure: Option<Given<f64>>,
     /// Width of the web in m, or with its unit, as "3200 mm" [default: "1 m"]
@@ -76,10 +76,10 @@ pub(crate) struct LineNumbers {
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "m"))]
     #[arg(default_value = "0.5 m", hide_default_value = true)]
     pub(crate) distance: Given<f64>,
-    /// Depth of the slot along the machine in mm, or with its unit [default: "20 mm", a guess]
+    /// Slot gap along the machine in mm, or with its unit [default: "20 mm", assumed]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]
     pub(crate) slot_depth: Option<Given<f64>>,
-    /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", a guess]
+    /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", assumed]
     #[arg(long, value_name = "SHARE", requires = "web", value_parser = turbulence)]
     pub(crate) turbulence: Option<Given<f64>>,
     /// Thickness of the finished fabric in mm, or with its unit, as "250 µm", for the air permeability

@@ -50,7 +50,7 @@ impl<'a> NewMelt<'a> {
         };
         let rows: String = SHAPE.into_iter().enumerate().map(row).collect();
         format!(
-            "# Air from the die to the end of the slot: made up, of the usual shape.\n\
+            "# Air from the die to the end of the slot: assumed, of the usual shape.\n\
              z_mm,velocity_m_s,cross_velocity_m_s,temperature_c\n{rows}"
         )
     }

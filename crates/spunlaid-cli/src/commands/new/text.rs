@@ -21,7 +21,7 @@ const SLOWED: f64 = 1.0 / 6.0;
 /// * `spinline` – the tables of a line that begins at the die
 pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str, spinline: Option<&str>) -> String {
     let given = line.given;
-    // What is made up and counts for much. The numbers of the air are factors on what its table has.
+    // What is assumed and counts for much. The numbers of the air are factors on what its table has.
     let guesses = [
         (given.slot_depth.is_none(), "line.depth, "),
         (given.turbulence.is_none(), "air.intensity_factor, "),
@@ -87,7 +87,7 @@ fn blown(line: &NewLine<'_>, cabin: Cabin) -> String {
     )
 }
 
-/// The table of the air between slot and belt: it slows down evenly.
+/// The table of the air between slot and belt, which decelerates linearly.
 pub(super) fn air(line: &NewLine<'_>) -> String {
     let intensity = significant(value(&line.given.turbulence).unwrap_or(INTENSITY), GIVEN);
     let row = |[place, velocity]: [f64; 2]| {
@@ -96,7 +96,7 @@ pub(super) fn air(line: &NewLine<'_>) -> String {
     };
     let ends = [[0.0, line.air_speed], [line.given.distance.value, SLOWED * line.air_speed]];
     format!(
-        "# Air between the slot and the belt: made up, of the usual shape and size (cut-off = velocity / \
+        "# Air between the slot and the belt: assumed, of the usual shape and size (cut-off = velocity / \
         4 / length scale).\nx_mm,velocity_m_s,turbulence_intensity,length_scale_mm,cutoff_frequency_hz\n\
         {}",
         ends.map(row).concat()
