@@ -40,7 +40,7 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// What stands for a case: a case, the path of its file, or a dict.
+    /// What can be given instead of a case: the path of its file, or a dict.
     pub(crate) fn meant<'py>(case: &Bound<'py, PyAny>) -> PyResult<Bound<'py, Self>> {
         let made = case.py().import("spunlaid._case")?.getattr("case_of")?.call1((case,))?;
         Ok(made.cast_into()?)
@@ -114,7 +114,7 @@ impl Case {
         Self::parsed(py, text.into(), file, Vec::new())
     }
 
-    /// A case from the text of a case file (TOML). Files that it names are looked for beside `name`.
+    /// A case from the text of a case file (TOML). Files that it names are looked for next to `name`.
     #[classmethod]
     #[pyo3(signature = (text, name = "Case"))]
     fn from_text(_class: &Bound<'_, PyType>, py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
@@ -140,7 +140,7 @@ impl Case {
     /// The same case with other values: with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6}).
     ///
     /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. What follows
-    /// from the changed keys follows anew.
+    /// from the changed keys follows again.
     fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (mut changes, new) = (self.changes.clone(), overrides(values)?);
         let is_set = |value: &str| value.trim().trim_matches('"') != "auto";
@@ -297,7 +297,7 @@ impl Case {
         Self::parsed(py, text.into(), file, changes)
     }
 
-    /// Bytes that are the same for cases whose fibres fly to the same bits.
+    /// Bytes that are the same for cases whose results are bit-identical.
     fn _identity<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, format!("{:?}", self.case).as_bytes())
     }

@@ -25,8 +25,8 @@ const MOST_STEPS: f64 = 9e15;
 
 /// Fibres in flight, which you step: Flight(case, replicates=8).
 ///
-/// step("10 ms") advances them, set(key, value) changes the case while they fly, positions is an array of fibres x
-/// nodes x 3. The fibres are the first replicates of the case, to the same bits as in a run. Several threads of Python
+/// step("10 ms") advances them, set(key, value) changes the case meanwhile, positions is an array of fibres x
+/// nodes x 3. The fibres are the first replicates of the case, bit-identical to a run. Several threads of Python
 /// may use one flight.
 #[pyclass(frozen, module = "spunlaid", name = "Flight")]
 #[derive(Debug)]
@@ -73,7 +73,7 @@ impl Flight {
         self.fly_to(py, |_| time)
     }
 
-    /// Changes a key while the fibres fly: set("air.velocity", 12.0) in SI units, or "12 m/s". keys() says which keys
+    /// Changes a key between steps: set("air.velocity", 12.0) in SI units, or "12 m/s". keys() says which keys
     /// may change. If it cannot, the flight stays as it is.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let value = value_of(value)?;

@@ -33,7 +33,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 /// What messages and results call a study that is given as a dict.
 const STUDY: &str = "study";
 
-/// A study: its points, its journal and, once it has been flown, its results. spunlaid.sweep makes and flies one.
+/// A study: its points, its journal and, once it has been computed, its results. spunlaid.sweep makes and computes one.
 #[pyclass(frozen, module = "spunlaid._spunlaid")]
 #[derive(Debug)]
 pub(crate) struct Study {

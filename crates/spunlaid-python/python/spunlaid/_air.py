@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 class Air:
     """The air of a case in a field of eddies in space: `Air(case)`, `Air(case, seed=7, replicate=2)`.
 
-    The case needs `air.lateral = "von-karman"`. The same seed and replicate give the air that a fibre of the case flies in.
+    The case needs `air.lateral = "von-karman"`. The same seed and replicate give the air of a fibre of the case.
 
         air = spunlaid.Air(case)
         y = np.linspace(-0.05, 0.05, 101)

@@ -80,7 +80,7 @@ class Analysis:
         return lags, coefficients
 
     def air(self) -> dict[str, float]:
-        """The four keys of a case that the record tells; `case.with_(analysis.air())` is the case in this air."""
+        """The four keys of a case that follow from the record; `case.with_(analysis.air())` is the case in this air."""
         return {
             "air.velocity": self.mean_velocity.value,
             "air.turbulence_intensity": self.turbulence_intensity.value,
@@ -119,7 +119,7 @@ def analyse(
     if isinstance(record, os.PathLike):
         record = os.fspath(record)
     if isinstance(record, str) and _spunlaid.is_scan(record):
-        raise ValueError(f"{record} is the scan of a web; spunlaid.scan({record!r}) says how even it is")
+        raise ValueError(f"{record} is the scan of a web; spunlaid.scan({record!r}) measures how uniform it is")
     read = record if isinstance(record, str) else _velocities(record)
     return Analysis(*_spunlaid.analyse(read, rate, mean_velocity, flat_until, integral, list(columns)))
 

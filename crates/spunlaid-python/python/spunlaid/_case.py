@@ -1,4 +1,4 @@
-"""What stands for a case."""
+"""Cases, and what can be given instead of one."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ class Comparison(Results):
 
 
 def compare(*folders: str | os.PathLike[str]) -> Comparison:
-    """What differs between the results of runs, or of webs, and whether it is beyond chance: the same as `spunlaid compare`.
+    """What differs between the results of runs, or of webs, and whether it is significant at 95 %: the same as `spunlaid compare`.
 
     folders: two or more folders of results of runs, or of webs that were laid or scanned; the first is the one to compare with
     """

@@ -2,7 +2,7 @@
 
 The client keeps the journal. It cuts what the journal lacks into bundles of whole flights, or of the webs of a point, hands out a few more of them
 than the cluster has threads, and writes down what comes back before it hands out more. So neither it nor the scheduler
-ever holds more than that, whatever the size of the study. Of webs in one air, each worker has one at a time and gives it all its threads.
+ever holds more than that, whatever the size of the study. A worker computes one web in shared turbulence at a time, with all its threads.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ._errors import ClusterError
 from ._optional import needed
 
 _BUNDLE_S = 10.0
-"""Computing time of a bundle [s], about: long beside the cost of a task, short beside the loss of a worker."""
+"""Computing time of a bundle [s], about: long against the cost of a task, short against the loss of a worker."""
 _STEP_S = 17e-9
 """Computing time of an element, a step and a fibre [s], about."""
 _MOST_FLIGHTS = 64
@@ -127,12 +127,12 @@ def _result(future: Any) -> list[Any]:
         return future.result()  # type: ignore[no-any-return]
     except KilledWorker as error:
         raise ClusterError(
-            f"a bundle was lost with {_RETRIES} workers or more: {error}. Do they run out of memory? What was flown of a "
+            f"a bundle was lost with {_RETRIES} workers or more: {error}. Do they run out of memory? What was computed of a "
             "study is kept; the same call goes on from there"
         ) from error
     except CancelledError as error:
         raise ClusterError(
-            f"a bundle was cancelled on the cluster ({error or 'the scheduler was restarted or closed'}). What was flown of a "
+            f"a bundle was cancelled on the cluster ({error or 'the scheduler was restarted or closed'}). What was computed of a "
             "study is kept; the same call goes on from there"
         ) from error
     except ImportError as error:

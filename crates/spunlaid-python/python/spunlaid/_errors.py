@@ -94,7 +94,7 @@ class FolderError(Error):
 
 
 class FlightError(Error):
-    """Fibres that cannot fly together, or a flight that cannot do what is asked of it."""
+    """Fibres that cannot be simulated together, or a simulation that cannot do what is asked of it."""
 
 
 class FibreLost(Error):

@@ -62,7 +62,7 @@ def fit(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Fit:
-    """Finds the values of some keys whose webs are as uneven as a scan: the same bits as `spunlaid fit`.
+    """Finds the values of some keys whose webs have the CV of a scan: bit-identical to `spunlaid fit`.
 
     web: the path of the file of a web
     to: the results folder of the scan, from `spunlaid analyse`; or of a web

@@ -17,7 +17,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     """The results in a folder, as the program or `save` wrote them: a Run, a Web, a Scan, a Spinline or a Study.
 
     A run has what the files hold: summary, measures, end_node, energy, shapes, laid and the report; no curves. A web and a scan
-    have their map, and a study goes on to be one that was flown. What is of another kind raises FolderError.
+    have their map, and a study can be continued. Results of another kind raise FolderError.
     """
     folder = Path(path)
     if (folder / "study.toml").is_file():

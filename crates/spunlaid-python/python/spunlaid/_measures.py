@@ -27,11 +27,11 @@ class Measure(NamedTuple):
     mean: float
     """Mean over the replicates."""
     standard_error: float
-    """Standard error of the mean, by chance alone; NaN from a single replicate."""
+    """Standard error of the mean, sampling error alone; NaN from a single replicate."""
     error: float
-    """Its whole error, by chance and by what the checks of step and mesh found beyond their limit; NaN if not known."""
+    """Its total standard error, with what the checks of step and mesh found beyond their limit; NaN if not known."""
     shown: float
-    """What stands for all replicates in reports: the mean, the median or the largest value."""
+    """The value of all replicates in reports: the mean, the median or the largest value."""
     values: NDArray[np.float64]
     """The value of each replicate; NaN where it is not defined."""
 

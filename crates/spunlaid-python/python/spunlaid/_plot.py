@@ -78,7 +78,7 @@ def plot_laid_fibre(laid: list[dict[str, Any]], ax: Axes | None) -> Axes:
     ax = axes(ax)
     first = next((fibre for fibre in laid if len(fibre["s_m"])), None)
     if first is None:
-        raise ValueError("nothing to plot: the run was flown with samples=False, or its fibres laid nothing")
+        raise ValueError("nothing to plot: the run was computed with samples=False, or its fibres laid nothing")
     along, up = Axis("Machine direction (mm)", per_si=1e3), Axis("Cross direction (mm)", per_si=1e3)
     md, cd = along.place(first["md_m"]), up.place(first["cd_m"])
     # A piece of the belt, three times as long as the trace is wide, without the end that further loops would cover.
@@ -159,7 +159,7 @@ _CV = Axis("CV of the basis weight (%)", per_si=1e2, logarithmic=True)
 
 
 def plot_unevenness(patches: dict[str, NDArray[np.float64]], ax: Axes | None) -> Axes:
-    """How uneven a web is over the size of the patches; see `Web.patches`."""
+    """CV of a web over the size of the patches; see `Web.patches`."""
     ax = axes(ax)
     at, cv = _SIDE.place(patches["patch_m"]), _CV.place(patches["cv"])
     known = np.isfinite(patches["cv_low"] + patches["cv_high"])

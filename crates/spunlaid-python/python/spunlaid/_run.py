@@ -1,4 +1,4 @@
-"""Runs: a case flown, and its results."""
+"""Runs: a simulated case, and its results."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Run(Results):
 
     @property
     def case(self) -> Case:
-        """The case that was flown."""
+        """The case that was simulated."""
         return self._case
 
     @property
@@ -134,7 +134,7 @@ class Run(Results):
         raise unknown_measure(column, [*self.measures, *self.curves])
 
     def scales(self, column: str) -> list[tuple[str, float, float, bool]]:
-        """How a measure stands on axes: label with unit, zero in SI units, factor from SI units, whether logarithmic. Of a curve
+        """How a measure is drawn on axes: label with unit, zero in SI units, factor from SI units, whether logarithmic. Of a curve
         first along, then up."""
         described = self._keep("described", lambda: [*self._tables.numbers, *self._curves()])
         return next(list(measure["scales"]) for measure in described if measure["column"] == column)
@@ -143,7 +143,7 @@ class Run(Results):
         if isinstance(self._computed, Kept):
             return self._computed.save(path, force, figures)
         if whole and not self.energy:
-            raise FolderError("the run was flown with samples=False, so its tables cannot be written")
+            raise FolderError("the run was computed with samples=False, so its tables cannot be written")
         self._computed.save(path, force, figures, os.fspath(self._tables.path))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -171,14 +171,14 @@ def run(
     samples: bool = True,
     shapes: bool = True,
 ) -> Run:
-    """Flies a case: the same bits as `spunlaid run`.
+    """Simulates a case: bit-identical to `spunlaid run`.
 
     case: a Case, the path of a case file, or a dict of its tables, with texts that have a unit and numbers in SI units
     set: keys that replace those of the case, `{"air.velocity": "20 m/s"}`
     replicates, seed: number of fibres, and the seed of their turbulence; as the case says by default
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the steps done and their number
-    check_step: whether some fibres fly again with a finer time step and finer elements, to tell their errors
+    check_step: whether some fibres are simulated again with a finer time step and finer elements, to find their errors
     samples: whether the free ends and energies over time are kept: 136 bytes for each fibre and instant
     shapes: whether whole fibres over time are kept, of up to eight replicates
 

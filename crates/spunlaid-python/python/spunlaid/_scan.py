@@ -23,7 +23,7 @@ class Scan(Sheet):
 
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
-        """How uneven the web is over square patches, a number for each size `patch_m` [m]: `cv` with its `cv_standard_error` by chance
+        """CV of the web over square patches, a number for each size `patch_m` [m]: `cv` with its sampling error `cv_standard_error`
         and the ends `cv_low` and `cv_high` of its interval of 95 %, `cv_noise` by the noise of the camera, and `blur_of_a_pixel`, the
         share by which one more pixel of blur lowers it. What is not known is NaN; `summary` says why."""
         return self._patches()
@@ -49,11 +49,11 @@ def scan(
     md: str = "columns",
     patches: Sequence[str | float] = (),
 ) -> Scan:
-    """How even a web is of which there is a scan or a map: the same bits as `spunlaid analyse`.
+    """Measures how uniform a web is from a scan or a map: bit-identical to `spunlaid analyse`.
 
     picture: the path of a picture (PNG, TIFF) or of a map of the basis weight (.npy, CSV); or such a map as an array of rows in
         machine direction × columns in cross direction, [kg/m²] or, with `weight`, in any unit
-    pixel: side of a pixel, "0.1 mm" or in metres; PNG and TIFF may tell it
+    pixel: side of a pixel, "0.1 mm" or in metres; PNG and TIFF may contain it
     weight: mean basis weight of the sheet, "15 g/m²" or in kg/m²
     light: what the values are: "transmitted", "reflected" or "weight"; by default transmitted light for PNG and TIFF
     lamp: picture of the lamp without web, at the same exposure

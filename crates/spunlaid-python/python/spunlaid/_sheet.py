@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Sheet(Results):
-    """A map of the basis weight of a web, and how uneven it is.
+    """A map of the basis weight of a web, and its CV.
 
     weights: the map of one that was pickled
     """
@@ -50,8 +50,8 @@ class Sheet(Results):
     def plot(self, what: str = "map", *, ax: Axes | None = None) -> Axes:
         """Draws with matplotlib, and returns the axes.
 
-        what: `map`, the basis weight of every cell; or `cv`, how uneven the web is over the size of the patches, with intervals of
-            95 % by chance
+        what: `map`, the basis weight of every cell; or `cv`, its CV over the size of the patches, with 95 %
+            confidence intervals
         ax: the axes to draw on; new ones by default
         """
         if what == "map":

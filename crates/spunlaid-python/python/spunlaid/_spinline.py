@@ -87,7 +87,7 @@ def spin(
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
 ) -> Spinline:
-    """Solves a spinline, from the hole of the spinneret to the solid filament: the same bits as `spunlaid spin`.
+    """Solves a spinline, from the hole of the spinneret to the solid filament: bit-identical to `spunlaid spin`.
 
     spinline: the path of a file with the table `[spinline]`, which may be a case; or a dict of its tables, `{"spinline": {...},
         "drag": {...}}`, with texts that have a unit, and numbers in SI units. `spunlaid keys spinline` lists the keys

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Study:
-    """A study that has been flown. `spunlaid.sweep` returns it."""
+    """A study that has been computed. `spunlaid.sweep` returns it."""
 
     def __init__(self, study: _spunlaid.Study) -> None:
         self._study = study
@@ -100,7 +100,7 @@ class Study:
 
     def effects(self) -> list[dict[str, Any]]:
         """How much each factor changes each measure from one end of its range to the other: `measure`, `factor`, `from`,
-        `to`, `change`, its `standard_error` and `half_width` of its interval of 95 %; empty if the design does not tell."""
+        `to`, `change`, its `standard_error` and `half_width` of its interval of 95 %; empty if the design does not give it."""
         names = ("measure", "factor", "from", "to", "change", "standard_error", "half_width", "explained")
         return [dict(zip(names, effect, strict=True)) for effect in self._study.effects()]
 
@@ -156,7 +156,7 @@ class Study:
         """Draws a measure over a factor with matplotlib, with standard errors, and returns the axes. In a grid, each line has the
         other factors in common.
 
-        column: the measure, `amplitude_y_m`; by default the amplitude, the width of the lay-down, the unevenness or the diameter,
+        column: the measure, `amplitude_y_m`; by default the amplitude, the width of the laydown, the CV or the diameter,
             whichever the study has
         along: the key that is varied along the axis; the first factor by default
         ax: the axes to draw on; new ones by default
@@ -267,13 +267,13 @@ def sweep(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Study:
-    """Flies a study: the same bits as `spunlaid sweep`, on any machine and any number of them.
+    """Computes a study: bit-identical to `spunlaid sweep`, on any machine and any number of them.
 
     study: the path of a study file; or a dict with what such a file says, `{"case": case, "vary": {"air.velocity": [5, 10]},
         "replicates": 8}`, where `case` is a Case, a dict or the path of a case file, or `web` or `spinline` is the path of the
         file of a web or of a spinline, numbers are in SI units, and the design
         is a grid if it is left out
-    client: a client of dask.distributed, whose workers then fly the fibres or lay the webs
+    client: a client of dask.distributed, whose workers then simulate the fibres or lay the webs
     out: the folder for journal, tables, figures and report, as `spunlaid sweep` writes it; a study that was stopped goes
         on from there. Without it, results are kept in memory only
     force: whether other results in the folder are replaced

@@ -30,7 +30,7 @@ class Tables:
         except ValueError as error:
             raise FolderError(f"{path}: is not the results of a run: summary.json: {error}") from error
         if not isinstance(self._read, dict) or not {"end_node", "laydown"} & set(self._read):
-            raise FolderError(f"{path}: is not the results of a run: summary.json is that of something else")
+            raise FolderError(f"{path}: is not the results of a run: summary.json is that of another product")
 
     @property
     def numbers(self) -> list[dict[str, Any]]:

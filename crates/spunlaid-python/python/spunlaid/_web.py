@@ -23,18 +23,18 @@ class Web(Sheet):
 
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
-        """How uneven the web is over square patches, a number for each size `patch_m` [m]: `cv` of the map with its
-        `cv_standard_error` by chance, its `cv_flight_error` by the few fibres that were flown,
+        """CV of the web over square patches, a number for each size `patch_m` [m]: `cv` of the map with its
+        sampling error `cv_standard_error`, the error of the sample of filaments `cv_flight_error`,
         and its `cv_whole_error` by both; `cv_single_fibres` expected of known numbers, from single fibres, with its standard
-        error; `cv_independent` expected from the same filaments of a web in one air if each had an air of its own, by their
+        error; `cv_independent` expected from the same filaments in independent turbulence, by their
         surrogate; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
-        What is not known is NaN: without flown fibres, the error by few of them and the whole error."""
+        What is not known is NaN: without simulated fibres, the error of the sample and the total standard error."""
         return self._patches()
 
     @property
     def neighbours(self) -> dict[str, NDArray[np.float64]]:
-        """How the filaments of a web in one air come down together, a number for each distance `distance_m` of two inlets in
-        cross direction [m]: `correlation_md` and `correlation_cd` of the places where both come down at equal fed length, each with
+        """How the filaments of a web in shared turbulence land together, a number for each distance `distance_m` of two inlets in
+        cross direction [m]: `correlation_md` and `correlation_cd` of the positions where both land at equal fed length, each with
         its standard error, `correlation_md_se` and `correlation_cd_se`. One layer follows the other. Empty arrays for independent
         filaments; an error that is not known is NaN."""
         entries = self.summary.get("neighbours", {}).get("cd", [])
@@ -44,7 +44,7 @@ class Web(Sheet):
     @property
     def curtains(self) -> list[dict[str, Any]]:
         """What the filaments of each layer do to their air, if its case is known, as `summary["layers"]` has it: `filaments_per_m`,
-        `mass_loading`, `momentum_loading`, `eddy_damping`, `heat_w_per_m`, …; and in `places`, where filaments were flown, an array of each
+        `mass_loading`, `momentum_loading`, `eddy_damping`, `heat_w_per_m`, …; and in `places`, where filaments were simulated, an array of each
         number from the inlet to the belt: `x_m`, `force_n_per_m` with its standard error `force_n_per_m_se`, `share_of_momentum`,
         `change_of_velocity` and `pressure_pa`. A number that is not known is None, in an array NaN."""
         return [_with_columns(layer["curtain"]) for layer in self.summary["layers"] if "curtain" in layer]
@@ -79,14 +79,14 @@ def web(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Web:
-    """Lays a web of many filaments and says how even it is: the same bits as `spunlaid web`.
+    """Lays a web of many filaments and estimates its CV: bit-identical to `spunlaid web`.
 
     web: the path of the file of a web; or a dict of its tables, `{"fibre": {...}, "laydown": {...}, "line": {...}, "web":
-        {...}}`, with texts that have a unit, and numbers in SI units, also with the tables of the filament that flies, `{"air":
+        {...}}`, with texts that have a unit, and numbers in SI units, also with the tables of the simulated filament, `{"air":
         {...}, "belt": {...}, ...}`. `spunlaid keys --web` and `spunlaid keys` list the keys
     set: keys that replace those of the file, `{"line.belt_speed": 5.0}` or `{"belt.distance": "0.4 m"}`
-    advice: whether to try what settings of the line would make it more even at the same basis weight; `summary["advice"]` then says it
-    guesses: whether a web whose file calls numbers guesses (`web.guessed`) is also tried with half and twice of each;
+    advice: whether to try which settings of the line would make it more uniform at the same basis weight; see `summary["advice"]`
+    guesses: whether a web whose file names assumed values (`web.guessed`) is also tried with half and twice of each;
         `summary["guesses"]` then has the CVs
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number
