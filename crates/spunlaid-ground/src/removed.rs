@@ -1,7 +1,7 @@
 //! What the program had once and no longer has: one row for each name, with what to do now.
 //!
 //! Readers of cases, webs and studies, `--set`, options, commands and Python ask this table where a name is not
-//! known; none of them knows a removed name of its own. `CHANGELOG.md` has the same rows under "Removed".
+//! known; none of them knows a removed name of its own.
 
 use crate::error::Fault;
 
