@@ -323,7 +323,7 @@ mod tests {
     use crate::args::Arguments;
     use clap::CommandFactory;
 
-    /// A terminal breaks longer lines, and columns then no longer stand below each other.
+    /// A terminal breaks longer lines, and columns are then no longer aligned.
     #[test]
     fn no_line_of_help_is_longer_than_a_terminal_is_wide() {
         let program = Arguments::command();

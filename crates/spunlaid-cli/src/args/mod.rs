@@ -176,16 +176,16 @@ pub(crate) struct Air {
     pub(crate) source: CaseSource,
     #[command(flatten)]
     pub(crate) output: Output,
-    /// Fly the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD
+    /// Simulate the filaments of a line in its CFD field, and write what they do to the air of each cell, for the CFD
     /// program
     #[arg(long, conflicts_with_all = ["replicate", "frames", "duration"])]
     pub(crate) sources: bool,
-    /// Print what the air is at the places of this table with the columns x [m], y [m] and z [m], or in other units; as
-    /// CSV, into the file that --out names if there is one
+    /// Print the air at the positions of this table (columns x [m], y [m] and z [m], or in other units) as CSV; --out
+    /// names a file for it
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
           conflicts_with_all = ["sources", "replicate", "frames", "duration", "json"])]
     pub(crate) at: Option<PathBuf>,
-    /// Axes of the places and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD
+    /// Axes of the positions and velocities of --at: of the line, from the inlet or the root, or of the file of a CFD
     /// field [default: field, if the air is one]
     #[arg(long, value_parser = one_of(AXES, PlaceAxes::name), requires = "at")]
     pub(crate) axes: Option<PlaceAxes>,

@@ -202,7 +202,7 @@ fn count(most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
     }
 }
 
-/// A polymer by its name, in capitals or not. A melt flow rate beside it is read over, and said to be.
+/// A polymer by its name, in capitals or not. A melt flow rate next to it is ignored, with a remark.
 fn polymer(text: &str) -> Result<Given<Polymer>, String> {
     let lower = text.trim().to_lowercase();
     let named = |words: &[&str]| {
