@@ -126,7 +126,7 @@ pub fn scan(data: &[u8]) -> bool {
                     match scan::analyse(&picture, &scan::Settings::new(light)) {
                         Ok(found) => {
                             found.notes.iter().for_each(|note| assert_sayable(note, 1));
-                            assert!(found.patches.iter().all(|patch| patch.unevenness.cv.is_finite()));
+                            assert!(found.patches.iter().all(|patch| patch.patch_cv.cv.is_finite()));
                         }
                         Err(error) => assert_sayable(&error, 1),
                     }

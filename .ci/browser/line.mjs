@@ -107,7 +107,7 @@ async function save(page, { expect, program, folder }) {
   expect(known.length > 1, `the page knows the CV of ${known.length} patches only`);
   for (const [side, cv, error] of known) {
     const patch = web.patches.find(({ patch_m: other }) => Math.abs(other / side - 1) < 1e-6);
-    const same = patch?.cv === cv && (patch.cv_whole_error ?? patch.cv_standard_error) === error;
+    const same = patch?.cv === cv && (patch.cv_total_error ?? patch.cv_standard_error) === error;
     expect(same, `over ${1e3 * side} mm the page says ${cv} ± ${error}, the saved line ${JSON.stringify(patch)}`);
   }
   return known.length;

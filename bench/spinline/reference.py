@@ -121,8 +121,8 @@ class Layer:
         self.m = m
         logs = [math.log(share(k)) + k * math.log(2) - math.lgamma(k + 3) - math.log(k + 1) for k in range(1, 161)]
         self.coefficients = np.exp(logs)
-        guesses = np.linspace(math.log(1e-16), math.log(40), 4000)
-        self.guess = CubicSpline([math.log(self.distance(math.exp(g))[0]) for g in guesses], guesses)
+        assumed_values = np.linspace(math.log(1e-16), math.log(40), 4000)
+        self.guess = CubicSpline([math.log(self.distance(math.exp(g))[0]) for g in assumed_values], assumed_values)
 
     def distance(self, a):
         terms = self.coefficients * a ** (self.m + 1)

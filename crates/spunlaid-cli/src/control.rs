@@ -2,7 +2,7 @@
 
 use crate::args::Threads;
 use crate::progress;
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::Resources;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -15,11 +15,11 @@ pub(crate) fn stop_on_ctrl_c() -> &'static AtomicBool {
 }
 
 /// How work is done; Ctrl-C ends it.
-pub(crate) fn control(threads: Threads, done: &AtomicU64) -> Control<'_> {
-    Control { threads: threads.number(), isa: Isa::detect(), stop: stop_on_ctrl_c(), done }
+pub(crate) fn control(threads: Threads, done: &AtomicU64) -> RunContext<'_> {
+    RunContext { threads: threads.number(), isa: Isa::detect(), stop: stop_on_ctrl_c(), done }
 }
 
-/// What is read of a file. Tensions that it wants are flown for, with a bar; Ctrl-C ends it.
+/// What is read of a file. Tensions that it wants are simulated for, with a bar; Ctrl-C ends it.
 pub(crate) fn settled<T>(
     threads: Threads,
     quiet: bool,

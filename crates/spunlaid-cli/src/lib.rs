@@ -25,7 +25,7 @@ use std::path::Path;
 /// Returns the exit code: 0, 1 if the input is wrong, 130 if interrupted, 2 otherwise.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     outlive_the_file_size_limit();
-    let code = obey(words);
+    let code = dispatch(words);
     // A program does this as it ends, but whoever calls this function may go on. What could not be written is told.
     let _ = std::io::stdout().flush();
     code
@@ -39,7 +39,7 @@ fn outlive_the_file_size_limit() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-fn obey(words: impl IntoIterator<Item = OsString>) -> u8 {
+fn dispatch(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
     let (invocation, arguments) = match parse(&words) {
         Ok(parsed) => parsed,

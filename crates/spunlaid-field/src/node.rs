@@ -110,7 +110,7 @@ impl Repeats {
         }
     }
 
-    /// Whether the points are those of several times: each place occurs so often, or the list begins anew after the
+    /// Whether the points are those of several times: each place occurs so often, or the list begins again after the
     /// last place and may end before it. Where only pieces meet, most places occur once.
     fn check(self, place_of: &[u32]) -> Result<(), FileError> {
         let Some(([one, other], off)) = self.farthest.filter(|(_, off)| *off > SAME_AIR * self.fastest)

@@ -89,7 +89,7 @@ pub struct Effect<M> {
     /// The part of the change of a CV that filaments make each for itself, to first order; the rest is that
     /// of the clouds which they make together. None where it is not known.
     pub own: Option<f64>,
-    /// Correlation of the unevenness of the blocks of the two webs, if they hang in the same air: one where
+    /// Correlation of the CV of the blocks of the two webs, if they hang in the same air: one where
     /// they have the same clouds, zero where they have other ones and the error is that of two webs by
     /// themselves.
     pub in_common: Option<f64>,
@@ -110,7 +110,7 @@ impl<M> Effect<M> {
 
 /// A change with what it does.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tried<E, M> {
+pub struct SensitivityRun<E, M> {
     /// The change.
     pub change: Change<E>,
     /// What it does to each measure.
@@ -119,7 +119,7 @@ pub struct Tried<E, M> {
     pub at_first: Vec<Effect<M>>,
 }
 
-impl<E, M: PartialEq> Tried<E, M> {
+impl<E, M: PartialEq> SensitivityRun<E, M> {
     /// What it does to a measure.
     pub fn on(&self, measure: M) -> Option<&Effect<M>> {
         self.effects.iter().find(|effect| effect.of == measure)
@@ -131,10 +131,10 @@ pub type Outcome<M> = Result<Vec<Effect<M>>, String>;
 
 /// What changes do to a base.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trials<E, M> {
+pub struct Sensitivity<E, M> {
     /// The changes, each with what it does.
-    pub tried: Vec<Tried<E, M>>,
-    /// Whether the best changes were tried once more, in another chance. Only these are [`Trials::improvements`] then.
+    pub tried: Vec<SensitivityRun<E, M>>,
+    /// Whether the best changes were tried once more, in another chance. Only these are [`Sensitivity::improvements`] then.
     pub is_confirmed: bool,
     /// Changes that could not be tried, and why.
     pub failed: Vec<(Change<E>, String)>,
@@ -151,7 +151,7 @@ pub const RACING: usize = 3;
 /// How many standard errors a change may lie behind the best ones and still be tried once more.
 const BEHIND: f64 = 2.0;
 
-impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
+impl<E: Clone, M: Copy + PartialEq> Sensitivity<E, M> {
     /// Tries changes.
     ///
     /// * `measure` – measures the base and what these changes make of it in pairs
@@ -170,7 +170,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         let outcomes = if changes.is_empty() { Vec::new() } else { measure(&changes)? };
         for (change, outcome) in changes.into_iter().zip(outcomes) {
             match outcome {
-                Ok(effects) => trials.tried.push(Tried { change, effects, at_first: Vec::new() }),
+                Ok(effects) => trials.tried.push(SensitivityRun { change, effects, at_first: Vec::new() }),
                 Err(why) => trials.failed.push((change, why)),
             }
         }
@@ -188,7 +188,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
         measure: impl FnOnce(&[Change<E>]) -> Result<Vec<Outcome<M>>, Error>,
     ) -> Result<(), Error> {
         let racing = self.judged_by.map_or_else(Vec::new, |judged_by| self.racing(judged_by));
-        let races = |tried: &Tried<E, M>| racing.iter().any(|racing| std::ptr::eq(*racing, tried));
+        let races = |tried: &SensitivityRun<E, M>| racing.iter().any(|racing| std::ptr::eq(*racing, tried));
         let best: Vec<usize> = (0..self.tried.len()).filter(|i| races(&self.tried[*i])).collect();
         let changes: Vec<Change<E>> = best.iter().map(|i| self.tried[*i].change.clone()).collect();
         self.is_confirmed = true;
@@ -204,7 +204,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
 
     /// The changes that may be among those that lower a measure most, as far as is known of them: first those of the
     /// running machine.
-    fn racing(&self, measure: M) -> Vec<&Tried<E, M>> {
+    fn racing(&self, measure: M) -> Vec<&SensitivityRun<E, M>> {
         let (running, others): (Vec<_>, Vec<_>) = self
             .best(measure, |difference| difference.value < 0.0)
             .into_iter()
@@ -218,16 +218,22 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
 
     /// The changes that lower a measure by at least one per cent of it and beyond chance: the best of each
     /// setting. Those of the running machine come first, and of these the best.
-    pub fn improvements(&self, measure: M) -> Vec<(&Tried<E, M>, &Effect<M>)> {
-        self.best(measure, |difference| difference.value <= -LEAST && difference.is_beyond_chance())
+    pub fn improvements(&self, measure: M) -> Vec<(&SensitivityRun<E, M>, &Effect<M>)> {
+        self.best(measure, |difference| difference.value <= -LEAST && difference.is_significant())
     }
 
     /// The best change of each setting among some, the best first.
-    fn best(&self, measure: M, is_one: impl Fn(&Difference) -> bool) -> Vec<(&Tried<E, M>, &Effect<M>)> {
+    fn best(
+        &self,
+        measure: M,
+        is_one: impl Fn(&Difference) -> bool,
+    ) -> Vec<(&SensitivityRun<E, M>, &Effect<M>)> {
         let told = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
         let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
         let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
-        sort_by_key(&mut improvements, |(_, effect): &(&Tried<E, M>, &Effect<M>)| effect.difference.value);
+        sort_by_key(&mut improvements, |(_, effect): &(&SensitivityRun<E, M>, &Effect<M>)| {
+            effect.difference.value
+        });
         improvements.sort_by_key(|(tried, _)| tried.change.setting.turned);
         let mut settings = Vec::new();
         improvements.retain(|(tried, _)| {
@@ -243,7 +249,7 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
     /// base. What is within chance does not count.
     pub fn range(&self, measure: M) -> [f64; 2] {
         let differences = self.tried.iter().filter_map(|tried| Some(tried.on(measure)?.difference));
-        differences.filter(Difference::is_beyond_chance).fold([1.0, 1.0], |[least, most], difference| {
+        differences.filter(Difference::is_significant).fold([1.0, 1.0], |[least, most], difference| {
             let ratio = 1.0 + difference.value;
             [least.min(ratio), most.max(ratio)]
         })
@@ -251,9 +257,12 @@ impl<E: Clone, M: Copy + PartialEq> Trials<E, M> {
 }
 
 /// Of changes of which the best comes first, some that may be the best ones.
-fn may_be_best<'a, E, M>(best: &[(&'a Tried<E, M>, &Effect<M>)], most: usize) -> Vec<&'a Tried<E, M>> {
+fn may_be_best<'a, E, M>(
+    best: &[(&'a SensitivityRun<E, M>, &Effect<M>)],
+    most: usize,
+) -> Vec<&'a SensitivityRun<E, M>> {
     let Some((_, last)) = best.get(NAMED - 1).or(best.last()) else { return Vec::new() };
-    let may_be_better = |(_, effect): &&(&Tried<E, M>, &Effect<M>)| {
+    let may_be_better = |(_, effect): &&(&SensitivityRun<E, M>, &Effect<M>)| {
         let [own, other] = [effect.difference, last.difference];
         own.value - other.value <= BEHIND * own.standard_error.hypot(other.standard_error)
     };
@@ -283,9 +292,9 @@ mod tests {
         let effects = [-0.3, -0.4, -0.02, -0.05, 0.1];
         let changes = turned.into_iter().enumerate().map(change).collect();
         let mut trials =
-            Trials::new(changes, |_| Ok(effects.map(|value| Ok(vec![effect(value)])).to_vec())).unwrap();
+            Sensitivity::new(changes, |_| Ok(effects.map(|value| Ok(vec![effect(value)])).to_vec())).unwrap();
         trials.judged_by = Some(0);
-        let names = |trials: &Trials<(), u8>| -> Vec<&str> {
+        let names = |trials: &Sensitivity<(), u8>| -> Vec<&str> {
             trials.improvements(0).iter().map(|(tried, _)| tried.change.setting.name).collect()
         };
         assert_eq!(names(&trials), ["melt", "air", "depth", "holes"]);

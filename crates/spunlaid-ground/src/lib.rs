@@ -46,10 +46,12 @@ pub mod effects;
 
 // The face: the types that others know by it. Functions are called by their room.
 pub use company::{Bits, PerLane};
-pub use effects::{Change, ChangedKey, Effect, NAMED, Outcome, RACING, Setting, Trials, Tried, Turned};
+pub use effects::{
+    Change, ChangedKey, Effect, NAMED, Outcome, RACING, Sensitivity, SensitivityRun, Setting, Turned,
+};
 pub use error::{Error, Fault, FileError, FileKind, Finding, IS, Position, Problem, WAS};
 pub use fft::{Complex, InverseTransform, WideComplex};
-pub use lanes::{Isa, Lanes, Plain, Register, Simd, Singles, Sixteen, Task, WIDTH, Wide};
+pub use lanes::{F32x12, F32x16, Isa, Lanes, Plain, Register, Simd, Task, WIDTH, Wide};
 pub use log::Log;
 pub use measure::{
     Aggregate, ErrorRole, Figure, Formula, Group, HERTZ, KELVIN, Known, METRES_PER_SECOND, MILLIMETRES,
@@ -60,6 +62,6 @@ pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
 pub use statistics::{Difference, Estimate, EvenSample, Interval, NORMAL_95, Spectrum, Welch, Window};
 pub use table::{FORMS, FirstCell, Head, Stamp, Table, refuse_twice};
-pub use threads::{Control, OnDrop};
+pub use threads::{OnDrop, RunContext};
 pub use units::{Dimension, Expression, Powers, UnitAdvice};
 pub use vec3::Vec3;

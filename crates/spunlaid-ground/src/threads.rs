@@ -10,7 +10,7 @@ use std::time::Duration;
 
 /// How work is done. None of it changes a bit of the results.
 #[derive(Clone, Copy, Debug)]
-pub struct Control<'a> {
+pub struct RunContext<'a> {
     /// Number of threads.
     pub threads: usize,
     /// Instruction set.
@@ -24,17 +24,17 @@ pub struct Control<'a> {
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///
 /// * `work` – does the piece of a number
-pub fn each<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+pub fn par_map<T: Send>(threads: usize, pieces: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let name = std::any::type_name_of_val(&work);
     let Ok(done) = share(name, threads, pieces, |piece| Ok::<_, Infallible>(work(piece)));
     done
 }
 
-/// As [`each`], with work that may fail.
+/// As [`par_map`], with work that may fail.
 ///
 /// # Errors
 /// The error of a piece; the pieces after it may not be done.
-pub fn try_each<T: Send>(
+pub fn try_par_map<T: Send>(
     threads: usize,
     pieces: usize,
     work: impl Fn(usize) -> Result<T, Error> + Sync,

@@ -124,7 +124,7 @@ class Controls {
     }
   }
 
-  /** Marks a value that was written and cannot be flown, and says why beside it. The box keeps it. */
+  /** Marks a value that was written and cannot be simulated, and says why beside it. The box keeps it. */
   refuse(key, value, why) {
     const { text, wrong } = this.controls.get(key);
     [text.value, wrong.textContent, wrong.hidden] = [value, `${why}. The setting before flies on; Escape brings it back.`, false];

@@ -238,7 +238,7 @@ function refusal(all) {
   box.replaceChildren(...lines, kept);
 }
 
-/** Takes back what was said of a case or a value that could not be flown. */
+/** Takes back what was said of a case or a value that could not be simulated. */
 function forgive() {
   problems([]);
   refusal([]);

@@ -62,7 +62,7 @@ pub enum Subject {
 /// * `ready` – gets the address of the page, and a remark if there is one
 ///
 /// # Errors
-/// The case cannot be flown, the line cannot be read, or the server cannot start.
+/// The case cannot be simulated, the line cannot be read, or the server cannot start.
 pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Error> {
     let Start { subject, text, file, port } = start;
     let folder = std::env::current_dir().map_err(not_served)?;

@@ -26,7 +26,7 @@ pub(super) enum Command {
     Step {},
     /// Start the fibres again, straight and at rest; of a line all knobs as in the web of comparison.
     Reset {},
-    /// Begin the statistics anew.
+    /// Begin the statistics again.
     Forget {},
     /// The present web becomes the one with which others are compared.
     Pin {},

@@ -103,7 +103,7 @@ pub(crate) fn fly_bundle(
     threads: usize,
 ) -> PyResult<Vec<Row>> {
     let watch = Watch::default();
-    let flown = watched(py, &watch, None, || {
+    let simulated = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
         let mut known: BTreeMap<&str, usize> = BTreeMap::new();
         let mut batches = Vec::new();
@@ -122,7 +122,7 @@ pub(crate) fn fly_bundle(
         Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, watch.control(Some(threads)))?, batches)))
     })?;
     let (records, batches) =
-        flown.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;
+        simulated.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;
     // Two points may have the same case, so a record is found by its point here and its replicate there.
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();
     for (batch, (number, ..)) in batches.iter().zip(&parts) {

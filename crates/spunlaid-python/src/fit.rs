@@ -7,7 +7,7 @@ use crate::warning::warn_of;
 use crate::watched::{Watch, guarded, settled, watched};
 use pyo3::prelude::*;
 use spunlaid::experiment::{Journal, WebInProgress};
-use spunlaid::ground::Control;
+use spunlaid::ground::RunContext;
 use spunlaid::input::{Overrides, Resources, read_fit};
 use spunlaid_results::folders::Contents;
 use spunlaid_results::products::fit::{self as folder, FitInput, sentences};
@@ -61,7 +61,7 @@ pub(crate) fn find_fit(
         };
         // Progress is counted in webs.
         let aside = AtomicU64::new(0);
-        let by = Control { done: &aside, ..watch.control(threads) };
+        let by = RunContext { done: &aside, ..watch.control(threads) };
         let web = |values: &[f64]| {
             let read = |resources: &Resources| file.web(values, resources);
             Resources::default().settle(read, |resources| resources.fly(by))

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::products::run::{Flights, RunFolder, fly as flown, found};
+use spunlaid_results::products::run::{Flights, RunFolder, fly as simulated, found};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -33,14 +33,14 @@ pub(crate) fn fly(
     warn_of(py, &notes)?;
     let watch = Watch::new(case.run.steps.saturating_mul(case.run.replicates));
     let (started, computing) = (Instant::now(), watch.control(threads));
-    let flown = watched(py, &watch, progress.as_ref(), || {
+    let simulated = watched(py, &watch, progress.as_ref(), || {
         let mut staging = Staging::new(&place, ENTRIES, false, &watch.stop)?;
-        let flown = flown(&case, &plans, computing, Some(&staging), shapes, |_| ())?;
-        flown.kept.iter().for_each(Flights::finish);
-        staging.publish().map(|()| flown)
+        let simulated = simulated(&case, &plans, computing, Some(&staging), shapes, |_| ())?;
+        simulated.kept.iter().for_each(Flights::finish);
+        staging.publish().map(|()| simulated)
     })?;
-    let (is_whole, paths) = (flown.paths.is_some(), flown.paths);
-    let results = (flown.results, flown.replicates, is_whole);
+    let (is_whole, paths) = (simulated.paths.is_some(), simulated.paths);
+    let results = (simulated.results, simulated.replicates, is_whole);
     let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, (started, computing));
     let [lost, outside, _] = found(&run.case, &run.results);
     lost.iter().chain(&outside).try_for_each(|text| warn(py, text))?;
@@ -55,7 +55,7 @@ pub(crate) fn fly(
         paths.iter().for_each(|paths| *lock(&checks) = plans.check(paths, computing));
         Ok(())
     });
-    // What was flown is kept: a check that Ctrl-C stops says so in its place.
+    // What was simulated is kept: a check that Ctrl-C stops says so in its place.
     checked
         .or_else(|ended| if ended.is_instance_of::<PyKeyboardInterrupt>(py) { Ok(()) } else { Err(ended) })?;
     run.checks = unlock(checks);

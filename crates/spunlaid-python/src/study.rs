@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use spunlaid::experiment::study::{rankings, results_of_point, run, unsynced};
 use spunlaid::experiment::{Bundles, Experiment, Journal, Progress, Record, Rounds};
-use spunlaid::ground::Control;
+use spunlaid::ground::RunContext;
 use spunlaid::ground::threads::{lock, look_while, unlock};
 use spunlaid::ground::units::udunits;
 use spunlaid::input::{
@@ -116,7 +116,7 @@ impl Study {
     #[pyo3(signature = (threads = None, progress = None))]
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
         let (watch, counters, steps) = (Watch::default(), Progress::default(), AtomicU64::new(0));
-        let computing = Control { done: &steps, ..watch.control(threads) };
+        let computing = RunContext { done: &steps, ..watch.control(threads) };
         // Progress is counted in fibres, as it is on a cluster.
         let look = || {
             watch.done.store(counters.fibres_done.load(Ordering::Relaxed), Ordering::Relaxed);
@@ -215,7 +215,7 @@ impl Study {
         self.file.study.points.iter().map(|point| cost(&point.experiment)).fold(0.0, f64::max)
     }
 
-    /// Whether every bundle of webs is one web, whose filaments all fly in one air: it takes minutes and much
+    /// Whether every bundle of webs is one web, whose filaments all fly in shared turbulence: it takes minutes and much
     /// memory, and uses all threads of a machine.
     #[getter]
     fn one_web_a_machine(&self) -> bool {
@@ -327,7 +327,7 @@ impl Study {
             return Err(raised_as(py, "FolderError", text));
         };
         guarded(py, || {
-            // The folder is opened anew, which also sees whether it still holds this study.
+            // The folder is opened again, which also sees whether it still holds this study.
             *self.journal() = None;
             let (mut place, mut journal, _) = folder::open(out, &self.file, false, None, &NEVER)?;
             place.figures = figures;

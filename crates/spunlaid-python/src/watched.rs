@@ -3,7 +3,7 @@
 use crate::failure::{raised, raised_of_panic};
 use pyo3::prelude::*;
 use spunlaid::ground::threads::lock;
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::Resources;
 use spunlaid_results::Failure;
 use spunlaid_results::folders::Making;
@@ -37,8 +37,8 @@ impl Watch {
     }
 
     /// How work is done that is watched, on so many threads.
-    pub(crate) fn control(&self, threads: Option<usize>) -> Control<'_> {
-        Control { threads: self::threads(threads), isa: Isa::detect(), stop: &self.stop, done: &self.done }
+    pub(crate) fn control(&self, threads: Option<usize>) -> RunContext<'_> {
+        RunContext { threads: self::threads(threads), isa: Isa::detect(), stop: &self.stop, done: &self.done }
     }
 
     /// How files are made that are watched.
@@ -115,7 +115,7 @@ pub(crate) fn guarded<T: Send>(
     }
 }
 
-/// What is read of a file. Tensions at ends of spinlines that it wants are flown for, on so many threads;
+/// What is read of a file. Tensions at ends of spinlines that it wants are simulated for, on so many threads;
 /// Ctrl-C stops them.
 pub(crate) fn settled<T: Send>(
     py: Python<'_>,

@@ -12,7 +12,7 @@ use spunlaid::ground::threads::look_while;
 use spunlaid::ground::{FileKind, Measure, measure};
 use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
-use spunlaid::web::{OF_PATCHES, OF_SCANNED_PATCHES};
+use spunlaid::web::{PATCH_MEASURES, SCANNED_PATCH_MEASURES};
 use spunlaid_results::products::web::WebFolder;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -20,13 +20,13 @@ use std::time::Instant;
 
 /// Lays a web. See spunlaid.web, which calls it.
 #[pyfunction]
-#[pyo3(signature = (path, changes, advice = false, guesses = true, threads = None, progress = None))]
+#[pyo3(signature = (path, changes, advice = false, assumed_values = true, threads = None, progress = None))]
 pub(crate) fn lay_web(
     py: Python<'_>,
     path: Option<PathBuf>,
     changes: &Bound<'_, PyAny>,
     advice: bool,
-    guesses: bool,
+    assumed_values: bool,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Computed> {
@@ -35,7 +35,7 @@ pub(crate) fn lay_web(
     let Source { name, text, file } = Source::read(py, path, FileKind::Web, "web")?;
     let read = |of| settled(py, threads, |resources| read_changes((&text, &file), set.with(resources), of));
     let advice = advice.then(|| read(Changes::OfLine)).transpose()?;
-    let guesses = guesses.then(|| read(Changes::OfGuesses)).transpose()?;
+    let assumed_values = assumed_values.then(|| read(Changes::OfAssumedValues)).transpose()?;
     let file = settled(py, threads, |resources| read_web((&text, &file), set.with(resources)))?;
     warn_of(py, &file.notes)?;
     let watch = Watch::default();
@@ -46,17 +46,18 @@ pub(crate) fn lay_web(
     };
     let web = watched(py, &watch, progress.as_ref(), || {
         let (started, by) = (Instant::now(), watch.control(threads));
-        let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
-        watch.begin(flown.pieces()?);
-        let findings = flown.find(by)?;
-        let mut web = WebFolder::new((name.clone(), name.clone()), file, (flown, findings), (started, by));
+        let mut simulated = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
+        watch.begin(simulated.pieces()?);
+        let findings = simulated.find(by)?;
+        let mut web =
+            WebFolder::new((name.clone(), name.clone()), file, (simulated, findings), (started, by));
         let tried = |web: &WebFolder, changes: Vec<Change>| {
             watch.begin(steps(&web.file.spec, &changes));
-            advise(&web.file.spec, (&web.flown.web, &web.findings), changes, None, (None, by))
+            advise(&web.file.spec, (&web.simulated.web, &web.findings), changes, None, (None, by))
         };
         let are_tried = |all: &Vec<Change>| !all.is_empty() && are_tried(&web.file.spec, &web.findings, all);
-        let guesses = guesses.filter(are_tried);
-        web.guesses = guesses.map(|changes| tried(&web, changes)).transpose()?;
+        let assumed_values = assumed_values.filter(are_tried);
+        web.assumed_values = assumed_values.map(|changes| tried(&web, changes)).transpose()?;
         web.advice = advice.map(|changes| tried(&web, changes)).transpose()?;
         Ok(web)
     })?;
@@ -67,7 +68,7 @@ pub(crate) fn lay_web(
 #[pyfunction]
 pub(crate) fn patch_numbers() -> [Vec<&'static str>; 2] {
     [
-        measure::with_errors(OF_PATCHES).map(Measure::entry).collect(),
-        measure::with_errors(OF_SCANNED_PATCHES).map(Measure::entry).collect(),
+        measure::with_errors(PATCH_MEASURES).map(Measure::entry).collect(),
+        measure::with_errors(SCANNED_PATCH_MEASURES).map(Measure::entry).collect(),
     ]
 }

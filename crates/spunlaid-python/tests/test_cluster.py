@@ -33,7 +33,7 @@ def study() -> dict[str, object]:
 
 @pytest.fixture(scope="module")
 def alone(study: dict[str, object], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of the study, flown on this machine."""
+    """The folder of the study, simulated on this machine."""
     out = tmp_path_factory.mktemp("alone") / "s"
     spunlaid.sweep(study, out=out)
     return out
@@ -82,7 +82,7 @@ def test_identical_with_a_worker_killed_half_way(
 
 
 def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
-    """Webs of known numbers, and webs whose case is flown by each worker."""
+    """Webs of known numbers, and webs whose case is simulated by each worker."""
     cases = Path(__file__).parents[3] / "cases"
     known = {
         "web": cases / "web_known.toml",
@@ -102,8 +102,8 @@ def test_identical_webs_on_a_cluster(cluster: Any, tmp_path: Path) -> None:
         web.length = "60 mm"
         """
     )
-    flown = {"web": web, "vary": {"belt.speed": [3.0, 4.0]}}
-    for number, study in enumerate((known, flown)):
+    simulated = {"web": web, "vary": {"belt.speed": [3.0, 4.0]}}
+    for number, study in enumerate((known, simulated)):
         here, there = (tmp_path / f"{where}{number}" for where in ("here", "there"))
         spunlaid.sweep(study, out=here)
         found = spunlaid.sweep(study, client=cluster, out=there)
@@ -120,11 +120,11 @@ def test_each_worker_has_one_web_in_one_air(cluster: Any, tmp_path: Path) -> Non
         """
         version = 1
         laydown.case = "short.toml"
-        line = { filaments_per_metre = 100, depth = "10 mm" }
+        line = { filaments_per_metre = 100, slot_gap = "10 mm" }
         web = { width = "0.1 m", length = "40 mm", patches = ["2 mm", "5 mm"] }
         """
     )
-    study = {"web": tmp_path / "web.toml", "replicates": 2, "vary": {"line.depth": ["0 mm", "5 mm"]}}
+    study = {"web": tmp_path / "web.toml", "replicates": 2, "vary": {"line.slot_gap": ["0 mm", "5 mm"]}}
     most: list[int] = []
 
     def look(done: int, of: int) -> None:

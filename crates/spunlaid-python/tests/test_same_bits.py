@@ -13,7 +13,7 @@ from conftest import CASES
 import spunlaid
 from spunlaid import Case
 
-# Cases whose numbers, files or results come over the border in other ways, flown for a short time.
+# Cases whose numbers, files or results come over the border in other ways, simulated for a short time.
 NAMES = "table1 hanging_chain measured_spectrum openfoam_diffuser profile record spunbond".split()
 
 

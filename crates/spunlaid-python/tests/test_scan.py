@@ -111,7 +111,7 @@ def test_identical_comparison_of_webs(webs: Path, program: Path, tmp_path: Path)
     table = found.to_pandas().loc["light"]
     cv = table.loc[[name for name in table.index if name.startswith("cv_")]]
     # Half the weight is less even.
-    assert (cv["difference"].dropna() > 0).all() and cv["beyond_chance"].dropna().any()
+    assert (cv["difference"].dropna() > 0).all() and cv["significant"].dropna().any()
     assert repr(found) == "<Comparison of light with heavy>"
 
 

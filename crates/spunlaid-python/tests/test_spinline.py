@@ -48,7 +48,7 @@ def test_measures_and_stations_agree() -> None:
     assert np.all(np.diff(stations["z_m"]) > 0)
     # The throughput is the line density times the speed.
     assert line.linear_density_kg_m * line.final_speed_m_s == pytest.approx(0.5e-3 / 60, rel=1e-12)
-    frozen = stations["z_m"] >= line.freezing["distance_m"]
+    frozen = stations["z_m"] >= line.solidification["distance_m"]
     np.testing.assert_allclose(stations["speed_m_s"][frozen], line.final_speed_m_s, rtol=1e-12)
     assert line.influences[0]["diameter"] != 0
     assert "dtex" in repr(line)
@@ -67,8 +67,8 @@ def test_a_curtain_has_rows() -> None:
 
 def test_constants_of_the_polymer_can_be_given() -> None:
     usual = spunlaid.spin({"spinline": LINE})
-    other = spunlaid.spin({"spinline": {**LINE, "material": {"freezing_temperature": "120 °C"}}})
-    assert other.freezing["temperature_c"] == pytest.approx(120.0)
+    other = spunlaid.spin({"spinline": {**LINE, "material": {"solidification_temperature": "120 °C"}}})
+    assert other.solidification["temperature_c"] == pytest.approx(120.0)
     assert other.final_diameter_m > usual.final_diameter_m
 
 

@@ -47,8 +47,8 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
 
 def test_what_filaments_do_to_their_air() -> None:
     coarse = {"air.lateral_cutoff": 6, "fibre.element_length": "20 mm", "run.duration": "50 ms", "run.spin_up": "10 ms"}
-    small = {"web.width": 0.2, "web.length": 0.2, "web.cell": "1 mm", "web.flown": 100}
-    web = spunlaid.web(CASES / "web_shared.toml", set={**coarse, **small}, guesses=False, threads=2)
+    small = {"web.width": 0.2, "web.length": 0.2, "web.cell": "1 mm", "web.simulated": 100}
+    web = spunlaid.web(CASES / "web_shared.toml", set={**coarse, **small}, assumed_values=False, threads=2)
     [curtain], told = web.curtains, web.summary["layers"][0]["curtain"]
     assert curtain["filaments_per_m"] == 5000 and curtain["mass_loading"] == told["mass_loading"]
     places = curtain["places"]

@@ -34,7 +34,7 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
         [one] => format!(" of layer {one}"),
         [more @ .., last] => format!(" of layers {} and {last}", more.join(", ")),
     };
-    let guess = change.keys.first().filter(|_| change.setting == setting::GUESS);
+    let guess = change.keys.first().filter(|_| change.setting == setting::ASSUMED);
     let what = guess.map(|guess| in_sentence(label(&guess.key)));
     format!("{}{whose}", what.unwrap_or_else(|| change.setting.words.to_owned()))
 }

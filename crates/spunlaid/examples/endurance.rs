@@ -25,7 +25,7 @@ fn main() {
     let one: Option<u64> = arguments.get(1).and_then(|number| number.parse().ok());
     let folder = std::env::temp_dir().join(format!("spunlaid-endurance-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let (mut flown, mut lost, mut refused, mut fast, mut cases) = (0.0, 0, 0, 0, 0);
+    let (mut simulated, mut lost, mut refused, mut fast, mut cases) = (0.0, 0, 0, 0, 0);
     for number in one.unwrap_or(0).. {
         let mut random = Random(Xoshiro256PlusPlus::seed_from_u64(number));
         let text = if wide && random.share() < 0.4 { random.hanging() } else { random.fed(wide, &folder) };
@@ -50,7 +50,7 @@ fn main() {
                     let speeds = nodes.flat_map(|v| (0..8).map(move |lane| v.lane(lane).norm()));
                     worst = speeds.fold(worst, f64::max);
                 }
-                flown += 8.0 * flight.time();
+                simulated += 8.0 * flight.time();
                 if let Err(error) = &end
                     && !matches!(error, Error::NotLanding { .. })
                 {
@@ -62,13 +62,13 @@ fn main() {
                 }
             }
         }
-        if one.is_some() || flown > WANTED {
+        if one.is_some() || simulated > WANTED {
             break;
         }
     }
     std::fs::remove_dir_all(&folder).unwrap();
     println!(
-        "{cases} cases, {refused} refused; {flown:.0} fibre-seconds flown; {lost} flights with a lost fibre, \
+        "{cases} cases, {refused} refused; {simulated:.0} fibre-seconds simulated; {lost} flights with a lost fibre, \
         {fast} with a fast one"
     );
 }

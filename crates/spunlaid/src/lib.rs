@@ -8,7 +8,7 @@
 //! | [`air`] | CFD fields (the crate [`spunlaid-field`](spunlaid_field)), hot-wire records, turbulence |
 //! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
 //! | [`web`] | curves on the belt, the map of a web, the fabric, scans |
-//! | [`simulation`] | ensembles, filaments in one air, and what is measured |
+//! | [`simulation`] | ensembles, filaments in shared turbulence, and what is measured |
 //! | [`experiment`] | studies, advice, the fit of settings to a scan |
 //! | [`input`] | files of cases, webs and studies |
 //!
@@ -16,22 +16,22 @@
 //! short, the program does this:
 //!
 //! ```
-//! use spunlaid::simulation::ensemble::{Keep, Results, fly};
+//! use spunlaid::simulation::ensemble::{Recorded, Results, fly};
 //! use spunlaid::ground::error::Error;
 //! use spunlaid::input::{read_case, starter_case};
-//! use spunlaid::ground::{Control, Isa};
+//! use spunlaid::ground::{RunContext, Isa};
 //! use std::sync::atomic::{AtomicBool, AtomicU64};
 //!
 //! # fn main() -> Result<(), Error> {
 //! let changes = [("run.duration", "0.1 s"), ("run.time_step", "20 µs"), ("run.replicates", "4")];
 //! let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
-//! let computing = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &progress };
+//! let computing = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &progress };
 //! // No reader flies fibres. `Resources::settle` flies for a spinline that ends at the tension of its fibre.
 //! let (case, _notes) = read_case((starter_case(), "starter.toml"), &changes)?;
 //!
 //! let mut results = Results::collector(0);
-//! fly::<Error>(&case, Keep::NUMBERS, computing, |flight| {
+//! fly::<Error>(&case, Recorded::NUMBERS, computing, |flight| {
 //!     results.take(flight);
 //!     Ok(())
 //! })?;

@@ -14,10 +14,10 @@ use common::*;
 use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, Lateral, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Strand};
-use spunlaid::ground::{Control, Isa, WIDTH};
+use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, Keep, MEASURES, Results, Trajectory};
+use spunlaid::simulation::{Job, MEASURES, Recorded, Results, Trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -75,9 +75,9 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, Memory) {
 
 fn flights(case: &Case) -> (Vec<Trajectory>, u64) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..case.run.replicates).map(|replicate| Job::new(case, replicate)).collect();
-    let flights = fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies");
+    let flights = fly_together(&jobs, Recorded::SAMPLES, computing).expect("the case flies");
     (flights, fibre_steps.into_inner())
 }
 
@@ -190,14 +190,14 @@ fn bytes_of(flight: &Trajectory) -> i64 {
 #[test]
 fn memory_of_flights_is_what_they_keep_and_their_turbulence() {
     let (scheme, h) = (Scheme::ImplicitTension, 2e-4);
-    let flown = |duration| {
+    let simulated = |duration| {
         let case = table1(scheme, h, duration, WIDTH as u64);
         let ((flights, _), memory) = memory_of(|| flights(&case));
         let turbulence = Wind::memory(&case.air, 20, duration);
         (flights, memory, turbulence as i64)
     };
     let ((short, short_memory, short_turbulence), (long, long_memory, long_turbulence)) =
-        (flown(0.2), flown(2.0));
+        (simulated(0.2), simulated(2.0));
     let [short_bytes, long_bytes] = [&short, &long].map(|flights| flights.iter().map(bytes_of).sum::<i64>());
     // Ten times the records; the nodes stay.
     assert!(long_bytes > 8 * short_bytes, "{short_bytes} and {long_bytes} bytes");
@@ -218,11 +218,11 @@ fn memory_of_a_flight_does_not_grow_with_its_recorded_instants() {
         let mut case = table1(Scheme::ImplicitTension, 2e-4, 1.0, 2);
         (case.run.steps, case.run.output_steps) = (instants, 1);
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+        let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
         let jobs = [0, 1].map(|replicate| Job::new(&case, replicate));
-        let (flown, memory) =
-            memory_of(|| fly_together(&jobs, Keep::CURVES, computing).expect("the case flies"));
-        assert!(flown.iter().all(|flight| flight.samples.is_empty()));
+        let (simulated, memory) =
+            memory_of(|| fly_together(&jobs, Recorded::CURVES, computing).expect("the case flies"));
+        assert!(simulated.iter().all(|flight| flight.samples.is_empty()));
         memory.peak
     };
     // Beyond what is kept whole. If every instant were kept, these would be 40 000 more, of 1 kB of two fibres.

@@ -37,12 +37,12 @@ pub const BASES: [Base; 10] = [
     base("field", "run", include_str!("field.toml"), OF_FIBRES, 1.0),
     base("record", "run", include_str!("record.toml"), OF_FIBRES, 1.0),
     base("fed", "run", include_str!("fed.toml"), &["fibre", "air", "drag", "feed", "belt", "run"], 2.0),
-    base("web", "web", include_str!("web.toml"), OF_WEBS, 3.0),
-    base("layers", "web", include_str!("layers.toml"), OF_WEBS, 2.0),
+    base("web", "web", include_str!("web.toml"), WEB_MEASURES, 3.0),
+    base("layers", "web", include_str!("layers.toml"), WEB_MEASURES, 2.0),
     base(
-        "flown",
+        "simulated",
         "web",
-        include_str!("flown.toml"),
+        include_str!("simulated.toml"),
         &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
         0.7,
     ),
@@ -58,7 +58,7 @@ pub const BASES: [Base; 10] = [
 ];
 
 const OF_FIBRES: &[&str] = &["fibre", "air", "drag", "run"];
-const OF_WEBS: &[&str] = &["fibre", "laydown", "line", "web", "fabric"];
+const WEB_MEASURES: &[&str] = &["fibre", "laydown", "line", "web", "fabric"];
 const OF_LINES: &[&str] = &["spinline", "drag"];
 
 const fn base(
@@ -92,7 +92,7 @@ const FIXED: [&str; 20] = [
     "web.time",
     "web.memory_limit",
     "web.window",
-    "web.flown",
+    "web.simulated",
 ];
 
 /// Random numbers of a draw.
@@ -265,7 +265,7 @@ impl Base {
         self.text.contains("[[layer]]")
     }
 
-    /// Whether its filaments fly in one air.
+    /// Whether its filaments fly in shared turbulence.
     pub fn flies_in_one_air(&self) -> bool {
         self.command == "web" && self.text.contains("[air]")
     }

@@ -23,7 +23,7 @@ pub type Name = (String, String);
 pub type Numbers = BTreeMap<Name, Reported>;
 
 /// By what a name says that it is the error of another, the whole one first. `error` alone is that of a mean.
-const ERRORS: [&str; 3] = ["whole_error", "standard_error", "_se"];
+const ERRORS: [&str; 3] = ["total_error", "standard_error", "_se"];
 const OF_SAMPLE: &str = "flight_error";
 /// Numbers without a name of their own.
 const VALUES: [&str; 4] = ["value", "mean", "index", "variance"];

@@ -19,7 +19,7 @@ mod webs;
 use draw::{Family, line};
 use numbers::Numbers;
 use scatter::{BOUNDS, Scatter, differences, scatter, table};
-use spunlaid::ground::threads::each;
+use spunlaid::ground::threads::par_map;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
@@ -47,10 +47,10 @@ fn main() {
         // What cannot be laid once is tried no further.
         let seeds = if first.is_some() { seeds as usize } else { 0 };
         let found = if is_asked("--against-all") {
-            let pairs = each(threads, seeds, |seed| Some([of(seed, "auto")?, of(seed, "all")?]));
+            let pairs = par_map(threads, seeds, |seed| Some([of(seed, "auto")?, of(seed, "all")?]));
             differences(number as usize, &pairs.into_iter().flatten().collect::<Vec<_>>())
         } else {
-            let webs = each(threads, seeds.saturating_sub(1), |seed| of(1 + seed, "auto"));
+            let webs = par_map(threads, seeds.saturating_sub(1), |seed| of(1 + seed, "auto"));
             let webs: Vec<Numbers> = first.into_iter().chain(webs.into_iter().flatten()).collect();
             untested.extend(webs.iter().flat_map(BTreeMap::keys).map(|(name, _)| name.clone()));
             scatter(number as usize, &webs)

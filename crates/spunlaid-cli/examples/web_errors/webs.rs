@@ -1,7 +1,7 @@
 //! The numbers of a web as its `summary.json` has them.
 
 use super::numbers::{Numbers, numbers};
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::{WebFile, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid_results::folders::Contents;
@@ -16,14 +16,14 @@ use std::time::Instant;
 /// # Errors
 /// If it cannot be laid.
 pub fn numbers_of(web: &WebFile, seed: u64, simulated: &str) -> Result<Numbers, Error> {
-    let set = [("web.seed", seed.to_string()), ("web.flown", simulated.to_owned())];
+    let set = [("web.seed", seed.to_string()), ("web.simulated", simulated.to_owned())];
     let set = set.map(|(key, value)| (key.to_owned(), value));
     let file = read_web((&*web.text, "web.toml"), &set[..])?;
     let (stop, laid, started) = (AtomicBool::new(false), AtomicU64::new(0), Instant::now());
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
-    let mut flown = Flyer::new(1, &stop, &|_, work| work()).web(&file.spec)?;
-    let findings = flown.find(by)?;
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
+    let mut simulated = Flyer::new(1, &stop, &|_, work| work()).web(&file.spec)?;
+    let findings = simulated.find(by)?;
     let name = ("line".to_owned(), "line".to_owned());
-    let summary = WebFolder::new(name, file, (flown, findings), (started, by)).summary();
+    let summary = WebFolder::new(name, file, (simulated, findings), (started, by)).summary();
     Ok(numbers(&serde_json::from_str(&summary).expect("a summary")))
 }

@@ -78,7 +78,7 @@ pub(crate) struct LineNumbers {
     pub(crate) distance: Given<f64>,
     /// Slot gap along the machine in mm, or with its unit [default: "20 mm", assumed]
     #[arg(long, value_name = "LENGTH", requires = "web", value_parser = in_unit(Dimension::Length, "mm"))]
-    pub(crate) slot_depth: Option<Given<f64>>,
+    pub(crate) slot_gap: Option<Given<f64>>,
     /// Turbulence intensity of the air at the end of the slot, as "12 %" [default: "10 %", assumed]
     #[arg(long, value_name = "SHARE", requires = "web", value_parser = turbulence)]
     pub(crate) turbulence: Option<Given<f64>>,
@@ -158,7 +158,7 @@ pub(crate) const QUESTIONS: [(&[&str], Need, &str, &str); 12] = [
         "60 m/s",
     ),
     (&["distance"], Usual, "Distance from the slot to the belt", "0.5 m"),
-    (&["slot-depth"], IfKnown, "Slot gap", "20 mm, assumed"),
+    (&["slot-gap"], IfKnown, "Slot gap", "20 mm, assumed"),
     (&["turbulence"], IfKnown, "Turbulence of the air at its end", "10 %, assumed"),
     (&["thickness"], IfKnown, "Thickness of the finished fabric", "not known"),
 ];
@@ -185,9 +185,9 @@ impl LineNumbers {
     /// What there is to say about the numbers, each once.
     pub(crate) fn remarks(&self) -> impl Iterator<Item = &str> {
         let Self { polymer, throughput, dtex, diameter, basis_weight, belt_speed, air_speed, .. } = self;
-        let Self { cabin_pressure, width, distance, slot_depth, turbulence, thickness, .. } = self;
+        let Self { cabin_pressure, width, distance, slot_gap, turbulence, thickness, .. } = self;
         let of_line = [throughput, dtex, diameter, basis_weight, belt_speed, air_speed].into_iter().flatten();
-        let of_air = [cabin_pressure, slot_depth, turbulence, thickness].into_iter().flatten();
+        let of_air = [cabin_pressure, slot_gap, turbulence, thickness].into_iter().flatten();
         let numbers = of_line.chain([width, distance]).chain(of_air).chain(self.melt.given());
         let numbers = numbers.map(|given| &given.remark);
         polymer.iter().map(|given| &given.remark).chain(numbers).flatten().map(String::as_str)

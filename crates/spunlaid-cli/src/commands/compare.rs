@@ -20,7 +20,7 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     delivery.deliver(&folders.compare()?, Threads::default(), &[])
 }
 
-/// The results folder that is named; of a file, one that is made now: a web is laid, a case flown, anything else
+/// The results folder that is named; of a file, one that is made now: a web is laid, a case simulated, anything else
 /// analysed as a scan, a map or a record.
 fn results_of(run: &Path, compare: &Compare) -> Result<PathBuf, Failure> {
     if !run.is_file() {
@@ -28,11 +28,11 @@ fn results_of(run: &Path, compare: &Compare) -> Result<PathBuf, Failure> {
     }
     let is_toml = run.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
     let options: &[&str] = match is_toml.then(|| kind_of(run)) {
-        Some(FileKind::Web) => &["web", "--no-advice", "--set", "web.guessed=none"],
+        Some(FileKind::Web) => &["web", "--no-advice", "--set", "web.assumed=none"],
         Some(_) => &["run"],
         None => &["analyse"],
     };
-    let made = if is_toml { "flown" } else { "analysed" };
+    let made = if is_toml { "simulated" } else { "analysed" };
     let folder = Path::new("results").join(format!("{}_{made}", stem(run, "results")));
     let mut words: Vec<OsString> = ["spunlaid"].iter().chain(options).map(OsString::from).collect();
     words.extend([run.into(), "--out".into(), folder.clone().into()]);

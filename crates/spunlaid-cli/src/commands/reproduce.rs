@@ -26,12 +26,12 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let computing = control(arguments.threads, &fibre_steps);
     let label = format!("simulating {}", counted(flying.fibres(), "fibre"));
     let (steps, quiet) = (flying.steps(), arguments.output.quiet);
-    let flown = progress::follow(&fibre_steps, steps, &label, quiet, || flying.fly(computing))?;
+    let simulated = progress::follow(&fibre_steps, steps, &label, quiet, || flying.fly(computing))?;
     let contents = PaperFolder {
-        claims: &flown.claims(),
-        figures: &flown.figures(&base),
-        choices: &flown.choices(),
-        how: &flown.how(),
+        claims: &simulated.claims(),
+        figures: &simulated.figures(&base),
+        choices: &simulated.choices(),
+        how: &simulated.how(),
         case: &base,
     };
     delivery.deliver(&contents, arguments.threads, &[])

@@ -29,8 +29,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let before = |left| aside(&run.output, &format!("going on: {left} of {fibres} were simulated before"));
     let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), before);
     let (steps, label) = (case.run.steps * asked, format!("simulating {fibres}"));
-    let flown = progress::follow(&fibre_steps, steps, &label, quiet, work)?;
-    let Flown { results, paths, replicates, kept } = flown;
+    let simulated = progress::follow(&fibre_steps, steps, &label, quiet, work)?;
+    let Flown { results, paths, replicates, kept } = simulated;
     let paused = || Failure::Paused { done: replicates, total: Some(asked), noun: "fibre" };
     // Results of as many replicates are not replaced by those of a part of them.
     let holds_more = |folder| {
@@ -39,8 +39,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     if paths.is_none() && delivery.folder().is_some_and(holds_more) {
         return Err(paused());
     }
-    let (case, flown) = ((Arc::new(case), &notes[..]), (results, replicates, paths.is_some()));
-    let mut written = RunFolder::new(name, case, flown, &plans, (started, by));
+    let (case, simulated) = ((Arc::new(case), &notes[..]), (results, replicates, paths.is_some()));
+    let mut written = RunFolder::new(name, case, simulated, &plans, (started, by));
     let [lost, outside, coarse] = found(&written.case, &written.results);
     outside.iter().for_each(|outside| say::warning(outside));
     delivery.publish(&written, run.threads)?;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
 
-/// A case that is flown in an instant: three fibres of four elements, 500 steps.
+/// A case that is simulated in an instant: three fibres of four elements, 500 steps.
 pub const BRIEF: &str = r#"
 version = 1
 
@@ -31,7 +31,7 @@ replicates = 3
 seed = 7
 "#;
 
-/// A fed fibre that is flown in an instant.
+/// A fed fibre that is simulated in an instant.
 pub const FED: &str = r#"
 version = 1
 

@@ -63,10 +63,10 @@ fn assert_same(found: &Value, which: &str, patches: &[Value]) {
             assert!(page.is_null(), "{page}");
             continue;
         }
-        let error = if patch["cv_whole_error"].is_null() {
+        let error = if patch["cv_total_error"].is_null() {
             &patch["cv_standard_error"]
         } else {
-            &patch["cv_whole_error"]
+            &patch["cv_total_error"]
         };
         assert_eq!(
             (&page["cv"], &page["standard_error"], &page["is_complete"]),

@@ -129,7 +129,7 @@ fn the_tension_of_flights_is_a_number_on_the_page() {
     let mut page = live.page();
     // Coarse and short, so that the flights take no longer than they must.
     let short = [("fibre.element_length", "20 mm"), ("run.duration", "30 ms"), ("run.spin_up", "12 ms")];
-    for (key, value) in short.into_iter().chain([("spinline.end_tension", "flown")]) {
+    for (key, value) in short.into_iter().chain([("spinline.end_tension", "simulated")]) {
         page.ask(&json!({ "do": "set", "key": key, "value": value, "stamp": 1 }));
         assert_eq!(page.message("applied")["stamp"], 1, "{key}");
     }
@@ -139,13 +139,13 @@ fn the_tension_of_flights_is_a_number_on_the_page() {
     };
     // The page goes on while other fibres fly for the tension; the one on the page flies without it.
     let before = page.message("state");
-    assert!(line(&before).contains("flown"), "{before}");
+    assert!(line(&before).contains("simulated"), "{before}");
     let first = page.frame().2;
     while page.frame().2 <= first {}
     page.ask(&json!({ "do": "pace", "pace": "hundredth" }));
     let state = loop {
         let state = page.message("state");
-        if !line(&state).contains("flown") {
+        if !line(&state).contains("simulated") {
             break state;
         }
     };
@@ -155,7 +155,7 @@ fn the_tension_of_flights_is_a_number_on_the_page() {
     assert!(feed(&state) > 1.01 * feed(&before), "{} {}", feed(&before), feed(&state));
 }
 
-/// A fibre in the air of a record with a gust of 45 km/s, which no flight survives.
+/// A fibre in the air of a record with a eddy of 45 km/s, which no flight survives.
 const GUST: &str = "version = 1\n[fibre]\nlength = '0.2 m'\ndiameter = '50 µm'\ndensity = '950 kg/m³'\n\
     youngs_modulus = '2 GPa'\nelement_length = '50 mm'\n[air]\nrecord = 'gust.csv'\nvelocity = '10 m/s'\n\
     turbulence_intensity = 450\nlength_scale = '0.2 m'\n[run]\nduration = '50 ms'\ntime_step = '20 µs'\n";

@@ -90,7 +90,7 @@ fn identical_figure_9_reproduced_and_swept() {
 fn runs_every_case_of_the_repository() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
     let desk = Desk::new();
-    let mut flown = 0;
+    let mut simulated = 0;
     for entry in fs::read_dir(cases).unwrap() {
         let path = entry.unwrap().path();
         let is_toml = path.extension().is_some_and(|extension| extension == "toml");
@@ -131,7 +131,7 @@ fn runs_every_case_of_the_repository() {
             let strain = summary["fibre"]["max_strain"]["largest"].as_f64().unwrap();
             assert!(strain < 0.1, "{name}: {strain}");
         }
-        flown += 1;
+        simulated += 1;
     }
-    assert!(flown >= 4, "{flown}");
+    assert!(simulated >= 4, "{simulated}");
 }

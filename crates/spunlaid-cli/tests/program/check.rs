@@ -130,7 +130,7 @@ fn analytic_check_tells_the_numbers_of_a_web() {
         "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 \
         m/s; 20 m of filament on each metre of belt\n",
         "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
-        "#   nothing is flown: the spread and the noise are given\n",
+        "#   nothing is simulated: the spread and the noise are given\n",
         "#   the filaments are independent of each other, which gives a lower bound of the CV\n",
         "# expected, on ",
         "\n#   the web: about ",
@@ -175,23 +175,23 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         "#   brief.toml: its eddies lie in space (air.lateral = \"von-karman\")\n",
         // Eight in the length scale of the case, 16 mm.
         "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows \
-        from them (web.flown)\n",
+        from them (web.simulated)\n",
         "#   the field takes ",
         "\n#   the web: about ",
         "\n#   advice, ",
-        "--set line.depth=\"20 mm\"\n",
-        "#   What the filaments do to their air can be found with the size of the slot: line.depth",
+        "--set line.slot_gap=\"20 mm\"\n",
+        "#   What the filaments do to their air can be found with the size of the slot: line.slot_gap",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
     ] {
         assert!(said.contains(part), "{part}\n{said}");
     }
     // As many as the file says, and all of them.
-    let said = success(&mut desk.with("check web.toml", &["web.flown=100", "line.depth=20 mm"]));
+    let said = success(&mut desk.with("check web.toml", &["web.simulated=100", "line.slot_gap=20 mm"]));
     assert!(
         said.contains("#   50 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm;"),
         "{said}"
     );
-    assert!(!said.contains("--set line.depth"), "{said}");
+    assert!(!said.contains("--set line.slot_gap"), "{said}");
     // 0.2316 mg/m · 50 m/s · 1000 beside 1.204 kg/m³ · 45 m/s · 20 mm, and 50/45 of that.
     let load = "# load on the air\n#   At the inlet the filaments have 1.1 % of the mass flow of the air and 1.2 % of \
         its momentum flux.\n";
@@ -206,7 +206,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         ),
         "{said}"
     );
-    let together = desk.with("check web.toml", &["web.flown=all"]).output().unwrap();
+    let together = desk.with("check web.toml", &["web.simulated=all"]).output().unwrap();
     let said = String::from_utf8(together.stdout).unwrap();
     assert!(
         said.contains(

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 const LONGER: [&str; 4] =
     ["run.duration=80 ms", "run.output_interval=0.2 ms", "run.replicates=8", "run.spin_up=10 ms"];
 
-fn flown(desk: &Desk, name: &str, more: &[&str]) {
+fn simulated(desk: &Desk, name: &str, more: &[&str]) {
     let changes: Vec<&str> = LONGER.iter().chain(more).copied().collect();
     success(&mut desk.with(&format!("run brief.toml --out {name}"), &changes));
 }
@@ -24,8 +24,8 @@ fn values(desk: &Desk, run: &str, group: &str, column: &str) -> Vec<f64> {
 #[test]
 fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     let desk = Desk::new();
-    flown(&desk, "a", &[]);
-    flown(&desk, "b", &["air.density=1.5 kg/m³"]);
+    simulated(&desk, "a", &[]);
+    simulated(&desk, "b", &["air.density=1.5 kg/m³"]);
     let said = success(&mut desk.spunlaid("compare a b --out c"));
     assert!(
         said.contains("b against a\nCompared paired by replicate") && said.contains("(8 pairs)"),
@@ -50,7 +50,7 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     );
     // Student's t for seven degrees of freedom.
     assert!(close(&amplitude["half_width"], 2.36462 * error), "{amplitude}");
-    assert_eq!(amplitude["beyond_chance"].as_bool(), Some(mean.abs() > 2.36462 * error));
+    assert_eq!(amplitude["significant"].as_bool(), Some(mean.abs() > 2.36462 * error));
     // The curves of both stand in one picture.
     let numbers = String::from_utf8(desk.read("c/figures/motion_spectrum.csv")).unwrap();
     assert!(numbers.contains("\"a, y\",") && numbers.contains("\"b, z\","), "{numbers}");
@@ -59,8 +59,8 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     assert!(page.contains("Errors of the energy checks over time.") && !page.contains("shaded area"));
     // The title says how much differs, as the table does.
     let all =
-        one["measures"].as_object().unwrap().values().filter(|measure| !measure["beyond_chance"].is_null());
-    let all: Vec<bool> = all.map(|measure| measure["beyond_chance"].as_bool().unwrap()).collect();
+        one["measures"].as_object().unwrap().values().filter(|measure| !measure["significant"].is_null());
+    let all: Vec<bool> = all.map(|measure| measure["significant"].as_bool().unwrap()).collect();
     let (beyond, all) = (all.iter().filter(|is| **is).count(), all.len());
     let title = format!("<h1>b against a: {beyond} of {all} measures differ, most clearly “");
     assert!(beyond > 0 && page.contains(&title), "{title}");
@@ -71,10 +71,10 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
 #[test]
 fn runs_in_different_turbulence_are_compared_by_welch() {
     let desk = Desk::new();
-    flown(&desk, "a", &[]);
-    flown(&desk, "b", &["run.seed=8"]);
-    flown(&desk, "c", &["air.length_scale=100 mm"]);
-    flown(&desk, "d", &["air.lateral=von-karman", "air.lateral_cutoff=5"]);
+    simulated(&desk, "a", &[]);
+    simulated(&desk, "b", &["run.seed=8"]);
+    simulated(&desk, "c", &["air.length_scale=100 mm"]);
+    simulated(&desk, "d", &["air.lateral=von-karman", "air.lateral_cutoff=5"]);
     let found = json(&desk, "a b c d");
     let comparisons = found["comparisons"].as_array().unwrap();
     let reason = |i: usize| comparisons[i]["reason"].as_str().unwrap();
@@ -103,8 +103,8 @@ fn runs_in_different_turbulence_are_compared_by_welch() {
 #[test]
 fn a_run_does_not_differ_from_itself() {
     let desk = Desk::new();
-    flown(&desk, "a", &[]);
-    flown(&desk, "again", &[]);
+    simulated(&desk, "a", &[]);
+    simulated(&desk, "again", &[]);
     let said = success(&mut desk.spunlaid("compare a again --out c"));
     assert!(said.contains("the same") && said.contains(" 0 of "), "{said}");
     success(&mut desk.spunlaid("compare a again --out c --force --quiet"));
@@ -113,7 +113,7 @@ fn a_run_does_not_differ_from_itself() {
 #[test]
 fn rejects_what_is_no_run() {
     let desk = Desk::new();
-    flown(&desk, "a", &[]);
+    simulated(&desk, "a", &[]);
     assert!(
         refusal(&mut desk.spunlaid("compare a nothing"), 1)
             .contains("nothing: does not hold the results of a run: there is no such folder")
@@ -137,7 +137,7 @@ fn invariant_a_cv_and_the_formation_number_have_one_verdict() {
         let formation = cv * cv / 1e-4;
         let patch = |side: f64, part: f64| {
             json!({
-                "patch_m": side, "cv": part * cv, "cv_standard_error": part * error, "cv_whole_error": part * error,
+                "patch_m": side, "cv": part * cv, "cv_standard_error": part * error, "cv_total_error": part * error,
                 "cv_interval": interval.map(|end| part * end),
             })
         };
@@ -156,10 +156,7 @@ fn invariant_a_cv_and_the_formation_number_have_one_verdict() {
         let found = json(&desk, &format!("a {other}"));
         let measures = &found["comparisons"][0]["measures"];
         let [cv, formation] = ["cv_10_mm", "formation_10_mm"].map(|name| &measures[name]);
-        assert_eq!(
-            (&cv["beyond_chance"], &formation["beyond_chance"]),
-            (&json!(is_beyond), &json!(is_beyond))
-        );
+        assert_eq!((&cv["significant"], &formation["significant"]), (&json!(is_beyond), &json!(is_beyond)));
         let distance =
             |of: &Value| of["difference"].as_f64().unwrap().abs() / of["half_width"].as_f64().unwrap();
         assert!((distance(cv) / distance(formation) - 1.0).abs() < 1e-9, "{cv} {formation}");

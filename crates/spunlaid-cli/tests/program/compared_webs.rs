@@ -84,11 +84,11 @@ fn a_scan_and_a_web_are_seen_at_one_scale_and_in_one_chart_in_either_order() {
         ] {
             let measure = &measures[column];
             let told = measure["no_verdict"].as_str().unwrap();
-            assert!(told.contains(reason) && measure["beyond_chance"].is_null(), "{order}, {column}: {told}");
+            assert!(told.contains(reason) && measure["significant"].is_null(), "{order}, {column}: {told}");
             assert!(page.contains(reason), "{column}");
         }
         assert!(
-            measures["cv_10_mm"]["beyond_chance"].is_boolean()
+            measures["cv_10_mm"]["significant"].is_boolean()
                 && measures["cv_10_mm"].get("no_verdict").is_none()
         );
         assert!(found.get("notes").is_none(), "{found}");

@@ -15,7 +15,7 @@ mod webs;
 use draw::{Family, line};
 use numbers::Numbers;
 use scatter::{BOUNDS, scatter};
-use spunlaid::ground::threads::each;
+use spunlaid::ground::threads::par_map;
 use spunlaid::input::read_web;
 
 /// All numbers of `summary.json` that have an error. Sampling moves the scatter of twelve webs by as much as a
@@ -23,7 +23,7 @@ use spunlaid::input::read_web;
 #[test]
 fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
     let web = line(Family::Known, 1, 6);
-    let webs: Vec<Numbers> = each(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+    let webs: Vec<Numbers> = par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
     let found = scatter(6, &webs);
     assert!(found.len() > 50, "{}", found.len());
     let wrong = found.iter().filter(|(_, found)| {
@@ -39,9 +39,9 @@ fn stat_every_error_of_a_web_is_as_large_as_its_number_scatters() {
 /// in the same air.
 #[test]
 fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
-    let text = include_str!("../../examples/prove/flown.toml").replace("flown = 800\n", "");
+    let text = include_str!("../../examples/prove/simulated.toml").replace("simulated = 800\n", "");
     let web = read_web((&*text, "web.toml"), &[][..]).unwrap();
-    let [few, all] = ["800", "all"].map(|flown| webs::numbers_of(&web, 1, flown).unwrap());
+    let [few, all] = ["800", "all"].map(|simulated| webs::numbers_of(&web, 1, simulated).unwrap());
     let clouds: Vec<_> = few.iter().filter(|(name, _)| name.0 == "web.clouds.variance").collect();
     assert!(clouds.len() > 3);
     for (name, few) in clouds {
@@ -51,7 +51,7 @@ fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
 }
 
 /// The middle of a web that is sold has another weight in each web, and so another bare area: it scattered by eight of
-/// the errors that were reported. Of a heavy web with streaks its thin places alone are bare: there it was ten.
+/// the errors that were reported. Of a heavy web with streaks its thin spots alone are bare: there it was ten.
 #[test]
 fn stat_the_bare_area_has_the_errors_of_its_weight_and_of_its_clouds() {
     let text = include_str!("../../examples/prove/web.toml");
@@ -60,7 +60,8 @@ fn stat_the_bare_area_has_the_errors_of_its_weight_and_of_its_clouds() {
     for set in [sold, heavy] {
         let values: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
         let web = read_web((text, "web.toml"), &values[..]).unwrap();
-        let webs: Vec<Numbers> = each(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+        let webs: Vec<Numbers> =
+            par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
         let found = scatter(1, &webs);
         let (_, bare) = found.iter().find(|(name, _)| name == "fabric.bare_area").expect("a bare area");
         let [low, high] = bare.by_chance(3.5);

@@ -101,7 +101,7 @@ fn invariant_one_diffuser_in_all_orientations_lays_the_same_fibre_and_the_same_w
     let mut first: Option<[Vec<f64>; 3]> = None;
     for (axis, axes) in ORIENTATIONS {
         let desk = desk(axis, &table(axes, 1, velocity));
-        let web = WEB.replace("0.1 m", "0.08 m") + "flown = 250\n";
+        let web = WEB.replace("0.1 m", "0.08 m") + "simulated = 250\n";
         fs::write(desk.path("web.toml"), desk_case(&desk) + &web).unwrap();
         fs::write(desk.path("places.csv"), "x [mm],y [mm],z [mm]\n10,5,0\n100,-20,3\n150,40,-7\n").unwrap();
         let run = json(&success(&mut desk.spunlaid("run brief.toml --json --threads 1 --checks none")));
@@ -213,7 +213,7 @@ fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
         said
     };
     let at = |x: &str| format!("air.field_root=[\"{x}\", \"0 m\", \"0 m\"]");
-    let said = told(&["line.depth=20 mm"]);
+    let said = told(&["line.slot_gap=20 mm"]);
     let place = "the middle of the slot is at [0 m, 0 m, 0 m] of the field (air.field_root); filaments are fed from \
         -10 mm to 10 mm from there along the machine direction, -x, and side by side along the cross direction, y";
     assert!(said.contains(place) && !said.contains("feeds filaments"), "{said}");
@@ -235,7 +235,7 @@ fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
             "feeds filaments from -55 mm to 55 mm along the machine direction, some of them outside",
         ),
     ] {
-        let said = told(&[&at(root), &format!("line.depth={depth}")]);
+        let said = told(&[&at(root), &format!("line.slot_gap={depth}")]);
         assert!(said.contains(doubt) && said.contains("(air.field_root)"), "{doubt}\n{said}");
     }
 }

@@ -113,7 +113,7 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
         ("--to mapless --vary laydown.noise", "holds no map that can be used: there is no map.npy"),
         ("--to torn --vary laydown.noise", "holds no map that can be used: its map.npy cannot be read"),
         ("--to truth --vary line.depht", "cannot be sought"),
-        ("--to truth --vary web.flown", "cannot be sought"),
+        ("--to truth --vary web.simulated", "cannot be sought"),
         ("--to truth --vary laydown.noise,laydown.noise", "is named twice"),
         ("--to truth --vary laydown.noise=5..40", "--vary laydown.noise = 5..40 has no unit"),
         ("--to truth --vary laydown.noise=40m^-0.5..5m^-0.5", "write the smaller value first"),
@@ -152,7 +152,7 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
     assert!(!desk.path("fit/.spunlaid-replacement").exists());
 }
 
-/// The strips at the edges of a cut web are no web, and known noise of the camera is not unevenness.
+/// The strips at the edges of a cut web are no web, and known noise of the camera is not CV.
 #[test]
 fn what_is_compared_is_the_web_without_edges_and_noise() {
     let desk = desk();

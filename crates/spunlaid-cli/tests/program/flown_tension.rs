@@ -19,7 +19,7 @@ fn desk(element_length: &str, run: &str) -> Desk {
     let (text, _) = text.split_once("[run]").unwrap();
     let text = text
         .replace("\"tables/", &format!("\"{cases}/tables/"))
-        .replace("die_temperature", "end_tension = 'flown'\ndie_temperature")
+        .replace("die_temperature", "end_tension = 'simulated'\ndie_temperature")
         .replace("4 mm", element_length);
     let desk = Desk::new();
     fs::write(desk.path("line.toml"), format!("{text}[run]\n{run}")).unwrap();
@@ -98,12 +98,12 @@ fn a_check_flies_nothing_and_says_so() {
         from it is that of a tension of 0 N";
     assert!(said(&output).contains(note), "{}", said(&output));
     let shown = String::from_utf8(output.stdout).unwrap();
-    assert!(shown.contains("end_tension = \"flown\""), "{shown}");
+    assert!(shown.contains("end_tension = \"simulated\""), "{shown}");
     // What it shows is such a case.
     fs::write(desk.path("shown.toml"), &shown).unwrap();
     let again = desk.spunlaid("check shown.toml").output().unwrap();
     assert!(again.status.success(), "{}", said(&again));
     success(&mut desk.spunlaid("check study.toml"));
     let point = success(&mut desk.spunlaid("sweep study.toml --print-point 1"));
-    assert!(point.contains("end_tension = \"flown\""), "{point}");
+    assert!(point.contains("end_tension = \"simulated\""), "{point}");
 }

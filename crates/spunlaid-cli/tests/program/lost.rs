@@ -5,8 +5,8 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 
-/// A fibre in the air of a record with a gust of 45 km/s, which lasts for a hundredth of it. The fibres whose
-/// stretch of the record has the gust in it are lost, whatever the rounding.
+/// A fibre in the air of a record with a eddy of 45 km/s, which lasts for a hundredth of it. The fibres whose
+/// stretch of the record has the eddy in it are lost, whatever the rounding.
 const GUST: &str = r#"
 version = 1
 

@@ -7,6 +7,7 @@ mod common;
 mod desk;
 
 mod air;
+mod assumed_values;
 mod cases;
 mod check;
 mod commands;
@@ -17,7 +18,6 @@ mod field_axes;
 mod figures;
 mod fit;
 mod flown_tension;
-mod guesses;
 mod gusts;
 mod keys;
 mod lost;

@@ -132,7 +132,7 @@ fn analytic_new_writes_a_web_from_the_numbers_of_a_line() {
         "web.length=0.05 m",
         "web.cell=1 mm",
         "line.basis_weight=2 g/m²",
-        "web.guessed=none",
+        "web.assumed=none",
     ];
     std::fs::write(desk.path("line.toml"), web.replace("\"1 s\"", "\"0.15 s\"")).unwrap();
     success(&mut desk.with("web line.toml --out w --no-advice --quiet", &small));
@@ -284,7 +284,7 @@ fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
         ("--dtex", "2 kg/m", "2 dtex?"),
         ("--basis-weight", "20 kg/m²", "did you mean 20 g/m²?"),
         ("--air-speed", "60000", "mm/s"),
-        ("--slot-depth", "25 m", "25 mm?"),
+        ("--slot-gap", "25 m", "25 mm?"),
         ("--width", "3200 m", "3200 mm"),
         ("--distance", "500 m", "did you mean"),
         ("--thickness", "3 m", "3 mm?"),
@@ -336,14 +336,14 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }
 
-/// The speed of the belt in place of the weight, what is known of slot and air in place of guesses, and the rest
+/// The speed of the belt in place of the weight, what is known of slot and air in place of assumed_values, and the rest
 /// through a pipe with a decimal comma.
 #[test]
 fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
     let desk = Desk::new();
     // Polymer, throughput, titre, width, holes, beams, air, distance, turbulence; nothing of the thickness.
     std::fs::write(desk.path("answers"), "pp\n0,6\n\n\n\n\n\n\n12 %\n").unwrap();
-    let mut command = desk.spunlaid("new --web line.toml --slot-depth 25");
+    let mut command = desk.spunlaid("new --web line.toml --slot-gap 25");
     command.args(["--belt-speed", "250 m/min"]).stdin(std::fs::File::open(desk.path("answers")).unwrap());
     let output = command.output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
@@ -353,8 +353,8 @@ fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
     // 5000 holes/m × 0.6 g/min over 250 m/min.
     for part in [
         "belt_speed = \"250 m/min\"   # of the whole web: 5000 holes/m × 0.6 g/min / 4.167 m/s = 12 g/m²\n",
-        "depth = \"25 mm\"   # of the slot: the filaments",
-        "guessed = \"air.length_factor\"",
+        "slot_gap = \"25 mm\"   # of the slot: the filaments",
+        "assumed = \"air.length_factor\"",
     ] {
         assert!(web.contains(part), "{part}\n{web}");
     }

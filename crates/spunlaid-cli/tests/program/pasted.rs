@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// A line of known filaments with a guess, on a sheet that is laid in an instant.
+/// A line of known filaments with an assumed value, on a sheet that is laid in an instant.
 const LINE: &str = "
 [fibre]
 linear_density = \"2 dtex\"
@@ -24,7 +24,7 @@ width = \"40 mm\"
 length = \"40 mm\"
 cell = \"0.5 mm\"
 patches = [\"2 mm\", \"10 mm\"]
-guessed = \"line.filaments_per_metre\"
+assumed = \"line.filaments_per_metre\"
 ";
 
 /// The commands in a text: on lines of their own, behind `: ` or `# `, or in attributes and code of a page.
@@ -79,7 +79,7 @@ fn every_command_of_a_web_can_be_pasted() {
         let said = success(desk.spunlaid("").args(arguments).args(set));
         let report = String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
         let summary = desk.summary(folder);
-        let told: Vec<String> = ["advice", "guesses"]
+        let told: Vec<String> = ["advice", "assumed_values"]
             .iter()
             .flat_map(|kind| ["changes", "values"].map(|list| &summary[*kind][list]))
             .flat_map(|list| list.as_array().cloned().unwrap_or_default())
@@ -115,8 +115,8 @@ fn every_command_of_a_new_line_and_of_a_check_can_be_pasted() {
         .replace("duration = \"1 s\"", "duration = \"40 ms\"");
     fs::write(desk.path("line.toml"), small.replace("replicates = 8", "replicates = 2")).unwrap();
     let checked = success(&mut desk.spunlaid("check line.toml"));
-    let set = success(&mut desk.with("check line.toml", &["line.throughput=0.4 g/min", "web.guessed=none"]));
-    assert!(set.contains("--out results/line-throughput-0.4gmin-guessed-none"), "{set}");
+    let set = success(&mut desk.with("check line.toml", &["line.throughput=0.4 g/min", "web.assumed=none"]));
+    assert!(set.contains("--out results/line-throughput-0.4gmin-assumed-none"), "{set}");
     let of_file = commands(&text);
     assert!(of_file.len() >= 3, "{of_file:?}");
     paste_all(&desk, &[said, text, checked, set], 4);

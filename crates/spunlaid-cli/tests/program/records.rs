@@ -4,7 +4,7 @@ use crate::desk::Desk;
 use std::fs;
 use std::process::Command;
 
-/// A case that is flown in an instant, in air out of a record.
+/// A case that is simulated in an instant, in air out of a record.
 const CASE: &str = r#"
 version = 1
 

@@ -471,7 +471,7 @@ fn a_fed_fibre_leaves_what_it_laid() {
             assert!((row[1] - fed).abs() < 1e-12, "{row:?}");
             // It cannot land before it could have come down in air of 45 m/s, nor long after it was fed.
             assert!(row[2] > fed / 50.0 && row[2] < 0.04 + 1e-9, "{row:?}");
-            // It lies where it landed: within the width of the lay-down about y = 0.
+            // It lies where it landed: within the width of the laydown about y = 0.
             assert!((row[3] + 3.0 * row[2]).abs() < 0.1 && row[4].abs() < 0.1, "{row:?}");
         }
     }

@@ -165,22 +165,22 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let measure = &both["comparisons"][0]["measures"]["cv_2_mm"];
     assert_eq!(measure["no_verdict"], "below the blur of the scan (scan)");
     assert!(
-        measure["beyond_chance"].is_null() && said.contains("below the blur of the scan (scan)"),
+        measure["significant"].is_null() && said.contains("below the blur of the scan (scan)"),
         "{measure} {said}"
     );
     // The lamp is not known.
     let command = command.replace(" --white 60000 --keep-shading", "");
-    let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out guessed")));
+    let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out assumed")));
     assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
     let headline = told.lines().next().unwrap();
     assert!(headline.ends_with(" mm patches: the level of the lamp is a guess."), "{headline}");
     assert!(headline.starts_with("CV at least ") && !headline.contains('±'), "{headline}");
-    let notes = desk.summary("guessed")["notes"].to_string();
+    let notes = desk.summary("assumed")["notes"].to_string();
     assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
-    let told = success(&mut desk.spunlaid("compare laid guessed --out guesses"));
+    let told = success(&mut desk.spunlaid("compare laid assumed --out assumed_values"));
     assert!(
         told.contains(" 0 of 1 measures differ")
-            && told.contains("the level of the lamp is a guess (guessed)"),
+            && told.contains("the level of the lamp is a guess (assumed)"),
         "{told}"
     );
     let curves = String::from_utf8(desk.read("both/figures/web_cv.csv")).unwrap();

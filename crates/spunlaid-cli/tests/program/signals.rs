@@ -81,7 +81,7 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
     success(&mut run("whole"));
     let kept = || {
         let files = fs::read_dir(desk.path("")).unwrap().map(|file| file.unwrap().path());
-        files.into_iter().find(|file| file.extension().is_some_and(|ending| ending == "flown"))
+        files.into_iter().find(|file| file.extension().is_some_and(|ending| ending == "simulated"))
     };
     for (process, signal) in (1..).zip(["KILL", "INT", "KILL"]) {
         let mut child = run("stopped").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
@@ -297,7 +297,7 @@ fn a_web_that_is_killed_or_cannot_be_written_leaves_nothing() {
     assert!(!desk.path("a").exists());
 }
 
-/// A few filaments in one air, whose flight would take hours.
+/// A few filaments in shared turbulence, whose flight would take hours.
 #[test]
 fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
     let desk = Desk::with_case(FED);
@@ -318,13 +318,13 @@ fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
     assert_eq!(desk.entries(""), names(&["brief.toml", "web.toml"]));
 }
 
-/// The guessed depth is tried in one flight, and each of the lengths of the eddies in one of its own.
+/// The assumed depth is tried in one flight, and each of the lengths of the eddies in one of its own.
 #[test]
 fn identical_guesses_that_were_interrupted_and_went_on() {
     let desk = Desk::with_case(FED);
     let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\n\
         width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\n\
-        guessed = 'line.depth, air.length_scale'\n";
+        assumed = 'line.slot_gap, air.length_scale'\n";
     fs::write(desk.path("web.toml"), web).unwrap();
     success(&mut desk.spunlaid("web web.toml --out whole --no-advice --quiet"));
     let whole = desk.summary("whole");
@@ -341,11 +341,11 @@ fn identical_guesses_that_were_interrupted_and_went_on() {
         said.contains("interrupted; the web is complete in w") && desk.path("w/report.html").exists(),
         "{said}"
     );
-    assert!(desk.summary("w").get("guesses").is_none());
+    assert!(desk.summary("w").get("assumed_values").is_none());
     let said = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));
     assert!(said.contains("\ncontinuing: 1 flight of an earlier command"), "{said}");
-    let numbers = whole["guesses"].to_string().replace(" --out whole-", " --out w-");
-    assert_eq!(desk.summary("w")["guesses"].to_string(), numbers);
-    assert!(whole["guesses"]["values"].as_array().unwrap().len() >= 3, "{whole}");
+    let numbers = whole["assumed_values"].to_string().replace(" --out whole-", " --out w-");
+    assert_eq!(desk.summary("w")["assumed_values"].to_string(), numbers);
+    assert!(whole["assumed_values"]["values"].as_array().unwrap().len() >= 3, "{whole}");
     assert!(!desk.path(".w.trials").exists());
 }

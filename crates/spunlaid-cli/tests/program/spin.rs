@@ -55,7 +55,7 @@ fn a_spinline_of_the_repository_is_solved_in_one_command() {
         "Diameter, cold                          24.89  µm",
         "Line density                            4.405  dtex",
         "Speed at the end                        18.92  m/s",
-        "Temperature at the freezing point         110  °C    (it freezes by its temperature)",
+        "Temperature at the solidification point         110  °C    (it freezes by its temperature)",
         "Young’s modulus, an estimate",
         "What decides the diameter",
         "% finer",
@@ -77,11 +77,11 @@ fn a_spinline_of_the_repository_is_solved_in_one_command() {
     near(&spinline["final_diameter_m"], 24.89315e-6);
     near(&spinline["linear_density_kg_m"], 4.40452e-7);
     near(&spinline["force_at_die_n"], 1.345_110e-3);
-    near(&spinline["freezing"]["distance_m"], 0.144_147_1);
-    near(&spinline["freezing"]["temperature_c"], 110.0);
-    near(&spinline["freezing"]["stress_pa"], 2.761_168e6);
+    near(&spinline["solidification"]["distance_m"], 0.144_147_1);
+    near(&spinline["solidification"]["temperature_c"], 110.0);
+    near(&spinline["solidification"]["stress_pa"], 2.761_168e6);
     near(&spinline["largest_strain_rate_per_s"], 188.694);
-    assert_eq!(spinline["freezing"]["by"], "temperature");
+    assert_eq!(spinline["solidification"]["by"], "temperature");
     assert_eq!(spinline["second_steady_state"], false);
     for residual in ["momentum_residual", "energy_residual"] {
         assert!(spinline[residual].as_f64().unwrap().abs() < 1e-5, "{residual}");
@@ -256,7 +256,7 @@ fn a_web_that_begins_at_the_die_shows_the_whole_way() {
     fs::write(desk.path("web.toml"), web).unwrap();
     success(&mut desk.spunlaid("web web.toml --out w --quiet"));
     let layer = &desk.summary("w")["layers"][0];
-    assert!(layer["spinline"]["freezing"]["distance_m"].as_f64().unwrap() > 0.0, "{layer}");
+    assert!(layer["spinline"]["solidification"]["distance_m"].as_f64().unwrap() > 0.0, "{layer}");
     // 500 holes per metre × 0.5 g/min / 3 m/s.
     let weight = layer["basis_weight_kg_m2"].as_f64().unwrap();
     assert!((weight / (500.0 * 0.5e-3 / 60.0 / 3.0) - 1.0).abs() < 1e-9, "{weight}");

@@ -1,4 +1,4 @@
-//! `spunlaid sweep`: what it writes, and what it refuses before anything is flown. What it does with a folder in
+//! `spunlaid sweep`: what it writes, and what it refuses before anything is simulated. What it does with a folder in
 //! which a study is already stands in `sweep_again.rs`.
 
 use crate::common::{StudyFolder, assert_same, case, results, said};

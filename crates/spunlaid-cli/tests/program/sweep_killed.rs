@@ -65,7 +65,7 @@ fn identical_after_many_kills() {
     let output = said(&place.swept("killed", &["--threads", "1"]));
     assert!(output.contains("continuing: "), "{output}");
     assert_same(&expected, &results(&place.path("killed")));
-    // The journal holds every fibre once, so no kept fibre was flown again.
+    // The journal holds every fibre once, so no kept fibre was simulated again.
     assert_eq!(records(&place, "killed"), records(&place, "whole"));
 }
 

@@ -178,7 +178,7 @@ fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
     }
 }
 
-/// One file is the line: its web is laid, its filament is flown, and its air is looked at, as from two files.
+/// One file is the line: its web is laid, its filament is simulated, and its air is looked at, as from two files.
 #[test]
 fn identical_web_and_filament_of_one_file_and_of_two() {
     let desk = desk();

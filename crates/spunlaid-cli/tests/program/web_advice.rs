@@ -39,7 +39,7 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let number = |of: &serde_json::Value| of.as_f64().unwrap();
     // 5 mm is nearest to what the eye judges first: the first setting that is named is the one that lowers
     // this CV most.
-    let lowers = |change: &&serde_json::Value| place(change)["beyond_chance"] == true;
+    let lowers = |change: &&serde_json::Value| place(change)["significant"] == true;
     let by = |change: &&serde_json::Value| number(&place(change)["cv_change"]);
     let best = changes.iter().filter(lowers).min_by(|a, b| by(a).total_cmp(&by(b))).unwrap();
     let layer = format!(" of layer S{}", best["layer"]);
@@ -87,12 +87,12 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
 }
 
 /// The keys of the case that a web flies are set by the same names as in a study; the folder holds the case
-/// as it was flown, so that the web can be laid again from there, to the same map. Each piece of advice is a
+/// as it was simulated, so that the web can be laid again from there, to the same map. Each piece of advice is a
 /// command that the program takes.
 #[test]
 fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
     let desk = desk();
-    let small = ["--set", "web.width=0.2 m", "--set", "web.length=0.05 m", "--set", "web.flown=250"];
+    let small = ["--set", "web.width=0.2 m", "--set", "web.length=0.05 m", "--set", "web.simulated=250"];
     let of_case =
         ["--set", "belt.distance=0.3 m", "--set", "fibre.linear_density=2 dtex", "--set", "run.replicates=2"];
     let of_case = [&of_case[..], &["--set", "run.duration=0.1 s"]].concat();

@@ -1,4 +1,4 @@
-//! `spunlaid web`: webs whose filaments hang in one air, all flown or a few for all.
+//! `spunlaid web`: webs whose filaments hang in shared turbulence, all simulated or a few for all.
 
 use super::web::WEB;
 use crate::desk::{self, Desk, FED, success};
@@ -108,10 +108,10 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
             .unwrap_or_else(|| panic!("{path}: {summary}"))
     };
     assert_eq!(summary["layers"][0]["filaments"], 1200, "{summary}");
-    let flown = summary["web"]["flown"].as_array().unwrap();
-    let of_flown = |name: &str| flown[0][name].as_f64().unwrap();
+    let simulated = summary["web"]["simulated"].as_array().unwrap();
+    let of_flown = |name: &str| simulated[0][name].as_f64().unwrap();
     // Ten length scales of the air wide, and a tenth of a square metre large.
-    assert_eq!((flown.len(), of_flown("filaments"), of_flown("width_m")), (1, 40.0, 0.16), "{summary}");
+    assert_eq!((simulated.len(), of_flown("filaments"), of_flown("width_m")), (1, 40.0, 0.16), "{summary}");
     assert!((of_flown("width_m") * of_flown("length_m") / 0.1 - 1.0).abs() < 0.01, "{summary}");
     for missing in ["missing_variance_md", "missing_variance_cd"].map(of_flown) {
         assert!(missing > 0.0 && missing < 0.5, "{summary}");
@@ -142,16 +142,17 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
         assert!(first == again, "{file}");
     }
 
-    // All filaments, each flown, say the same.
+    // All filaments, each simulated, say the same.
     success(
-        &mut desk.spunlaid("web web.toml --set web.flown=all --set web.seed=2 --out all --no-advice --quiet"),
+        &mut desk
+            .spunlaid("web web.toml --set web.simulated=all --set web.seed=2 --out all --no-advice --quiet"),
     );
     let all = desk.summary("all");
-    assert!(all["web"].get("flown").is_none(), "{all}");
+    assert!(all["web"].get("simulated").is_none(), "{all}");
     for patch in 0..3 {
         let [few, all] = [&summary, &all].map(|summary| {
             let value = |name: &str| number(summary, &format!("/web/patches/{patch}/{name}"));
-            (value("cv"), value("cv_whole_error"), value("cv_independent"))
+            (value("cv"), value("cv_total_error"), value("cv_independent"))
         });
         let apart = (few.0 - all.0).abs();
         assert!(apart < 4.0 * few.1.hypot(all.1), "{few:?} {all:?}");
@@ -170,13 +171,13 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
         "filaments_per_metre = 3000\ndepth = \"10 mm\"\n[web]\nwidth = \"0.3 m\"\nlength = \"40 mm\"\n\
-        flown = 40\npatches = [\"5 mm\", \"10 mm\"]",
+        simulated = 40\npatches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
     let unknown = "CV not known: too few filaments simulated.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
-    let remedy = "Leave web.flown out to simulate as many as needed, 500 or more for each metre";
+    let remedy = "Leave web.simulated out to simulate as many as needed, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
         assert!(text.contains(unknown) && text.contains(remedy), "{text}");
@@ -191,7 +192,7 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     for patch in summary["web"]["patches"].as_array().unwrap() {
         assert!(patch.get("cv").is_some_and(serde_json::Value::is_null), "{patch}");
         assert_eq!(patch["no_interval"], "too few filaments simulated");
-        assert!(patch.get("cv_whole_error").is_none() && patch.get("own_share").is_none(), "{patch}");
+        assert!(patch.get("cv_total_error").is_none() && patch.get("own_share").is_none(), "{patch}");
     }
     let fabric = summary["fabric"]["patches"].as_array().unwrap();
     assert!(fabric.iter().all(|patch| patch["formation"].is_null()), "{fabric:?}");

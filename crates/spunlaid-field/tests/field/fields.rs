@@ -105,7 +105,7 @@ fn identical_air_whoever_asks_first() {
     assert_eq!(forwards, backwards);
 }
 
-/// A jump of the flow just behind the face of a kept lattice is not flown through unseen.
+/// A jump of the flow just behind the face of a kept lattice is not simulated through unseen.
 #[test]
 fn the_reach_ends_where_the_flow_changes() {
     let rows = [vec![0.0, 1.0], vec![0.0, 0.5, 0.501, 1.0], vec![0.0, 1.0]];

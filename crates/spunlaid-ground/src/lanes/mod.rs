@@ -15,7 +15,7 @@ mod wide;
 
 pub use functions::{bend_ratio, cos_sin_turn, exp2, indices, integers, log2, power, singles};
 pub use isa::Isa;
-pub use simd::{Plain, Register, Simd, Singles, Sixteen};
+pub use simd::{F32x12, F32x16, Plain, Register, Simd};
 pub use wide::Wide;
 
 use std::array::from_fn;

@@ -22,7 +22,7 @@ pub struct Measure<T: 'static> {
     /// Name in the tables of runs and studies, with its SI unit: `amplitude_y_m`.
     pub column: &'static str,
     /// Name in `summary.json` or `analysis.json` where it is another; a point separates the name of a group:
-    /// `freezing.distance_m`. Empty if it is written elsewhere there.
+    /// `solidification.distance_m`. Empty if it is written elsewhere there.
     pub entry: Option<&'static str>,
     /// Its label in a table: `Amplitude in y`; empty if tables leave it out. A study adds the side of patches
     /// at the end, or in place of `#`.

@@ -59,7 +59,7 @@ impl Difference {
     }
 
     /// Whether the 95 % confidence interval leaves out zero.
-    pub fn is_beyond_chance(&self) -> bool {
+    pub fn is_significant(&self) -> bool {
         self.value.abs() > self.half_width()
     }
 
@@ -135,7 +135,7 @@ mod tests {
             "{}",
             difference.value + difference.half_width()
         );
-        assert!(!difference.is_beyond_chance());
+        assert!(!difference.is_significant());
         let difference = Difference::paired(&FIRST, &SECOND).unwrap();
         assert!(
             (difference.value / difference.standard_error - 4.0621).abs() < 5e-5 && difference.degrees == 9.0
@@ -145,7 +145,7 @@ mod tests {
             "{}",
             difference.value - difference.half_width()
         );
-        assert!(difference.is_beyond_chance());
+        assert!(difference.is_significant());
     }
 
     #[test]
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn equal_samples_do_not_differ_and_missing_values_are_left_out() {
         let same = Difference::paired(&FIRST, &FIRST).unwrap();
-        assert_eq!((same.value, same.half_width(), same.is_beyond_chance()), (0.0, 0.0, false));
+        assert_eq!((same.value, same.half_width(), same.is_significant()), (0.0, 0.0, false));
         let mut with_gap = SECOND.to_vec();
         with_gap[3] = f64::NAN;
         let difference = Difference::paired(&FIRST, &with_gap).unwrap();

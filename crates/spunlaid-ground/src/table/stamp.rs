@@ -8,7 +8,7 @@ pub struct Stamp {
     days: Option<[i64; 2]>,
     /// Time of day [s], as UTC where the stamp says its zone.
     second: f64,
-    /// After this time a stamp without a day begins anew [s].
+    /// After this time a stamp without a day begins again [s].
     period: f64,
     /// Unit of the last digit as it is written [s].
     pub last_place: f64,
@@ -66,7 +66,7 @@ impl Stamp {
     }
 
     /// Time from another stamp to this one [s]. Stamps without a day that go back by more than half of their
-    /// period have begun anew: a day, or an hour of minutes and seconds.
+    /// period have begun again: a day, or an hour of minutes and seconds.
     pub fn since(self, other: Self) -> f64 {
         let seconds = self.second - other.second;
         match (self.days, other.days) {

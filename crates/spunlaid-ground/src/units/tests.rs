@@ -74,7 +74,7 @@ fn identical_to_the_decimal_number_meant() {
 #[test]
 fn units_of_the_united_states_are_read() {
     for (dimension, text, value) in [
-        // The freezing and the boiling point of water, and 446 °F, which are 230 °C.
+        // The solidification and the boiling point of water, and 446 °F, which are 230 °C.
         (Dimension::Temperature, "32 °F", 273.15),
         (Dimension::Temperature, "212°F", 373.15),
         (Dimension::Temperature, "446 °F", 503.15),

@@ -18,18 +18,18 @@ const MEASURED: Duration = Duration::from_secs(1);
 pub(super) struct Clock {
     pub(super) pace: Pace,
     last: Instant,
-    /// Time of the fibres that is still to be flown [s].
+    /// Time of the fibres that is still to be simulated [s].
     backlog: f64,
-    /// Steps that are flown at once: pieces of a tick, so that its end is kept.
+    /// Steps that are simulated at once: pieces of a tick, so that its end is kept.
     piece: u64,
     /// Ticks of the last second: when, and how much time of the fibres had gone by since the start of the program [s].
     past: VecDeque<(Instant, f64)>,
-    flown: f64,
+    simulated: f64,
 }
 
 impl Clock {
     pub(super) fn new(now: Instant) -> Self {
-        Self { pace: Pace::Real, last: now, backlog: 0.0, piece: 1, past: VecDeque::new(), flown: 0.0 }
+        Self { pace: Pace::Real, last: now, backlog: 0.0, piece: 1, past: VecDeque::new(), simulated: 0.0 }
     }
 
     /// Begins to count now: after a pause, at another pace, or with fibres that may take longer for a step.
@@ -40,7 +40,7 @@ impl Clock {
 
     /// Flies for a tick. Never for longer than the tick lasts, and no more than the pace asks for.
     ///
-    /// * `step` – shortest time that can be flown [s]
+    /// * `step` – shortest time that can be simulated [s]
     /// * `fly` – flies for a number of steps
     ///
     /// # Errors
@@ -63,7 +63,7 @@ impl Clock {
             let begun = Instant::now();
             fly(steps)?;
             self.backlog -= steps as f64 * step;
-            self.flown += steps as f64 * step;
+            self.simulated += steps as f64 * step;
             let took = begun.elapsed();
             if took > TICK.mul_f64(0.3) {
                 self.piece = (self.piece / 2).max(1);
@@ -74,7 +74,7 @@ impl Clock {
         if !self.backlog.is_finite() {
             self.backlog = 0.0;
         }
-        self.past.push_back((now, self.flown));
+        self.past.push_back((now, self.simulated));
         while self.past.front().is_some_and(|(then, _)| now - *then > MEASURED) {
             self.past.pop_front();
         }
@@ -107,7 +107,7 @@ impl Clock {
 mod tests {
     use super::*;
 
-    fn flown(pace: Pace, ticks: u32, of_step: Duration) -> (f64, Duration, Clock) {
+    fn simulated(pace: Pace, ticks: u32, of_step: Duration) -> (f64, Duration, Clock) {
         let begun = Instant::now();
         let mut clock = Clock::new(begun);
         clock.pace = pace;
@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn the_pace_is_kept_and_never_exceeded() {
         for (pace, ratio) in [(Pace::Real, 1.0), (Pace::Tenth, 0.1), (Pace::Hundredth, 0.01)] {
-            let (total, wall, _) = flown(pace, 30, Duration::ZERO);
+            let (total, wall, _) = simulated(pace, 30, Duration::ZERO);
             assert!(total <= ratio * wall.as_secs_f64() + 1e-9, "{total}");
             // A busy machine may stop this thread for longer than a debt may last.
             assert!(total > 0.0, "{total}");
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn fibres_that_are_too_slow_say_so_and_nothing_piles_up() {
         // A step of 0.1 ms takes 1 ms of the clock.
-        let (total, _, mut clock) = flown(Pace::Real, 40, Duration::from_millis(1));
+        let (total, _, mut clock) = simulated(Pace::Real, 40, Duration::from_millis(1));
         assert!(clock.is_behind(), "{}", clock.speed());
         assert!(total < 0.2, "{total}");
         // What is owed is dropped, so that a pause does not make the fibres run.
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn as_fast_as_it_goes_ends_with_the_tick() {
-        let (total, _, clock) = flown(Pace::Free, 5, Duration::from_micros(100));
+        let (total, _, clock) = simulated(Pace::Free, 5, Duration::from_micros(100));
         assert!(total > 0.0 && !clock.is_behind());
     }
 }

@@ -18,7 +18,7 @@ impl Session {
     ///
     /// # Errors
     /// The answer that refuses it.
-    pub(super) fn obey(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
+    pub(super) fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
         match command {
             Command::Set { key, value, stamp } => {
                 let document = self.with(key, value)?;

@@ -128,7 +128,7 @@ impl Document {
         Ok(self.with_text(document.to_string()))
     }
 
-    /// The document with the tension at the end of the spinline that flights have found in place of `flown`,
+    /// The document with the tension at the end of the spinline that flights have found in place of `simulated`,
     /// so that a change of a key need not wait for flights; `None` if it says nothing of flights.
     ///
     /// * `case` – as it was read from this document
@@ -137,7 +137,7 @@ impl Document {
         let document = self.text.parse::<DocumentMut>().ok()?;
         let written = table_of(&document, key.table())?.get(key.short())?.as_str()?;
         let tension = key.get(case)?.number()?;
-        (written.trim() == "flown")
+        (written.trim() == "simulated")
             .then(|| self.with(key, Some(Dimension::Force.exact(tension).into())).ok())?
     }
 

@@ -49,12 +49,12 @@ impl Fibres {
     }
 
     /// Goes over to another case. The fibres fly on if only keys differ that may change in flight. Otherwise they start
-    /// anew, from their present shapes if both cases have a fibre of fixed length that is held in the same way.
+    /// again, from their present shapes if both cases have a fibre of fixed length that is held in the same way.
     ///
-    /// Returns whether they started anew.
+    /// Returns whether they started again.
     ///
     /// # Errors
-    /// The other case cannot be flown. Nothing has changed then.
+    /// The other case cannot be simulated. Nothing has changed then.
     pub(super) fn become_of(&mut self, case: Case) -> Result<bool, Error> {
         let changed = keys::all().iter().filter(|key| key.get(&self.case) != key.get(&case));
         let changed: Vec<_> = changed.collect();
@@ -78,7 +78,7 @@ impl Fibres {
         Ok(true)
     }
 
-    /// Starts the fibres anew, straight and at rest.
+    /// Starts the fibres again, straight and at rest.
     ///
     /// # Errors
     /// Those of [`Flight::new`].
@@ -199,7 +199,7 @@ mod tests {
         let faster = case(&[("air.velocity", "11 m/s"), ("run.time_step", &format!("{step:e} s"))]);
         assert!(!fibres.become_of(faster.clone()).unwrap());
         assert_eq!((fibres.case(), end(&fibres)), (&faster, before));
-        // Other eddies: the flight starts anew, with the fibre where it was.
+        // Other eddies: the flight starts again, with the fibre where it was.
         let time = fibres.flight().time();
         assert!(
             time > 0.1

@@ -209,9 +209,9 @@ mod tests {
 
     #[test]
     fn stat_amplitude_and_curves_agree_with_those_of_a_run() {
-        use spunlaid::ground::{Control, Error, Isa};
+        use spunlaid::ground::{Error, Isa, RunContext};
         use spunlaid::simulation::ensemble::fly;
-        use spunlaid::simulation::{Keep, Results};
+        use spunlaid::simulation::{Recorded, Results};
         use std::sync::atomic::{AtomicBool, AtomicU64};
         // The same flight over the same time: 0.5 s of settling, two seconds of statistics.
         let values = [
@@ -224,10 +224,10 @@ mod tests {
         let values = values.map(|(k, v)| (k.to_owned(), v.to_owned()));
         let (case, _) = read_case((starter_case(), "starter.toml"), &values).unwrap();
         let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
+        let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
         let mut results = Results::collector(0);
-        fly::<Error>(&case, Keep::NUMBERS, computing, |flown| {
-            results.take(flown);
+        fly::<Error>(&case, Recorded::NUMBERS, computing, |simulated| {
+            results.take(simulated);
             Ok(())
         })
         .unwrap();

@@ -63,7 +63,7 @@ pub(super) struct Session {
     clock: Clock,
     stands: bool,
     generation: u32,
-    /// What is added to the time of the flight, so that the time of the pages goes on when the fibres start anew [s].
+    /// What is added to the time of the flight, so that the time of the pages goes on when the fibres start again [s].
     since: f64,
     trouble: Option<String>,
     /// The flights that find the tension at the end of the spinline, as long as it is not known.
@@ -80,7 +80,7 @@ impl Session {
     /// * `folder` – where cases are saved
     ///
     /// # Errors
-    /// The case cannot be read or flown.
+    /// The case cannot be read or simulated.
     fn new(document: Document, remark: Option<String>, folder: PathBuf) -> Result<Self, Vec<Complaint>> {
         let read = document.read()?;
         let search = read.case.waits_for_flights().then(|| TensionSearch::begin(&document));
@@ -130,7 +130,7 @@ impl Session {
                     None => requests.recv().map_err(|_| mpsc::RecvTimeoutError::Disconnected),
                 };
                 match heard {
-                    Ok(request) => self.hear(request, requests),
+                    Ok(request) => self.receive(request, requests),
                     Err(mpsc::RecvTimeoutError::Timeout) => continue,
                     Err(mpsc::RecvTimeoutError::Disconnected) => return,
                 }
@@ -139,7 +139,7 @@ impl Session {
                 continue;
             }
             match requests.try_recv() {
-                Ok(request) => self.hear(request, requests),
+                Ok(request) => self.receive(request, requests),
                 Err(mpsc::TryRecvError::Empty) => {}
                 Err(mpsc::TryRecvError::Disconnected) => return,
             }
@@ -156,7 +156,7 @@ impl Session {
     }
 
     /// Hears a message, and all that have come after it.
-    fn hear(&mut self, first: PageRequest, requests: &mpsc::Receiver<PageRequest>) {
+    fn receive(&mut self, first: PageRequest, requests: &mpsc::Receiver<PageRequest>) {
         let mut heard = vec![first];
         while heard.len() < MOST_HEARD
             && let Ok(request) = requests.try_recv()
@@ -182,7 +182,7 @@ impl Session {
                 }
                 command => {
                     changed = true;
-                    self.obey(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
+                    self.dispatch(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
                 }
             };
             if let Some(answer) = answer {
@@ -225,13 +225,13 @@ impl Session {
         }
     }
 
-    /// The fibres are lost: they start anew, and stand.
+    /// The fibres are lost: they start again, and stand.
     fn handle_lost_fibres(&mut self, why: String) {
         self.since = self.now();
         if !self.since.is_finite() {
             self.since = 0.0;
         }
-        // A case that has been flown can be started again.
+        // A case that has been simulated can be started again.
         let _ = self.fibres.reset();
         self.restart_statistics();
         self.stands = true;

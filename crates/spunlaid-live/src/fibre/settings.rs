@@ -15,7 +15,7 @@ pub(super) struct Setting {
     meaning: &'static str,
     /// What applies if it is left out, and the values that it takes.
     about: String,
-    /// Whether it changes at once; otherwise the fibres start anew, from the present shape where they can.
+    /// Whether it changes at once; otherwise the fibres start again, from the present shape where they can.
     in_flight: bool,
     /// Whether it is one of the first to look at.
     first: bool,

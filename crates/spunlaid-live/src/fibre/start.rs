@@ -19,7 +19,7 @@ const ERROR_TOLERANCE: f64 = 0.012;
 /// * `folder` – where cases are saved
 ///
 /// # Errors
-/// The case cannot be read or flown.
+/// The case cannot be read or simulated.
 pub(crate) fn begin(
     text: String,
     file: Option<PathBuf>,

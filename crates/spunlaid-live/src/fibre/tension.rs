@@ -4,7 +4,7 @@
 use super::Session;
 use super::document::Document;
 use crate::message::complaints;
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::{CaseWithNotes, Resources};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
@@ -47,7 +47,7 @@ impl Drop for TensionSearch {
 }
 
 fn fly(document: &Document, stop: &AtomicBool) -> Result<CaseWithNotes, Error> {
-    let by = Control { threads: 1, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
     Resources::default().settle(|resources| document.case(resources), |resources| resources.fly(by))
 }
 

@@ -5,7 +5,7 @@ use super::laid::Laid;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{PinnedWeb, Seen};
 use spunlaid::ground::threads::look_while;
-use spunlaid::ground::{Control, Effect, Error, Isa};
+use spunlaid::ground::{Effect, Error, Isa, RunContext};
 use spunlaid::input::{LineFile, Resources, Turn, TurnedLine, WebSpec, read_line};
 use spunlaid::simulation::{Flights, Flyer};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -85,7 +85,7 @@ pub(super) fn fly(file: Arc<LineFile>, name: String, jobs: &Receiver<Job>, news:
     let mut pilot = Pilot { file, name, resources: Resources::default(), pinned: None, news };
     for Job { number, work, stop } in jobs {
         let done = AtomicU64::new(0);
-        let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
+        let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &done };
         let ended = catch_unwind(AssertUnwindSafe(|| pilot.work(number, work, by)));
         // A fault of the program has said what it is.
         pilot.report(number, What::Ended(ended.unwrap_or(Err(Error::no_fibre()))));
@@ -98,7 +98,7 @@ impl Pilot {
         let _ = self.news.send(Heard::Flight(News { of, what }));
     }
 
-    fn work(&mut self, number: u64, work: Work, by: Control<'_>) -> Result<End, Error> {
+    fn work(&mut self, number: u64, work: Work, by: RunContext<'_>) -> Result<End, Error> {
         match work {
             Work::Settle(turns) => {
                 let file = Arc::clone(&self.file);
@@ -123,13 +123,13 @@ impl Pilot {
     }
 
     /// Lays a web: the same calls as `spunlaid web`, so the numbers have the same bits.
-    fn lay(&self, number: u64, spec: &WebSpec, by: Control<'_>) -> Result<Laid, Error> {
-        let (all, flown) = (steps(spec), AtomicU64::new(0));
+    fn lay(&self, number: u64, spec: &WebSpec, by: RunContext<'_>) -> Result<Laid, Error> {
+        let (all, simulated) = (steps(spec), AtomicU64::new(0));
         let follow = |flights: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
-            let done = || flown.load(Ordering::Relaxed) + flights.done.load(Ordering::Relaxed);
+            let done = || simulated.load(Ordering::Relaxed) + flights.done.load(Ordering::Relaxed);
             let share = || self.report(number, What::Share(done() as f64 / all.max(1) as f64));
             look_while(LOOK, share, work);
-            flown.fetch_add(flights.done.load(Ordering::Relaxed), Ordering::Relaxed);
+            simulated.fetch_add(flights.done.load(Ordering::Relaxed), Ordering::Relaxed);
         };
         let mut web = Flyer::new(by.threads, by.stop, &follow).web(spec)?;
         let findings = web.find(by)?;
@@ -142,7 +142,7 @@ impl Pilot {
         number: u64,
         text: &str,
         tried: &[usize],
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<(), Error> {
         let name = &self.name;
         let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes());

@@ -31,7 +31,7 @@ impl Laid {
     pub(super) fn new(web: &FlownWeb, findings: &Findings) -> Self {
         let patch = |patch: &spunlaid::web::map::PatchFindings| LaidPatch {
             side: patch.map.patch,
-            cv: patch.told_with_whole_error().map(|cv| [cv.cv, cv.standard_error.unwrap_or(f64::NAN)]),
+            cv: patch.with_total_error().map(|cv| [cv.cv, cv.standard_error.unwrap_or(f64::NAN)]),
         };
         let sheet = &web.web.sheet;
         Self {

@@ -27,7 +27,7 @@ use known_web::KnownWeb;
 use picture::BeltPicture;
 use plan::{Known, Task};
 use spunlaid::experiment::advice::{LOOKS, Seen};
-use spunlaid::ground::{Control, Error, Fault, Isa};
+use spunlaid::ground::{Error, Fault, Isa, RunContext};
 use spunlaid::input::{LineFile, Resources, TurnedLine, read_line};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -114,7 +114,7 @@ impl Session {
         let name = path.as_ref().map_or_else(|| "line.toml".to_owned(), |path| path.display().to_string());
         let (mut resources, stop, done) = (Resources::default(), AtomicBool::new(false), AtomicU64::new(0));
         let threads = thread::available_parallelism().map_or(1, usize::from);
-        let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
+        let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &done };
         let read = |resources: &Resources| {
             let file = read_line(&text, &name, resources)?;
             let line = file.turned(&[], resources)?;
@@ -207,14 +207,14 @@ impl Session {
             {
                 all.push(next);
             }
-            self.hear(all);
+            self.receive(all);
             self.go_on(&jobs);
             self.show();
         }
     }
 
     /// Hears what has come at once.
-    fn hear(&mut self, all: Vec<Heard>) {
+    fn receive(&mut self, all: Vec<Heard>) {
         let mut requests = Vec::new();
         for one in all {
             match one {
@@ -239,7 +239,7 @@ impl Session {
                     None
                 }
                 command => {
-                    self.obey(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
+                    self.dispatch(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
                 }
             };
             if let Some(answer) = answer {

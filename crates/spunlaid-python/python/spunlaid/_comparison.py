@@ -29,13 +29,13 @@ class Comparison(Results):
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each run and measure, in SI units: the means of both with their standard errors, the `difference` with its
-        `standard_error` and half the width of its interval of 95 %, and whether it is `beyond_chance`."""
+        `standard_error` and half the width of its interval of 95 %, and whether it is `significant`."""
         pd = needed("pandas", "pandas", "to_pandas()")
         rows, index = [], []
         for compared in self.comparisons:
             for column, of in compared["measures"].items():
                 index.append((compared["run"], column))
-                sides = {name: of[name] for name in ("difference", "standard_error", "half_width", "beyond_chance")}
+                sides = {name: of[name] for name in ("difference", "standard_error", "half_width", "significant")}
                 means = {f"{side}_{name}": of[side][name] for side in ("against", "run") for name in ("mean", "standard_error")}
                 rows.append({**means, **sides})
         return pd.DataFrame(rows, index=pd.MultiIndex.from_tuples(index, names=["run", "measure"]))

@@ -66,7 +66,7 @@ def fit(
 
     web: the path of the file of a web
     to: the results folder of the scan, from `spunlaid analyse`; or of a web
-    vary: one to four keys, `["line.depth", "laydown.noise"]`; or a dict of their ranges, `{"line.depth": ("5 mm", "40 mm"),
+    vary: one to four keys, `["line.slot_gap", "laydown.noise"]`; or a dict of their ranges, `{"line.slot_gap": ("5 mm", "40 mm"),
         "laydown.noise": None}`, with texts that have a unit, and numbers in SI units
     spectrum: whether the spectrum is compared too
     webs: simulated webs of each trial

@@ -195,11 +195,11 @@ def run(
     with shown(progress, f"{case['run.replicates']} fibres") as show:
         place = Place()
         folder = place.path / "run"
-        flown = _spunlaid.fly(case, folder, check_threads(threads), show, check_step, shapes)
+        simulated = _spunlaid.fly(case, folder, check_threads(threads), show, check_step, shapes)
     if not samples:
         for name in ("end_node.parquet", "energy.parquet"):
             (folder / name).unlink(missing_ok=True)
-    return Run(case, flown, Tables(folder, flown.summary, place))
+    return Run(case, simulated, Tables(folder, simulated.summary, place))
 
 
 def of_kept(kept: Kept, case: Case | None = None) -> Run:

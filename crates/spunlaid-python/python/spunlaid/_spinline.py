@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Spinline(Results):
     """A spinline in steady state. `spunlaid.spin` returns it; a notebook shows its report.
 
-    Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.freezing["distance_m"]`.
+    Each measure is an attribute, in SI units: `line.final_diameter_m`, `line.solidification["distance_m"]`.
     """
 
     def __init__(self, solved: _spunlaid.Computed | Kept) -> None:

@@ -252,7 +252,7 @@ def lay_web(
     path: str | None,
     changes: Mapping[str, Any],
     advice: bool = False,
-    guesses: bool = True,
+    assumed_values: bool = True,
     threads: int | None = None,
     progress: _Progress = None,
 ) -> Computed: ...

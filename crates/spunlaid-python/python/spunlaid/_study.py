@@ -237,9 +237,9 @@ class Study:
 def of_folder(folder: Path) -> Study:
     """A study from its folder; one that was stopped is refused."""
     begun = _spunlaid.Study(os.fspath(folder / "study.toml"), out=os.fspath(folder))
-    flown, wanted = begun.fibres
-    if flown < wanted:
-        raise FolderError(f"{folder}: holds {flown} of {wanted} {begun.noun}s; spunlaid.sweep or `spunlaid sweep` goes on with it")
+    simulated, wanted = begun.fibres
+    if simulated < wanted:
+        raise FolderError(f"{folder}: holds {simulated} of {wanted} {begun.noun}s; spunlaid.sweep or `spunlaid sweep` goes on with it")
     return Study(begun)
 
 

@@ -24,8 +24,8 @@ class Web(Sheet):
     @property
     def patches(self) -> dict[str, NDArray[np.float64]]:
         """CV of the web over square patches, a number for each size `patch_m` [m]: `cv` of the map with its
-        sampling error `cv_standard_error`, the error of the sample of filaments `cv_flight_error`,
-        and its `cv_whole_error` by both; `cv_single_fibres` expected of known numbers, from single fibres, with its standard
+        sampling error `cv_standard_error`, the error of the sample of filaments `cv_sample_error`,
+        and its `cv_total_error` by both; `cv_single_fibres` expected of known numbers, from single fibres, with its standard
         error; `cv_independent` expected from the same filaments in independent turbulence, by their
         surrogate; and `cv_straight_fibres` of straight fibres in all directions of the same mass.
         What is not known is NaN: without simulated fibres, the error of the sample and the total standard error."""
@@ -75,7 +75,7 @@ def web(
     *,
     set: Mapping[str, Any] | None = None,  # noqa: A002 - the word of the program
     advice: bool = False,
-    guesses: bool = True,
+    assumed_values: bool = True,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Web:
@@ -86,11 +86,11 @@ def web(
         {...}, "belt": {...}, ...}`. `spunlaid keys --web` and `spunlaid keys` list the keys
     set: keys that replace those of the file, `{"line.belt_speed": 5.0}` or `{"belt.distance": "0.4 m"}`
     advice: whether to try which settings of the line would make it more uniform at the same basis weight; see `summary["advice"]`
-    guesses: whether a web whose file names assumed values (`web.guessed`) is also tried with half and twice of each;
-        `summary["guesses"]` then has the CVs
+    assumed_values: whether a web whose file names assumed values (`web.assumed`) is also tried with half and twice of each;
+        `summary["assumed_values"]` then has the CVs
     threads: number of threads, by default one for each processor; the results do not depend on it
     progress: None, True, False, or a function that gets the parts done and their number
     """
     path, changes = split_source(web, set)
     with shown(progress, "web") as show:
-        return Web(_spunlaid.lay_web(path, changes, advice, guesses, check_threads(threads), show))
+        return Web(_spunlaid.lay_web(path, changes, advice, assumed_values, check_threads(threads), show))

@@ -110,7 +110,7 @@ mod tests {
     use spunlaid::fibre::DragTable;
     use std::{fs, sync::Arc};
 
-    /// The pictures in `docs/theory.md`. `BLESS=1 cargo test` draws them anew.
+    /// The pictures in `docs/theory.md`. `BLESS=1 cargo test` draws them again.
     #[test]
     fn identical_pictures_in_the_theory() {
         assert_eq!(cotton().len(), 2);

@@ -8,7 +8,7 @@ use super::swap::{self, MARKS, NEW};
 use super::table::{Column, TABLES, Table};
 use crate::Failure;
 use crate::failure::{copied_onto_itself, half_replaced, holds_files_of_others, holds_results, not_a_folder};
-use spunlaid::ground::threads::each;
+use spunlaid::ground::threads::par_map;
 use spunlaid_charts::Figure;
 use std::borrow::Borrow;
 use std::io::{BufWriter, Write};
@@ -242,7 +242,7 @@ impl<'a> Staging<'a> {
         let threads = available_parallelism().map_or(1, usize::from);
         // A few at a time: the pictures of many points are large, and only those of these few are held.
         for figures in new.chunks(threads) {
-            let drawn = each(threads, figures.len(), |i| self.figures.drawn(figures[i]));
+            let drawn = par_map(threads, figures.len(), |i| self.figures.drawn(figures[i]));
             for (figure, files) in figures.iter().zip(drawn) {
                 self.write_with(&name(figure), |to| figure.table().write_csv(to))?;
                 for (ending, content) in files? {

@@ -80,7 +80,7 @@ pub struct Performance {
     pub ns_per_element_step: Option<f64>,
     /// Name of the instruction set.
     pub instruction_set: &'static str,
-    /// Time that the flights of filaments in one air took [s].
+    /// Time that the flights of filaments in shared turbulence took [s].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flights_s: Option<f64>,
     /// The part of it that is shared among the threads [s].
@@ -98,9 +98,11 @@ impl Performance {
     /// With the times of flights in one air, if there were some.
     #[must_use]
     pub fn with_flights(self, findings: &Findings) -> Self {
-        let flown = Some(&findings.laid.flown).filter(|flown| !flown.is_empty());
+        let simulated = Some(&findings.laid.simulated).filter(|simulated| !simulated.is_empty());
         let sum = |of: fn(&TimeSpent) -> Duration| {
-            flown.map(|flown| flown.iter().map(|layer| of(&layer.spent)).sum::<Duration>().as_secs_f64())
+            simulated.map(|simulated| {
+                simulated.iter().map(|layer| of(&layer.spent)).sum::<Duration>().as_secs_f64()
+            })
         };
         Self {
             flights_s: sum(|spent| spent.whole),

@@ -71,7 +71,7 @@ pub(crate) const MOMENTS: Reference = Reference {
         numerical integration. Econometrica 57(5), 995–1026, 1989.",
 };
 
-/// What a flown case rests on: the chain, and the laws of the drag.
+/// What a simulated case rests on: the chain, and the laws of the drag.
 pub(crate) fn of_case(case: &Case) -> Vec<Reference> {
     match case.air.density > 0.0 {
         true => vec![CHAIN, case.drag.along.source(), case.drag.across.source()],

@@ -13,16 +13,16 @@ use crate::files::origin::Performance;
 use crate::folders::{Contents, Making};
 use crate::products::spinline::SpinFolder;
 use serde_json::Value as Json;
-use spunlaid::air::{OF_COMPONENTS, OF_RECORDS};
-use spunlaid::fibre::OF_SPINLINES;
-use spunlaid::ground::{Control, Isa, Measure, Value, measure};
+use spunlaid::air::{COMPONENT_MEASURES, RECORD_MEASURES};
+use spunlaid::fibre::SPINLINE_MEASURES;
+use spunlaid::ground::{Isa, Measure, RunContext, Value, measure};
 use spunlaid::input::{read_spinline, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::fabric::of_scan;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
 use spunlaid::web::{
-    FewDoubt, FewFilamentsCv, Format, Light, OF_FABRICS, OF_PATCHES, OF_SCANNED_PATCHES, OF_SCANS,
-    OF_STREAK_LIMITS, OF_WEBS, Picture, scan,
+    FABRIC_MEASURES, Format, Light, PATCH_MEASURES, Picture, SCAN_MEASURES, SCANNED_PATCH_MEASURES,
+    STREAK_LIMIT_MEASURES, SubsampleCv, SubsampleWarning, WEB_MEASURES, scan,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -52,8 +52,8 @@ patches = ["5 mm", "10 mm"]
 static STOP: AtomicBool = AtomicBool::new(false);
 const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
-/// Webs that know different numbers of their patches: from the surrogate alone, from flown curves too, from
-/// neither, and of filaments in one air, all or a few of which were flown, on a sheet that is smaller than the
+/// Webs that know different numbers of their patches: from the surrogate alone, from simulated curves too, from
+/// neither, and of filaments in shared turbulence, all or a few of which were simulated, on a sheet that is smaller than the
 /// patches, and so few that they tell nothing.
 fn kinds(found: &Findings) -> [Findings; 6] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
@@ -63,7 +63,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
     };
     let few = |patch: &mut PatchFindings| {
         let (few, cv) = (0.07, 0.06);
-        let told = FewFilamentsCv {
+        let told = SubsampleCv {
             patch: patch.map.patch,
             cv,
             by_chance: Some(0.002),
@@ -84,7 +84,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
         with(&|patch| patch.evidence = Evidence::FewInOneAir),
         with(&|patch| {
             few(patch);
-            patch.doubt = Some(FewDoubt::Neighbours(0.1));
+            patch.doubt = Some(SubsampleWarning::Neighbours(0.1));
             patch.map.standard_error = None;
             if let Some(few) = &mut patch.few {
                 (few.cv, few.by_chance, few.by_pitch, few.of_halves) = (0.0, None, f64::NAN, f64::NAN);
@@ -96,12 +96,13 @@ fn kinds(found: &Findings) -> [Findings; 6] {
 #[test]
 fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let file = read_web((WEB, "web.toml"), &[]).unwrap();
-    let mut flown = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
+    let mut simulated = Flyer::new(2, &STOP, &|_, work| work()).web(&file.spec).unwrap();
     let laid = AtomicU64::new(0);
-    let laying = Control { threads: 2, isa: Isa::detect(), stop: &STOP, done: &laid };
-    let found = flown.find(laying).unwrap();
+    let laying = RunContext { threads: 2, isa: Isa::detect(), stop: &STOP, done: &laid };
+    let found = simulated.find(laying).unwrap();
     let (name, kinds) = ("web".to_owned(), kinds(&found));
-    let mut written = WebFolder::new((name.clone(), name), file, (flown, found), (Instant::now(), laying));
+    let mut written =
+        WebFolder::new((name.clone(), name), file, (simulated, found), (Instant::now(), laying));
     let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
     for findings in kinds {
         let desk = tempfile::tempdir().unwrap();
@@ -122,20 +123,20 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
             assert!(patch["cv"].is_null() && patch.get("cv").is_some(), "{patch}");
             assert_eq!(patch["no_interval"], "too few filaments simulated");
         }
-        for declared in OF_WEBS {
+        for declared in WEB_MEASURES {
             let column = declared.column;
             let places = [&summary["web"], &summary["layers"][0]];
             let json = places.into_iter().find_map(|place| place.get(column)).cloned();
             let mean = json.as_ref().map(|json| json.get("mean").unwrap_or(json).as_f64().unwrap());
             assert_eq!(mean, declared.value(findings).map(|value| value.number()), "{column}");
         }
-        for declared in OF_FABRICS {
+        for declared in FABRIC_MEASURES {
             let value = declared.value(fabric).map(|value| serde_json::to_value(value).unwrap());
             assert_eq!(summary["fabric"].get(declared.entry()), value.as_ref(), "{}", declared.entry());
             assert!(value.is_none() || report.contains(declared.label), "{}", declared.entry());
         }
         for (patch, json) in findings.patches.iter().zip(summary["web"]["patches"].as_array().unwrap()) {
-            for declared in measure::with_errors(OF_PATCHES) {
+            for declared in measure::with_errors(PATCH_MEASURES) {
                 // What is not known is no number in JSON.
                 let number =
                     declared.value(patch).map(|value| value.number()).filter(|number| number.is_finite());
@@ -152,8 +153,8 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         }
     }
     // Each of them has been looked at.
-    assert_eq!(names, measure::with_errors(OF_PATCHES).map(Measure::entry).collect());
-    let with_column = measure::with_errors(OF_PATCHES).filter(|declared| declared.short.is_some());
+    assert_eq!(names, measure::with_errors(PATCH_MEASURES).map(Measure::entry).collect());
+    let with_column = measure::with_errors(PATCH_MEASURES).filter(|declared| declared.short.is_some());
     assert_eq!(heads, with_column.map(Measure::entry).collect());
 }
 
@@ -186,7 +187,7 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let summary = summary_of_scan(&picture.file, (&findings, &fabric), performance, &[]);
     let summary: Json = serde_json::from_str(&summary).unwrap();
     let report = scan_report(&picture.file, (&findings, &fabric), &[], performance).unwrap().html();
-    for declared in OF_SCANS {
+    for declared in SCAN_MEASURES {
         let number = declared.value(&findings).map(|value| value.number());
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());
         let is_told = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
@@ -195,10 +196,10 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let search = findings.streaks.as_ref().unwrap();
     let limits = summary["scan"]["streak_limits"].as_array().unwrap();
     assert_eq!(limits.len(), search.limits.len());
-    for declared in OF_STREAK_LIMITS {
+    for declared in STREAK_LIMIT_MEASURES {
         assert_eq!(limits[0][declared.entry()].as_f64(), Some(declared.number(&search.limits[0])));
     }
-    for declared in OF_SCANNED_PATCHES {
+    for declared in SCANNED_PATCH_MEASURES {
         let json = summary["web"]["patches"][0][declared.entry()].as_f64();
         assert_eq!(json, Some(declared.number(&findings.patches[0])), "{}", declared.entry());
         assert!(report.contains(declared.label), "{}", declared.entry());
@@ -214,7 +215,7 @@ fn every_declared_measure_of_a_spinline_is_in_summary_terminal_and_report() {
     let results = &folder.results;
     let summary: Json = serde_json::from_str(&folder.summary()).unwrap();
     let (report, terminal) = (folder.html(MAKING).unwrap(), spinline_text(results));
-    for row in measure::measured(OF_SPINLINES, &results.rows[0]) {
+    for row in measure::measured(SPINLINE_MEASURES, &results.rows[0]) {
         let name = row.measure.entry();
         let json = summary.pointer(&format!("/spinline/{}", name.replace('.', "/")));
         assert_eq!(json.and_then(Json::as_f64), row.value.map(|value| value.number()), "{name}");
@@ -236,8 +237,8 @@ fn every_declared_measure_of_a_record_is_in_summary_terminal_and_report() {
             assert!(pages.iter().all(|page| page.contains(row.measure.label)), "{}", row.measure.entry());
         }
     }
-    check(OF_RECORDS, &analysis, &json, &pages);
+    check(RECORD_MEASURES, &analysis, &json, &pages);
     for (component, json) in analysis.components.iter().zip(json["components"].as_array().unwrap()) {
-        check(OF_COMPONENTS, component, json, &pages);
+        check(COMPONENT_MEASURES, component, json, &pages);
     }
 }

@@ -6,7 +6,7 @@ use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::document::Section;
 use crate::page::table::{Row, Table};
 use serde_json::Value as Json;
-use spunlaid::fibre::{Case, Load, LoadPlace, OF_LOAD_PLACES, OF_LOADS, WayPlace};
+use spunlaid::fibre::{Case, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
 use spunlaid::ground::{Measured, measure};
 
 const TITLE: &str = "What the filaments do to their air";
@@ -20,7 +20,7 @@ const LARGE: f64 = 0.2;
 /// The load of the filaments of a case; None for a fibre of fixed length.
 ///
 /// * `slot` – size in machine direction of the slot of the air [m], if it is known
-/// * `way` – of a flown filament; empty if none was flown
+/// * `way` – of a simulated filament; empty if none was simulated
 pub fn load_of(case: &Case, filaments_per_metre: f64, slot: Option<f64>, way: &[WayPlace]) -> Option<Load> {
     let spun = SpinResults::from_case(case);
     let first = spun.as_ref().and_then(|spun| spun.rows.first());
@@ -33,11 +33,11 @@ pub fn load_of_spinline(case: &Case, way: &[WayPlace]) -> Option<Load> {
     load_of(case, curtain.rows as f64 * curtain.filaments_per_metre, None, way)
 }
 
-/// Its measures, and those of each place where filaments were flown.
+/// Its measures, and those of each place where filaments were simulated.
 pub fn summary(load: &Load) -> Json {
-    let mut told = values(OF_LOADS, load);
+    let mut told = values(LOAD_MEASURES, load);
     if !load.places.is_empty() {
-        told["places"] = load.places.iter().map(|place| values(OF_LOAD_PLACES, place)).collect();
+        told["places"] = load.places.iter().map(|place| values(LOAD_POSITION_MEASURES, place)).collect();
     }
     told
 }
@@ -54,7 +54,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         if let Some(name) = name {
             section = section.heading(format!("Layer {name}"));
         }
-        section = section.paragraph(load_words(load)).table(Table::of_measures(OF_LOADS, load));
+        section = section.paragraph(load_words(load)).table(Table::of_measures(LOAD_MEASURES, load));
         section = match load.places.is_empty() {
             true => section.paragraph(NOT_SEEN),
             false => section.table(along_way(load)),
@@ -82,12 +82,12 @@ pub fn load_words(load: &Load) -> String {
     });
     let missing = load.air.is_none().then(|| match load.places.is_empty() {
         true => {
-            "What the filaments do to their air can be found with the size of the slot: line.depth, next to \
+            "What the filaments do to their air can be found with the size of the slot: line.slot_gap, next to \
             line.filaments_per_metre."
                 .to_owned()
         }
         false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it \
-        in line.depth, next to line.filaments_per_metre."
+        in line.slot_gap, next to line.filaments_per_metre."
             .to_owned(),
     });
     let on_way = load.at_belt().map(on_way);
@@ -131,7 +131,7 @@ fn along_way(load: &Load) -> Table {
     let rows: Vec<Vec<Measured<LoadPlace>>> = load
         .places
         .iter()
-        .map(|place| measure::measured(OF_LOAD_PLACES, place).filter(is_known).collect())
+        .map(|place| measure::measured(LOAD_POSITION_MEASURES, place).filter(is_known).collect())
         .collect();
     let head = |row: &Measured<LoadPlace>| match row.measure.unit.shown {
         "" => row.measure.label.to_owned(),

@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! spinline, load        what comes from the die, and what filaments do to their air: products, and parts of others
-//! run                   a case that was flown; its checks, tables and moving fibre
+//! run                   a case that was simulated; its checks, tables and moving fibre
 //! air, record, sources  the air of a case, a measured one, the force on the cells of a field
 //! web, scan             a web that was laid, and one that was scanned
 //! fit, study, paper     many webs or runs

@@ -1,4 +1,4 @@
-//! Looks at the field of eddies of a web in one air.
+//! Looks at the field of eddies of a web in shared turbulence.
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;

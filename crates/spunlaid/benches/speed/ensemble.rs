@@ -7,22 +7,22 @@ use crate::title;
 use cpu_time::ProcessTime;
 use spunlaid::fibre::Case;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::ground::{Control, Error, Isa, WIDTH};
+use spunlaid::ground::{Error, Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum};
-use spunlaid::simulation::{Keep, Results};
+use spunlaid::simulation::{Recorded, Results};
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Control<'a> {
-    Control { threads, isa: Isa::detect(), stop, done: fibre_steps }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunContext<'a> {
+    RunContext { threads, isa: Isa::detect(), stop, done: fibre_steps }
 }
 
 fn fly_all(case: &Case, threads: usize) {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut collector = Results::collector(0);
     let done: Result<(), Error> =
-        fly(case, Keep::NUMBERS, computing(threads, &stop, &fibre_steps), |flight| {
+        fly(case, Recorded::NUMBERS, computing(threads, &stop, &fibre_steps), |flight| {
             collector.take(flight);
             Ok(())
         });

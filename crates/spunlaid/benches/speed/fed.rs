@@ -7,7 +7,7 @@ use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::input::read_case;
 use std::path::Path;
 
-/// Time after which the fibre has come down [s], and time that is flown for a figure [s].
+/// Time after which the fibre has come down [s], and time that is simulated for a figure [s].
 const DOWN: f64 = 0.05;
 const FLOWN: f64 = 0.21;
 

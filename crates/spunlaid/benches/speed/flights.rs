@@ -2,17 +2,17 @@
 //! paths are off.
 
 use spunlaid::fibre::Case;
-use spunlaid::ground::{Control, Isa, WIDTH};
+use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::{Sample, fly_together};
-use spunlaid::simulation::{Job, Keep, Trajectory};
+use spunlaid::simulation::{Job, Recorded, Trajectory};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The first eight flights of a case, on this thread.
 pub fn trajectories_of(case: &Case) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(case, replicate)).collect();
-    fly_together(&jobs, Keep::SAMPLES, computing).expect("the case flies")
+    fly_together(&jobs, Recorded::SAMPLES, computing).expect("the case flies")
 }
 
 /// How flights differ from others with the same phases.

@@ -8,7 +8,7 @@ use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Fibre, Flight, Strand};
 use spunlaid::ground::{Isa, WIDTH};
 
-/// The step each scheme is flown with: the paper's, and those with a like error or better.
+/// The step each scheme is simulated with: the paper's, and those with a like error or better.
 pub const STEPS: [(Scheme, f64); 5] = [
     (Scheme::SemiImplicitEuler, 1e-6),
     (Scheme::Leapfrog, 1e-6),
@@ -17,7 +17,7 @@ pub const STEPS: [(Scheme, f64); 5] = [
     (Scheme::ImplicitTension, 5e-4),
 ];
 
-/// A fibre in its turbulence, to be flown again and again from the same state.
+/// A fibre in its turbulence, to be simulated again and again from the same state.
 pub struct Setup {
     strand: Strand,
     eddies: Eddies,
@@ -28,7 +28,7 @@ pub struct Setup {
 
 impl Setup {
     /// The Table 1 fibre with another length [m] and number of elements, eddies of another length [m], and
-    /// damping [1/s], to be flown by steps of `h` [s].
+    /// damping [1/s], to be simulated by steps of `h` [s].
     pub fn of((length, elements): (f64, usize), length_scale: f64, damping: f64, h: f64) -> Self {
         let fibre = Fibre { length, elements, ..table1_fibre() };
         let air = table1_air();

@@ -2,7 +2,7 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::ground::{Control, Isa, Lanes, WIDTH};
+use spunlaid::ground::{Isa, Lanes, RunContext, WIDTH};
 use spunlaid::web::map::{Filaments, lay};
 use spunlaid::web::{Fibres, Layer, PathKey, Paths, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -22,7 +22,7 @@ pub fn costs() {
                 Trial::new(metres, move || {
                     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
                     processor_time(|| {
-                        let laying = Control { threads: 1, isa, stop: &stop, done: &laid };
+                        let laying = RunContext { threads: 1, isa, stop: &stop, done: &laid };
                         lay(&web, laying).expect("a web that can be laid");
                     })
                 }),

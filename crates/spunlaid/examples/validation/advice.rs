@@ -1,13 +1,13 @@
-//! What changes and guesses do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
+//! What changes and assumed_values do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
 //!
 //! All cores fly; a line takes some minutes of sixteen. `validation advice slot 4` looks at one of them, against four
 //! long webs of each change.
 
 use crate::title;
 use spunlaid::experiment::advice::advise;
-use spunlaid::experiment::{Change, Tried};
-use spunlaid::ground::threads::each;
-use spunlaid::ground::{Control, Difference, Isa};
+use spunlaid::experiment::{Change, SensitivityRun};
+use spunlaid::ground::threads::par_map;
+use spunlaid::ground::{Difference, Isa, RunContext};
 use spunlaid::input::{Changes, Overrides, WebSpec, read_changes, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid::web::Web;
@@ -31,7 +31,7 @@ version = 1
 throughput = "0.5 g/min"
 basis_weight = "20 g/m²"
 filaments_per_metre = 5000
-depth = "20 mm"
+slot_gap = "20 mm"
 [fibre]
 linear_density = "2 dtex"
 density = "905 kg/m³"
@@ -58,7 +58,7 @@ const THICK: &str = r#"
 version = 1
 [line]
 filaments_per_metre = 3300
-depth = "15 mm"
+slot_gap = "15 mm"
 [fibre]
 diameter = "30 µm"
 density = "1380 kg/m³"
@@ -92,22 +92,22 @@ pub fn changes() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let asked = |name: &str| std::env::args().any(|word| word == name);
     let lines = [
-        ("slot", SLOT, "line.depth, air.intensity_factor, air.length_factor", "500"),
+        ("slot", SLOT, "line.slot_gap, air.intensity_factor, air.length_factor", "500"),
         ("row", ROW, "air.intensity_factor, air.length_factor", "500"),
         // Half of its filaments do not tell the CV of all.
-        ("thick", THICK, "line.depth, air.turbulence_intensity", "990"),
+        ("thick", THICK, "line.slot_gap, air.turbulence_intensity", "990"),
     ];
     let all = !lines.iter().any(|(name, ..)| asked(name));
     let seeds = std::env::args().find_map(|word| word.parse().ok()).unwrap_or(SEEDS);
     let (mut within, mut count) = (0, 0);
-    for (name, text, guesses, flown) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
+    for (name, text, assumed_values, simulated) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
         title(&format!("Changes of a line: {name}, against {seeds} webs of 0.3 m × 1 m each"));
-        let text = format!("{text}{}", REST.replace("none", guesses));
+        let text = format!("{text}{}", REST.replace("none", assumed_values));
         let (base, told) = told(&text, threads);
         if asked("told") {
             continue;
         }
-        let like = read(&format!("{SLOT}{REST}"), &[&LONG[..], &[("web.flown", flown)]].concat());
+        let like = read(&format!("{SLOT}{REST}"), &[&LONG[..], &[("web.simulated", simulated)]].concat());
         let [held, compared] = compare(&base, &told, &like, (seeds, threads));
         within += held;
         count += compared;
@@ -125,16 +125,16 @@ fn read(text: &str, changed: &[(&str, &str)]) -> WebSpec {
 
 fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
-    let mut flown = Flyer::new(threads, &stop, &|_, work| work()).web(spec).expect("a flight");
-    let findings = flown.find(by).expect("findings");
-    (flown.web, findings)
+    let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+    let mut simulated = Flyer::new(threads, &stop, &|_, work| work()).web(spec).expect("a flight");
+    let findings = simulated.find(by).expect("findings");
+    (simulated.web, findings)
 }
 
 /// What the program tells of a line, with what it takes.
 fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let spec = read(text, &[]);
     let begun = Instant::now();
     let (web, findings) = match std::env::args().any(|word| word == "small") {
@@ -144,7 +144,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
     let of_web = begun.elapsed().as_secs_f64();
     println!("  the web {of_web:.1} s");
     let mut told = Vec::new();
-    for (which, name) in [(Changes::OfGuesses, "guesses"), (Changes::OfLine, "changes")] {
+    for (which, name) in [(Changes::OfAssumedValues, "assumed_values"), (Changes::OfLine, "changes")] {
         let word = Overrides::new(&[], "--set");
         let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();
@@ -158,8 +158,9 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
         advice.failed.iter().for_each(|(change, why)| println!("  {}: {why}", label(change)));
         let Some(judged_by) = advice.judged_by else { continue };
         let best = advice.improvements(judged_by);
-        let is_named = |tried: &Tried| {
-            which != Changes::OfGuesses && best.iter().take(2).any(|(best, _)| best.change == tried.change)
+        let is_named = |tried: &SensitivityRun| {
+            which != Changes::OfAssumedValues
+                && best.iter().take(2).any(|(best, _)| best.change == tried.change)
         };
         told.extend(advice.tried.iter().filter_map(|tried| {
             let change = tried.on(judged_by)?.difference;
@@ -185,9 +186,14 @@ fn label(change: &Change) -> String {
 /// A long web whose few filaments do not tell the CV of all is left out with its partner, and counted.
 fn compare(base: &WebSpec, told: &[Told], like: &WebSpec, (seeds, threads): (usize, usize)) -> [usize; 2] {
     let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
-    let cvs = each(threads, specs.len() * seeds, |i| {
+    let cvs = par_map(threads, specs.len() * seeds, |i| {
         let seed = 1000 + (i % seeds) as u64;
-        let long = WebSpec { seed, sheet: like.sheet.clone(), flown: like.flown, ..specs[i / seeds].clone() };
+        let long = WebSpec {
+            seed,
+            sheet: like.sheet.clone(),
+            simulated: like.simulated,
+            ..specs[i / seeds].clone()
+        };
         let (_, findings) = lay(&long, 1);
         let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
         seen.and_then(|seen| findings.patches[seen].told()).map(|told| told.cv)

@@ -5,9 +5,9 @@ use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, FrictionLaw, Snapshot, Strand};
-use spunlaid::ground::{Control, Error, Estimate, Isa, WIDTH};
+use spunlaid::ground::{Error, Estimate, Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, Number, Results};
+use spunlaid::simulation::{Number, Recorded, Results};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
@@ -20,9 +20,9 @@ fn case(h: f64, replicates: u64) -> Case {
 fn results(case: &Case) -> Results {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let mut collector = Results::collector(0);
-    let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing, |flight| {
+    let done: Result<(), Error> = fly(case, Recorded::NUMBERS, computing, |flight| {
         collector.take(flight);
         Ok(())
     });
@@ -31,7 +31,7 @@ fn results(case: &Case) -> Results {
 }
 
 /// Eight replicates of Table 1 after `duration`.
-fn flown(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
+fn simulated(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
     let (fibre, air) = (table1_fibre(), table1_air());
     let eddies = Eddies::along(1.0, 20, 0.05);
     let streams: Vec<(Air, StreamKey)> =
@@ -52,7 +52,7 @@ pub fn orders() {
     title("observed order of convergence, Table 1, end nodes after 4 ms at 2, 1 and 0.5 µs");
     for scheme in SCHEMES {
         let at = |h| -> Vec<V> {
-            let (s, _) = flown(scheme, h, 4e-3);
+            let (s, _) = simulated(scheme, h, 4e-3);
             (0..WIDTH).map(|i| s.position[20].lane(i)).collect()
         };
         let distance =
@@ -69,7 +69,7 @@ pub fn orders() {
 pub fn work_identity() {
     title("work check of semi-implicit Euler against the identity W − T = ½h F·v, 64 ms at 8 µs");
     let h = 8e-6;
-    let (now, next) = flown(Scheme::SemiImplicitEuler, h, 0.064);
+    let (now, next) = simulated(Scheme::SemiImplicitEuler, h, 0.064);
     let fibre = table1_fibre();
     for lane in 0..3 {
         // F from the velocities before and after the step; the held root moves nowhere.

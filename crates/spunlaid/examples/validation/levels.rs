@@ -1,8 +1,8 @@
-//! What two levels save: errors of webs in one air with and without coarse sheets, against the scatter of seeds.
+//! What two levels save: errors of webs in shared turbulence with and without coarse sheets, against the scatter of seeds.
 
 use crate::title;
 use cpu_time::ProcessTime;
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WantedError, WebSpec};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -60,7 +60,7 @@ struct Found {
 
 fn find(spec: &WebSpec) -> Found {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
     let begun = ProcessTime::now();
     let mut web = Flyer::new(1, &stop, &|_, work| work()).web(spec).expect("it flies");
     let found = web.find(by).expect("it is laid");
@@ -68,7 +68,7 @@ fn find(spec: &WebSpec) -> Found {
     let of_side = |side: &f64| {
         let patch = found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-6);
         patch
-            .and_then(|patch| Some([patch.told()?.cv, patch.whole_error().whole()?]))
+            .and_then(|patch| Some([patch.told()?.cv, patch.total_error().whole()?]))
             .unwrap_or([f64::NAN; 2])
     };
     Found { cvs: SIDES.iter().map(of_side).collect(), time }

@@ -4,7 +4,7 @@
 use crate::title;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{LOOKS, PinnedWeb, Seen};
-use spunlaid::ground::{Control, Difference, Isa};
+use spunlaid::ground::{Difference, Isa, RunContext};
 use spunlaid::input::{Changes, Overrides, WebSpec, read_changes, read_web};
 use spunlaid::simulation::Flyer;
 use std::path::Path;
@@ -38,15 +38,15 @@ pub fn shares() {
     let stop = AtomicBool::new(false);
     let mut web = Flyer::new(1, &stop, &|_, work| work()).web(&spec).expect("it flies");
     let done = AtomicU64::new(0);
-    web.find(Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done }).expect("it is laid");
+    web.find(RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done }).expect("it is laid");
     let whole = processor_time() - begun;
     println!("the whole web: {whole:.1} s");
     let mut pinned = Vec::new();
     let mut changed: Vec<Vec<Flown>> = larger.iter().map(|_| Vec::new()).collect();
     for seed in 1..=airs {
         let in_air = |spec: &WebSpec| WebSpec { seed, ..spec.clone() };
-        let (flown, web) = watch(|see, by| PinnedWeb::fly(&in_air(&spec), see, by));
-        pinned.push(flown);
+        let (simulated, web) = watch(|see, by| PinnedWeb::fly(&in_air(&spec), see, by));
+        pinned.push(simulated);
         let Some(web) = web else { continue };
         for (change, all) in larger.iter().zip(&mut changed) {
             let spec = in_air(&change.experiment.spec);
@@ -67,19 +67,19 @@ fn processor_time() -> f64 {
 
 /// Flies once and keeps what is seen.
 fn watch<T>(
-    fly: impl FnOnce(&mut dyn FnMut(Seen), Control<'_>) -> Result<T, spunlaid::ground::Error>,
+    fly: impl FnOnce(&mut dyn FnMut(Seen), RunContext<'_>) -> Result<T, spunlaid::ground::Error>,
 ) -> (Flown, Option<T>) {
-    let (begun, mut flown) = (processor_time(), Flown::default());
+    let (begun, mut simulated) = (processor_time(), Flown::default());
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut see = |seen: Seen| match seen {
         Seen::Laid(stretch)
-            if flown.first == 0.0 && stretch.filaments.iter().any(|points| !points.is_empty()) =>
+            if simulated.first == 0.0 && stretch.filaments.iter().any(|points| !points.is_empty()) =>
         {
-            flown.first = processor_time() - begun;
+            simulated.first = processor_time() - begun;
         }
         Seen::Laid(_) => {}
         Seen::Look(look) => {
-            flown.times.push(processor_time() - begun);
+            simulated.times.push(processor_time() - begun);
             let is_side = |patch: f64| (patch / SIDE - 1.0).abs() < 1e-6;
             let cv = look.cvs.iter().find(|cv| is_side(cv.patch));
             let cv = cv.map(|cv| Difference {
@@ -89,29 +89,30 @@ fn watch<T>(
             });
             let change =
                 look.changes.iter().find(|change| is_side(change.of)).map(|change| change.difference);
-            flown.found.extend(cv.or(change));
+            simulated.found.extend(cv.or(change));
         }
     };
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
     let found = fly(&mut see, by);
     if let Err(error) = &found {
         println!("{error}");
     }
-    (flown, found.ok())
+    (simulated, found.ok())
 }
 
 /// Times as shares of the whole web's, means with their errors, and how far off the airs are from the mean of all.
 fn show(name: &str, all: &[Flown], whole: f64) {
     let mean = |number: &dyn Fn(&Flown) -> f64| all.iter().map(number).sum::<f64>() / all.len() as f64;
-    print!("{name}: first point {:.1} %", 100.0 * mean(&|flown| flown.first) / whole);
-    let best = mean(&|flown| flown.found.last().map_or(f64::NAN, |found| found.value));
+    print!("{name}: first point {:.1} %", 100.0 * mean(&|simulated| simulated.first) / whole);
+    let best = mean(&|simulated| simulated.found.last().map_or(f64::NAN, |found| found.value));
     for (look, area) in LOOKS.iter().enumerate() {
-        let found = |flown: &Flown| flown.found.get(look).copied();
-        let time = mean(&|flown| flown.times.get(look).copied().unwrap_or(f64::NAN));
-        let value = mean(&|flown| found(flown).map_or(f64::NAN, |found| found.value));
-        let error = mean(&|flown| found(flown).map_or(f64::NAN, |found| found.standard_error.powi(2))).sqrt();
-        let z = mean(&|flown| {
-            found(flown).map_or(f64::NAN, |found| ((found.value - best) / found.standard_error).powi(2))
+        let found = |simulated: &Flown| simulated.found.get(look).copied();
+        let time = mean(&|simulated| simulated.times.get(look).copied().unwrap_or(f64::NAN));
+        let value = mean(&|simulated| found(simulated).map_or(f64::NAN, |found| found.value));
+        let error =
+            mean(&|simulated| found(simulated).map_or(f64::NAN, |found| found.standard_error.powi(2))).sqrt();
+        let z = mean(&|simulated| {
+            found(simulated).map_or(f64::NAN, |found| ((found.value - best) / found.standard_error).powi(2))
         });
         print!(
             " | {area} m²: {:.1} %, {:+.2} ± {:.2} %, z {:.2}",

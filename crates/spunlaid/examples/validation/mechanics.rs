@@ -118,7 +118,7 @@ pub fn pure_moment() {
 }
 
 /// Frequencies of a chain released from each of the mode shapes, one per lane, by leapfrog.
-fn flown(
+fn simulated(
     fibre: Fibre,
     gravity: f64,
     start: &[V],
@@ -173,7 +173,7 @@ fn thread(elements: usize) -> Fibre {
 }
 
 pub fn hanging_chain() {
-    title("hanging chain [Hz]: matrices of the bead chain, flown by leapfrog");
+    title("hanging chain [Hz]: matrices of the bead chain, simulated by leapfrog");
     for elements in [20, 100] {
         let fibre = thread(elements);
         let l = fibre.rest_length();
@@ -189,9 +189,9 @@ pub fn hanging_chain() {
         }
         let (discrete, modes) = vibrations(&k, &masses(&fibre));
         let h = 0.5 * fibre.axial_step_limit();
-        let found = flown(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
-        println!("  N = {elements}: {:.5?}, flown {found:.5?}", &discrete[..3]);
-        println!("     flown over matrices less 1: {}", short(&ratios(&found, &discrete)));
+        let found = simulated(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
+        println!("  N = {elements}: {:.5?}, simulated {found:.5?}", &discrete[..3]);
+        println!("     simulated over matrices less 1: {}", short(&ratios(&found, &discrete)));
     }
 }
 
@@ -205,7 +205,7 @@ fn short(values: &[f64]) -> String {
 
 pub fn beam() {
     title(
-        "clamped-free beam: flown over matrices less 1 (24 elements), matrices over βL less 1 (80 elements)",
+        "clamped-free beam: simulated over matrices less 1 (24 elements), matrices over βL less 1 (80 elements)",
     );
     let fibre = |elements| Fibre {
         length: 0.1,
@@ -234,8 +234,8 @@ pub fn beam() {
     let (discrete, modes) = bending(&f);
     let nodes: Vec<V> = (0..=24).map(|i| X * (f.rest_length() * f64::from(i))).collect();
     let h = 0.2 * f.axial_step_limit().min(f.bending_step_limit());
-    let found = flown(f, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, 20.0 / discrete[0]));
-    println!("  flown: {}", short(&ratios(&found, &discrete)));
+    let found = simulated(f, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, 20.0 / discrete[0]));
+    println!("  simulated: {}", short(&ratios(&found, &discrete)));
     let wave = (f.youngs_modulus * f.second_moment() / (f.density * f.cross_section())).sqrt();
     let exact: Vec<f64> =
         [1.875_104, 4.694_091, 7.854_757].map(|b: f64| (b / f.length).powi(2) * wave / (2.0 * PI)).to_vec();
@@ -245,7 +245,9 @@ pub fn beam() {
 }
 
 pub fn axial_chain() {
-    title("axial chain, 16 elements: flown over 2√(k/m) sin((2n−1)π/4N) with leapfrog's own error, less 1");
+    title(
+        "axial chain, 16 elements: simulated over 2√(k/m) sin((2n−1)π/4N) with leapfrog's own error, less 1",
+    );
     let fibre = Fibre { elements: 16, ..table1_fibre() };
     let (n, l) = (fibre.elements, fibre.rest_length());
     let modes: Vec<Vec<f64>> = (0..4)
@@ -258,12 +260,12 @@ pub fn axial_chain() {
         .map(|mode| w * (f64::from(2 * mode + 1) * PI / (4 * n) as f64).sin() / (2.0 * PI))
         .map(|f| (PI * f * h).asin() / (PI * h))
         .collect();
-    let found = flown(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact[0]));
+    let found = simulated(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact[0]));
     println!("  {}", short(&ratios(&found, &exact)));
 }
 
 pub fn taut_string() {
-    title("taut string, 20 elements: flown over 2√(T/ml) sin(kπ/2N) with leapfrog's own error, less 1");
+    title("taut string, 20 elements: simulated over 2√(T/ml) sin(kπ/2N) with leapfrog's own error, less 1");
     let fibre = thread(20);
     let (n, m, tension) = (fibre.elements, fibre.element_mass(), 1e-6);
     let spacing = fibre.rest_length() + tension / fibre.axial_stiffness();

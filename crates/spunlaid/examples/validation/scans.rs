@@ -2,7 +2,7 @@
 
 use super::pictures::{PIXEL, beside, exposed, file, light, piece, spoiled, spotted, web};
 use super::title;
-use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::scan::{Findings, analyse, parse};
 use spunlaid::web::{Light, Map, Picture, Settings};
 
@@ -35,7 +35,7 @@ pub(crate) fn intervals() {
         let webs: Vec<Map> =
             (1..=12).map(|seed| web([1.2, 0.3], PIXEL, 10e-3, 5000.0, in_rows, seed)).collect();
         let truth = |side: usize| {
-            let variance = |web: &Map| unevenness(web, side).expect("an unevenness").cv.powi(2);
+            let variance = |web: &Map| patch_cv(web, side).expect("an patch_cv").cv.powi(2);
             (webs.iter().map(variance).sum::<f64>() / webs.len() as f64).sqrt()
         };
         let pieces = webs.iter().zip(1..).flat_map(|(web, seed)| {
@@ -47,8 +47,8 @@ pub(crate) fn intervals() {
             let of = || all.iter().filter_map(|found| found.patches[i].interval.ok());
             let [below, above] =
                 [of().filter(|ends| ends[1] < truth).count(), of().filter(|ends| ends[0] > truth).count()];
-            let mean = all.iter().map(|found| found.patches[i].unevenness.cv.powi(2)).sum::<f64>()
-                / all.len() as f64;
+            let mean =
+                all.iter().map(|found| found.patches[i].patch_cv.cv.powi(2)).sum::<f64>() / all.len() as f64;
             let ends = [0, 1].map(|end| {
                 spunlaid::ground::statistics::median(&of().map(|ends| 100.0 * ends[end]).collect::<Vec<_>>())
             });
@@ -78,12 +78,12 @@ pub(crate) fn spots() {
         let spoiled = spoiled(kind, &clean, &beside(kind, SIZE));
         let [kept, left] = [true, false].map(|keep_spots| found(&spoiled, &sides, keep_spots, 4));
         for ((kept_patch, patch), truth) in kept.patches.iter().zip(&left.patches).zip(&truth.patches) {
-            let ratio = |of: f64| of / truth.unevenness.cv;
+            let ratio = |of: f64| of / truth.patch_cv.cv;
             println!(
                 "  {kind}, {:>2} mm: {:.3}, {:.3}",
-                patch.unevenness.patch * 1e3,
-                ratio(kept_patch.unevenness.cv),
-                ratio(patch.unevenness.cv)
+                patch.patch_cv.patch * 1e3,
+                ratio(kept_patch.patch_cv.cv),
+                ratio(patch.patch_cv.cv)
             );
         }
         println!(

@@ -2,8 +2,8 @@
 
 use crate::title;
 use spunlaid::ground::statistics::interval_of_deviation;
-use spunlaid::ground::{Control, Isa};
-use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
+use spunlaid::ground::{Isa, RunContext};
+use spunlaid::web::map::uniformity::{PatchCv, unevenness_at};
 use spunlaid::web::map::{Filaments, find, lay};
 use spunlaid::web::{Clouds, Edges, Fibres, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::TAU;
@@ -105,14 +105,14 @@ pub fn intervals() {
 
 fn of_kind(web: &Web) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     // The edges are as wide for every seed.
     let margins =
         find(&Web { sheet: Sheet { patches: vec![10.0 * CELL], ..web.sheet.clone() }, ..web.clone() }, by)
             .expect("a web")
             .margins;
     let [first, last] = margins.map(|margin| (margin / CELL).round() as usize);
-    let mut found: Vec<Vec<Unevenness>> = vec![Vec::new(); SIDES.len()];
+    let mut found: Vec<Vec<PatchCv>> = vec![Vec::new(); SIDES.len()];
     let mut clouds: Vec<Vec<(f64, Option<f64>)>> = Vec::new();
     let mut truths: Vec<Vec<f64>> = Vec::new();
     let mut names: Vec<[f64; 2]> = Vec::new();
@@ -122,7 +122,7 @@ fn of_kind(web: &Web) {
         let map = whole.between(first..whole.columns - last);
         let places = web.places(map.columns as f64 * CELL);
         for (side, found) in SIDES.iter().zip(&mut found) {
-            found.push(unevenness_at(&map, *side, &places).expect("an unevenness"));
+            found.push(unevenness_at(&map, *side, &places).expect("an patch_cv"));
         }
         let of = Clouds::at(&map, &places, 2).expect("clouds");
         let octaves_of = of.octaves();

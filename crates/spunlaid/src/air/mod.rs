@@ -22,8 +22,8 @@ pub(crate) use motion::{
     TIME_CONSTANT, Velocities, VelocityAt, VelocityTask, Way,
 };
 pub use record::{
-    Analysis, Component, IntegralRule, LONGEST_GAP, Layout, OF_COMPONENTS, OF_RECORDS, Reading, Record,
-    Samples, Settings, SpectrumSettings,
+    Analysis, COMPONENT_MEASURES, Component, IntegralRule, LONGEST_GAP, Layout, RECORD_MEASURES, Reading,
+    Record, Samples, Settings, SpectrumSettings,
 };
 pub use spunlaid_field as field;
 pub use spunlaid_field::{

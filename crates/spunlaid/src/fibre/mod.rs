@@ -39,9 +39,10 @@ pub use energy::Energy;
 pub(crate) use flight::{Common, SurroundingRun};
 pub use flight::{EndNodeMotion, Flight, Job, LaidPoint, Snapshot};
 pub use line::{Contact, Line};
-pub use load::{Heat, Load, LoadPlace, OF_LOAD_PLACES, OF_LOADS, WayPlace};
+pub use load::{Heat, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
 pub use spinline::{
-    AirChange, AirTable, End, Failure, FreezingCause, Law, Material, Melt, OF_SPINLINES, Polymer,
-    PolymerFile, PolymerSource, Solution, SpinSpec, Spinline, Station, Surroundings, ZERO_CELSIUS,
+    AirChange, AirTable, End, Failure, Law, Material, Melt, Polymer, PolymerFile, PolymerSource,
+    SPINLINE_MEASURES, SolidificationCause, Solution, SpinSpec, Spinline, Station, Surroundings,
+    ZERO_CELSIUS,
 };
 pub(crate) use spinline::{Cooled, SolidFilament};

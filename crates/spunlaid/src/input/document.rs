@@ -241,7 +241,7 @@ impl<'a, T> Document<'a, T> {
             }
             (_, other) => Fault::wrong_type(kind(&other), format!("a table, {header}")),
         };
-        self.key_values.excuse(format!("{full}."));
+        self.key_values.suppress_missing(format!("{full}."));
         self.reject(full, &entry, what);
     }
 
@@ -267,7 +267,7 @@ impl<'a, T> Document<'a, T> {
                 self.take_table(&format!("{full}."), list.name, keys, of_override);
             } else {
                 self.reject(&full, &item, Fault::wrong_type(kind(&item.value), list.wanted));
-                self.key_values.excuse(format!("{full}."));
+                self.key_values.suppress_missing(format!("{full}."));
             }
         }
     }

@@ -4,7 +4,7 @@ use super::spinline::SpinFile;
 use crate::fibre::case::keys::{self, Key, Kind, Sign, Value};
 use crate::fibre::{Case, Solution};
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried, Turned};
+use crate::ground::{Change, ChangedKey, Difference, Dimension, Effect, SensitivityRun, Setting, Turned};
 use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].
@@ -15,7 +15,7 @@ const LEAST: f64 = 5e-4;
 
 /// What a change of a number does to the cold filament: `d ln d/d ln x` [-] of its diameter d, or the
 /// relative change [-] for 10 K, and the same of its speed. They are computed and have no error of chance.
-pub type Influence = Tried<(), OfFilament>;
+pub type Influence = SensitivityRun<(), OfFilament>;
 
 /// What an [`Influence`] is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +84,11 @@ fn influence(key: &'static Key, carrier: &Case, near: &Solution) -> Option<Influ
         experiment: (),
         refusal: None,
     };
-    (effects[0].difference.value.abs() >= LEAST).then_some(Tried { change, effects, at_first: Vec::new() })
+    (effects[0].difference.value.abs() >= LEAST).then_some(SensitivityRun {
+        change,
+        effects,
+        at_first: Vec::new(),
+    })
 }
 
 /// A change of a number.

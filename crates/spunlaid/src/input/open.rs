@@ -61,7 +61,7 @@ pub(super) fn open_part(
             });
         }
         if let (Some(None), Kind::File(_)) = (&written, key.kind) {
-            key_values.excuse(key.relations.gives);
+            key_values.suppress_missing(key.relations.gives);
         }
         let is_written = |other: &str| key_values.get(other).is_some();
         let missing = |case: &Case| Some(missing(key, case, &key_values));

@@ -7,9 +7,9 @@ use super::open::OpenCase;
 use super::written_values::WrittenValues;
 use crate::fibre::case::keys;
 use crate::fibre::{Case, End, Note, Remark};
-use crate::ground::threads::{lock, try_each};
-use crate::ground::{Control, Dimension, Error, Fault, Finding};
-use crate::simulation::Keep;
+use crate::ground::threads::{lock, try_par_map};
+use crate::ground::{Dimension, Error, Fault, Finding, RunContext};
+use crate::simulation::Recorded;
 use crate::simulation::ensemble::fly;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -78,8 +78,8 @@ impl Resources {
         self.in_doubt.load(Ordering::Relaxed)
     }
 
-    /// Steps of all fibres that fly for the wanted tensions at most, which [`Control::done`] counts;
-    /// those that are not needed count as flown.
+    /// Steps of all fibres that fly for the wanted tensions at most, which [`RunContext::done`] counts;
+    /// those that are not needed count as simulated.
     pub fn most_steps(&self) -> u64 {
         lock(&self.wanted).iter().map(|(_, steps)| steps).sum()
     }
@@ -88,12 +88,12 @@ impl Resources {
     ///
     /// # Errors
     /// If a fibre is lost, or if the flights are stopped.
-    pub fn fly(&mut self, by: Control<'_>) -> Result<(), Error> {
+    pub fn fly(&mut self, by: RunContext<'_>) -> Result<(), Error> {
         self.in_doubt.store(false, Ordering::Relaxed);
         let wanted = std::mem::take(&mut *lock(&self.wanted));
         // The fibres of a case fly in one bundle.
-        let each = Control { threads: 1, ..by };
-        let found = try_each(by.threads, wanted.len(), |number| wanted[number].0.find_tension(each))?;
+        let each = RunContext { threads: 1, ..by };
+        let found = try_par_map(by.threads, wanted.len(), |number| wanted[number].0.find_tension(each))?;
         self.tensions.extend(wanted.into_iter().map(|(open, _)| open).zip(found));
         Ok(())
     }
@@ -146,14 +146,14 @@ impl OpenCase {
     ///
     /// # Errors
     /// Every reason why the case cannot be run, a fibre that is lost, and a stop.
-    fn find_tension(&self, by: Control<'_>) -> Result<Option<FlownTension>, Error> {
+    fn find_tension(&self, by: RunContext<'_>) -> Result<Option<FlownTension>, Error> {
         let (mut open, mut speed, mut tension, mut steps) = (self.clone(), f64::NAN, 0.0, 0);
         for _ in 0..MOST_ROUNDS {
             let (case, _) = open.clone().resolve_at_once()?;
             let Some(line) = case.line else { break };
             let change = (line.feed_speed / speed - 1.0).abs();
             if change < SETTLED {
-                // The rounds that are not needed count as flown.
+                // The rounds that are not needed count as simulated.
                 by.done.fetch_add(most_steps(&case).saturating_sub(steps), Ordering::Relaxed);
                 return Ok(Some(FlownTension { tension, change }));
             }
@@ -235,9 +235,9 @@ fn most_steps(case: &Case) -> u64 {
 }
 
 /// Mean tension at the root of the flights of a round [N].
-fn mean_tension(round: &Case, by: Control<'_>) -> Result<f64, Error> {
+fn mean_tension(round: &Case, by: RunContext<'_>) -> Result<f64, Error> {
     let mut tensions = Vec::new();
-    fly::<Error>(round, Keep::NUMBERS, by, |trajectory| {
+    fly::<Error>(round, Recorded::NUMBERS, by, |trajectory| {
         tensions.push(trajectory.number("root_tension"));
         Ok(())
     })?;

@@ -17,7 +17,7 @@ impl<T> Document<'_, T> {
             self.reject(&format!("{before}{name}"), entry, what);
             // What stands in its place may be missing.
             if !before.is_empty() {
-                self.key_values.excuse(before);
+                self.key_values.suppress_missing(before);
             }
             return;
         }
@@ -44,11 +44,11 @@ impl<T> Document<'_, T> {
             }
             // The top of the file is no table with a name.
             if let Some(meant) = table_meant.filter(|meant| !meant.is_empty()) {
-                self.key_values.excuse(format!("{before}{meant}."));
+                self.key_values.suppress_missing(format!("{before}{meant}."));
                 nearest = Some(self.header(layer, meant));
             }
         } else if let Some(home) = keys.find_by_short_name(name) {
-            self.key_values.excuse(format!("{layer}{}", home.name));
+            self.key_values.suppress_missing(format!("{layer}{}", home.name));
             let what = Fault::misplaced(home.table(), home.short());
             self.reject(&key, entry, what);
             return;
@@ -58,7 +58,7 @@ impl<T> Document<'_, T> {
             } else {
                 format!("{layer}{}", meant.name)
             };
-            self.key_values.excuse(full.clone());
+            self.key_values.suppress_missing(full.clone());
             nearest = Some(full);
         }
         let message = format!("is not a {} of {}", if is_table { "table" } else { "key" }, keys.file);

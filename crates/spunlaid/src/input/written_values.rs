@@ -3,7 +3,7 @@
 use crate::fibre::case::keys::{self, Key, Omission, Value};
 use crate::ground::error::Place;
 use crate::ground::{Fault, Finding, Position, Problem};
-use crate::simulation::layers::full_names::displaced_by;
+use crate::simulation::layers::full_names::replaced_by;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -99,7 +99,7 @@ impl WrittenValues {
 
     /// Leaves out what these keys take the place of.
     pub(super) fn give_way(&mut self, set: &[&str]) {
-        let is_displaced = displaced_by(set, self.get("layer").is_some());
+        let is_displaced = replaced_by(set, self.get("layer").is_some());
         let displaced: Vec<_> = self.values.keys().filter(|name| is_displaced(name)).cloned().collect();
         displaced.iter().for_each(|name| drop(self.remove(name)));
     }
@@ -134,7 +134,7 @@ impl WrittenValues {
     }
 
     /// Suppresses messages about these missing keys. The name of a table ends in a dot.
-    pub(super) fn excuse(&mut self, keys: impl Into<String>) {
+    pub(super) fn suppress_missing(&mut self, keys: impl Into<String>) {
         self.excused.push(keys.into());
     }
 

@@ -1,7 +1,7 @@
-//! What flies together: fibres in airs of their own, or all filaments of a line in one air, and what is measured.
+//! What flies together: fibres in independent turbulence, or all filaments of a line in one air, and what is measured.
 //!
 //! ```text
-//! observe (what is measured) → ensemble (fibres in airs of their own)
+//! observe (what is measured) → ensemble (fibres in independent turbulence)
 //!                            layers (the webs of a line) → one_air (their filaments, in one air)
 //! ```
 
@@ -15,9 +15,9 @@ pub mod one_air;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use ensemble::{
-    CellSource, Change, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job, Keep,
-    KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorder, Refinement, Results, RunPaths, Shape,
-    Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
+    CellSource, Change, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job,
+    KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorded, Recorder, Refinement, Results,
+    RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub(crate) use layers::SAME;
 pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WantedError, WebKey, WebSpec};

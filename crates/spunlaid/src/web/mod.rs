@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! laydown (what one fibre lays) → surrogate (paths like it) ┐
-//! curtain (flown curves and those like them) ───────────────┴→ map → fabric (in its buyer's words)
+//! curtain (simulated curves and those like them) ───────────────┴→ map → fabric (in its buyer's words)
 //! picture → scan ───────────────────────────────────────────────────┘
 //! ```
 
@@ -21,21 +21,22 @@ pub use curtain::{Belt, Curtain, Filling, FlownCurves};
 pub(crate) use curtain::{Covariances, Library};
 pub(crate) use fabric::{ABOUT, NONE_FOUND, PATCHES};
 pub use fabric::{
-    Fabric, FabricKeys, FabricPatch, Laid, Marked, Marks, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS,
-    OF_STRIPS, OF_THINNEST, Streak, StreakSource, StripPlace, Strips,
+    FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, FabricKeys, FabricPatch, Laid, Marked, Marks,
+    STREAK_MEASURES, STRIP_MEASURES, Streak, StreakSource, StripPlace, Strips, THINNEST_PATCH_MEASURES,
 };
 pub use laydown::{Footprint, LaidCurve, Trace, TraceSettings};
 pub(crate) use map::{
-    Arrangement, Brush, Canvas, ExpectedCv, FEWEST_OF_FEW, FewFilaments, FilledMaps, LEAST_SAVING, OneAir,
-    Strands, TRIED, Titres, WindowOnSheet,
+    Arrangement, DepositionGrid, Depositor, ExpectedCv, FEWEST_OF_FEW, FilledMaps, LEAST_SAVING, OneAir,
+    Strands, Subsample, TRIED, Titres, WindowOnSheet,
 };
 pub use map::{
-    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, FewDoubt, FewFilamentsCv, Fibres,
-    FlownFibres, LaidWeb, Layer, LayerFew, LayerFlown, Map, NeighbourCorrelation, OF_PATCHES, OF_WEBS,
-    OneFibre, Row, Sheet, Strand, TimeSpent, Web, Window,
+    ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, Fibres, FlownFibres, LaidWeb, Layer,
+    LayerFlown, Map, NeighbourCorrelation, OneFibre, PATCH_MEASURES, Row, Sheet, Strand, SubsampleCv,
+    SubsampleEstimate, SubsampleWarning, TimeSpent, WEB_MEASURES, Web, Window,
 };
 pub use scan::{
-    CELL, FEWEST, Format, Light, LightKind, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS,
-    OF_STREAK_LIMITS, Picture, ScanRequest, Settings, WEIGHT_OF_BLACK,
+    CELL, FEWEST, Format, Light, LightKind, Picture, SCAN_MEASURES, SCAN_PERIOD_MEASURES,
+    SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES, ScanRequest, Settings,
+    WEIGHT_OF_BLACK,
 };
 pub use surrogate::{PathKey, Paths, Residual, Surrogate};

@@ -3,7 +3,7 @@
 
 use spunlaid::experiment::fit::{errors_of_model, fit};
 use spunlaid::experiment::{Fit, Journal, MeasuredWeb, Question, Target};
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::{FitFile, Overrides, Resources, read_fit};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::scan::analyse;
@@ -43,7 +43,7 @@ pub fn laid(file: &FitFile, values: &[f64], seed: u64) -> Map {
     spec.seed = seed;
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &STOP, done: &laid };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &STOP, done: &laid };
     Flyer::new(1, &STOP, &follow).web(&spec).unwrap().map(by).unwrap()
 }
 
@@ -95,14 +95,14 @@ fn asked<T>(
     file: &FitFile,
     scan: &MeasuredWeb,
     (spectrum, webs): (bool, u64),
-    ask: impl FnOnce(Question<'_>, Flyer<'_>, Control<'_>) -> Result<T, Error>,
+    ask: impl FnOnce(Question<'_>, Flyer<'_>, RunContext<'_>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let target = Target::new(scan, &file.start.spec.sheet, spectrum)?;
     let make = |values: &[f64]| Ok(file.web(values, &Resources::default())?.spec);
     let question = Question { parameters: &file.parameters, target: &target, make: &make, webs };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let laid = AtomicU64::new(0);
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &STOP, done: &laid };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &STOP, done: &laid };
     ask(question, Flyer::new(1, &STOP, &follow), by)
 }
 

@@ -3,7 +3,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::web::map::{Filaments, lay};
 use spunlaid::web::{Fibres, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::PI;
@@ -44,7 +44,7 @@ pub fn web(sides: [f64; 2], cell: f64, sigma: f64, filaments: f64, in_rows: bool
     let sheet = Sheet::new(width, length, cell);
     let web = Web { sheet, layers: vec![layer], seed };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    lay(&web, Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces })
+    lay(&web, RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces })
         .expect("a web that can be laid")
         .map
 }

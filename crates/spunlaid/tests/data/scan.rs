@@ -4,7 +4,7 @@ use crate::scans;
 use crate::scans::{DENSITY, Lamp, PIXEL, beside, exposed, file, lens, light, piece, spoiled, spotted, web};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::scan::{Doubt, Findings, analyse, parse};
 use spunlaid::web::{Light, Map, Picture, Settings};
 
@@ -19,7 +19,7 @@ fn unscanned(map: &Map) -> Vec<f64> {
     let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
     let settings = Settings { patches, ..Settings::new(Light::Weight { mean: None }) };
     let found = scanned(&scans::npy_f64(map.columns, &weights), &settings);
-    found.patches.iter().map(|patch| patch.unevenness.cv).collect()
+    found.patches.iter().map(|patch| patch.patch_cv.cv).collect()
 }
 
 fn mean(levels: &[u16]) -> f64 {
@@ -59,11 +59,11 @@ fn rendered_and_found(lamp: Lamp, pictured: bool, truth: impl Fn(&Map) -> Vec<f6
             let found = scanned(&scan, &Settings { patches, lamp, ..Settings::new(light) });
             assert!((found.map.basis_weight() / WEIGHT - 1.0).abs() < 1e-12);
             assert!(found.aside.spots.is_empty() && found.aside.cut_off == 0.0, "{:?}", found.notes);
-            // The light of a pixel is a mean of light, not of densities, so thin places count more.
+            // The light of a pixel is a mean of light, not of densities, so thin spots count more.
             let density = found.density.expect("a density");
             assert!((density / DENSITY - 1.0).abs() < 0.01, "{density}");
             for ((side, patch), truth) in SIDES.into_iter().zip(&found.patches).zip(&truth) {
-                let ratio = patch.unevenness.cv / truth;
+                let ratio = patch.patch_cv.cv / truth;
                 if patch.is_sharp() {
                     sharp += 1;
                     let [low, high] = match patch.interval {
@@ -101,7 +101,7 @@ fn the_shading_of_a_lens_is_taken_out_with_what_the_web_varies_as_smoothly() {
         let transmitted = Light::Transmitted { mean: None, white: Some(1.0) };
         let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
         let found = scanned(&file, &Settings { patches, ..Settings::new(transmitted) });
-        found.patches.iter().map(|patch| patch.unevenness.cv).collect()
+        found.patches.iter().map(|patch| patch.patch_cv.cv).collect()
     };
     // The rest of a lens that is no polynomial.
     rendered_and_found(lens, false, truth, 0.03);
@@ -121,10 +121,10 @@ fn analytic_densities_give_the_map_back() {
         let found = scanned(&scans::npy_f64(map.columns, &levels), &settings);
         assert!(!found.mean_known && found.shading.is_none() && found.map.closed == [false; 2]);
         for ((side, patch), truth) in SIDES.into_iter().zip(&found.patches).zip(unscanned(&map)) {
-            let ratio = patch.unevenness.cv / truth;
+            let ratio = patch.patch_cv.cv / truth;
             // A quantum is a millionth of the mean.
             assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
-            assert!((patch.unevenness.patch / (side as f64 * PIXEL) - 1.0).abs() < 1e-12);
+            assert!((patch.patch_cv.patch / (side as f64 * PIXEL) - 1.0).abs() < 1e-12);
         }
     }
     // A map of basis weight, as `spunlaid web` writes it.
@@ -156,7 +156,7 @@ fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_told() {
         // The mean is three times that of the web alone.
         let truth = unscanned[i] / 3.0;
         let noise = NOISE / 3.0 / side as f64;
-        let found = without.patches[i].unevenness.cv;
+        let found = without.patches[i].patch_cv.cv;
         assert!((found / truth - 1.0).abs() < 0.01, "{found} where {truth} is wanted");
         // The mean of the noise is not exactly zero.
         assert!((without.patches[i].noise / noise - 1.0).abs() < 1e-3);
@@ -174,7 +174,7 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
             (1..=8).map(|seed| web([0.8, 0.2], PIXEL, 10e-3, 3000.0, in_rows, seed)).collect();
         // The webs are closed to rings, and their mean is exact.
         let truth = SIDES.map(|side| {
-            let variance = |web: &Map| unevenness(web, side).expect("an unevenness").cv.powi(2);
+            let variance = |web: &Map| patch_cv(web, side).expect("an patch_cv").cv.powi(2);
             (webs.iter().map(variance).sum::<f64>() / webs.len() as f64).sqrt()
         });
         let (mut inside, mut pieces, mut widths) = ([0; 2], 0, [Vec::new(), Vec::new()]);
@@ -232,7 +232,7 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
         let found = found(white, keep_shading);
         let [small, large] = [found.patches[0], found.patches[1]];
         assert_eq!((found.guess, small.interval.err()), (doubt, doubt));
-        assert_eq!(small.unevenness.standard_error.is_none(), doubt.is_some());
+        assert_eq!(small.patch_cv.standard_error.is_none(), doubt.is_some());
         // Three patches of 80 mm beside each other say nothing in any case.
         assert_eq!(large.interval, Err(doubt.unwrap_or(Doubt::Few)));
         let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
@@ -257,9 +257,9 @@ fn without_the_lamp_the_cv_is_a_lower_bound() {
         let found = scanned(&scan, &Settings { patches, ..Settings::new(light) });
         assert_eq!(found.guess, Some(Doubt::White));
         for (patch, truth) in found.patches.iter().zip(&truth) {
-            let ratio = patch.unevenness.cv / truth;
-            println!("{name} {} {truth} {ratio}", patch.unevenness.patch);
-            assert!(ratio < 1.0, "{name}: {ratio} over {} m", patch.unevenness.patch);
+            let ratio = patch.patch_cv.cv / truth;
+            println!("{name} {} {truth} {ratio}", patch.patch_cv.patch);
+            assert!(ratio < 1.0, "{name}: {ratio} over {} m", patch.patch_cv.patch);
         }
     }
 }
@@ -291,7 +291,7 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
         let area = aside.iter().filter(|is| **is).count() as f64 * PIXEL * PIXEL;
         for i in 0..2 {
             let [truth, cleaned, spoiled] =
-                [&truth, &cleaned, &spoiled].map(|found| found.patches[i].unevenness);
+                [&truth, &cleaned, &spoiled].map(|found| found.patches[i].patch_cv);
             // The part that is left is most of the same web: it differs by less than chance.
             let error = cleaned.standard_error.expect("an error");
             assert!((cleaned.cv - truth.cv).abs() < error, "{kind}: {cleaned:?} for {truth:?}");
@@ -392,10 +392,10 @@ fn analytic_light_that_is_thrown_back() {
     for (patch, (truth, wrong)) in
         reflected.patches.iter().zip(unscanned(&map).iter().zip(&transmitted.patches))
     {
-        let cv = patch.unevenness.cv;
+        let cv = patch.patch_cv.cv;
         // The basis weights are kept in millionths of their mean.
         assert!((cv / truth - 1.0).abs() < 1e-5, "{cv} {truth}");
-        assert!((wrong.unevenness.cv / truth - 1.0).abs() > 0.1, "{} {truth}", wrong.unevenness.cv);
+        assert!((wrong.patch_cv.cv / truth - 1.0).abs() > 0.1, "{} {truth}", wrong.patch_cv.cv);
     }
     let doubts =
         |found: &Findings| found.notes.iter().any(|note| note.message.contains("heavy places are light"));

@@ -31,7 +31,7 @@ fn found(values: &[f64]) -> Findings {
 
 /// Mean [g/m²] and CV [%].
 fn numbers(found: &Findings) -> [f64; 2] {
-    [1e3 * found.map.basis_weight(), 100.0 * found.patches[0].unevenness.cv]
+    [1e3 * found.map.basis_weight(), 100.0 * found.patches[0].patch_cv.cv]
 }
 
 fn says(found: &Findings) -> bool {
@@ -169,7 +169,7 @@ fn a_map_is_not_blurred_by_a_camera() {
     let of_light = of(Light::Transmitted { mean: None, white: Some(1.0) }, &light(&map));
     for (weighed, seen) in of_weights.patches.iter().zip(&of_light.patches) {
         assert!(
-            weighed.blur.is_none() && weighed.interval.is_ok() && weighed.unevenness.standard_error.is_some()
+            weighed.blur.is_none() && weighed.interval.is_ok() && weighed.patch_cv.standard_error.is_some()
         );
         assert!(seen.blur.is_some() && seen.interval.is_err(), "{seen:?}");
     }
@@ -249,7 +249,7 @@ fn analytic_a_lid_of_one_level_around_the_web_is_cut_off() {
         let alone =
             Settings { keep_shading: is_even, patches: vec![1e-3], ..Settings::new(known(lid.light)) };
         let alone = analyse(&read(columns, &part), &alone).unwrap();
-        let [cv, wanted] = [&found, &alone].map(|found| found.patches[0].unevenness.cv);
+        let [cv, wanted] = [&found, &alone].map(|found| found.patches[0].patch_cv.cv);
         assert!((cv / wanted - 1.0).abs() < 0.01, "{name}: {cv} for {wanted}");
         assert_eq!(found.guess, alone.guess, "{name}");
     }
@@ -272,7 +272,7 @@ fn analytic_the_rest_of_a_scan_that_was_not_finished_is_cut_off() {
     let settings = Settings { patches: vec![1e-3], keep_shading: true, ..Settings::new(light) };
     let numbers_of = |columns: usize, levels: &[f64]| {
         let found = analyse(&parse(&npy_f64(columns, levels), "a", PIXEL).unwrap(), &settings).unwrap();
-        (found.patches[0].unevenness.cv, found)
+        (found.patches[0].patch_cv.cv, found)
     };
     let grey = |at: usize| if at / COLUMNS < scanned { web[at] } else { 32_768.0 };
     let last_line = |at: usize| web[(at / COLUMNS).min(scanned - 1) * COLUMNS + at % COLUMNS];

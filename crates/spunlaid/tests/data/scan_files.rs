@@ -354,7 +354,7 @@ proptest! {
             assert_eq!(picture.values.len(), picture.columns * picture.rows);
             for light in [Light::Transmitted { mean: None, white: None }, Light::Weight { mean: Some(0.02) }] {
                 let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::new(light) })?;
-                assert!(found.map.basis_weight() > 0.0 && found.patches[0].unevenness.cv >= 0.0);
+                assert!(found.map.basis_weight() > 0.0 && found.patches[0].patch_cv.cv >= 0.0);
                 assert!(found.notes.iter().all(|note| note.to_string().lines().count() == 1));
             }
             Ok(())
@@ -381,7 +381,7 @@ fn a_picture_of_the_lamp_may_be_of_another_depth() {
     let found = |lamp: &[u8]| {
         let settings = Settings { lamp: Some(parsed(lamp)), keep_spots: true, ..Settings::new(light) };
         let settings = Settings { patches: vec![2e-3], ..settings };
-        analyse(&picture, &settings).unwrap().patches[0].unevenness.cv
+        analyse(&picture, &settings).unwrap().patches[0].patch_cv.cv
     };
     let of_8_bits = found(&tiff8(SIDE, &levels(|_| 220)));
     let of_16_bits = found(&tiff16(SIDE, &levels(|_| 220 * 257)));

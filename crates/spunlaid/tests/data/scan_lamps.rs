@@ -51,7 +51,7 @@ fn light() -> Light {
 }
 
 fn cv(found: &Findings) -> f64 {
-    found.patches[0].unevenness.cv
+    found.patches[0].patch_cv.cv
 }
 
 fn truth() -> f64 {
@@ -74,7 +74,7 @@ fn a_clipped_picture_of_the_lamp_leaves_no_interval() {
         let found = found(&scan, &png16(COLUMNS, &levels16(&bright, most, clip)));
         assert_eq!(found.guess, Some(Doubt::ClippedLamp), "{name}");
         assert_eq!(found.patches[0].interval, Err(Doubt::ClippedLamp), "{name}");
-        assert!(found.patches[0].unevenness.standard_error.is_none());
+        assert!(found.patches[0].patch_cv.standard_error.is_none());
         let told = found.notes.iter().find(|note| note.message.contains("the lamp is clipped")).unwrap();
         assert!(told.remedy.contains("no pixel of the lamp has the largest level"), "{told}");
         assert!(cv(&found) > 1.05 * truth, "{name}: {} {truth}", cv(&found));

@@ -13,7 +13,7 @@ fn found(text: &str) -> (f64, [bool; 2]) {
     let found = analyse(&picture, &Settings { patches: vec![4e-3], ..settings }).unwrap();
     let told = found.notes.iter().any(|note| note.to_string().ends_with("left out of the map"));
     assert_eq!(told, picture.numbered.contains(&true));
-    (found.patches[0].unevenness.cv, picture.numbered)
+    (found.patches[0].patch_cv.cv, picture.numbered)
 }
 
 /// The map with a row of heads, and a column that begins with its corner.

@@ -1,7 +1,7 @@
 //! Streaks of scans: webs of known numbers with a blocked hole, with a thick pack, and without any defect.
 
 use crate::scans::{exposed, lens, light, npy_f64, png16, spotted};
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::web::map::{Filaments, lay};
 use spunlaid::web::scan::{StreakSearch, analyse, parse};
 use spunlaid::web::{Defect, Fibres, Layer, Light, Map, Row, Settings, Sheet, Surrogate, Web};
@@ -24,7 +24,7 @@ fn web(defects: &[Defect], seed: u64) -> Map {
     };
     let web = Web { sheet: Sheet::new(0.4, 1.2, 1e-3), layers: vec![layer], seed };
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    lay(&web, Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &done }).unwrap().map
+    lay(&web, RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done }).unwrap().map
 }
 
 /// The streaks of its map of basis weight.

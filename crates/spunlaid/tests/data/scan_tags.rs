@@ -27,7 +27,7 @@ fn found(file: &[u8]) -> Findings {
 }
 
 fn cv(found: &Findings) -> f64 {
-    found.patches[0].unevenness.cv
+    found.patches[0].patch_cv.cv
 }
 
 fn says(found: &Findings, words: &str) -> bool {

@@ -101,7 +101,7 @@ fn transparent_pixels_are_no_web() {
         ("TIFF of 16 bits", tiff_of_channels::<RGBA16>(COLUMNS, &deep(&channels(3, 200, opacity)), &[2])),
     ] {
         let found = found(&file).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let [cv, wanted] = [&found, &truth].map(|found| found.patches[0].unevenness.cv);
+        let [cv, wanted] = [&found, &truth].map(|found| found.patches[0].patch_cv.cv);
         assert_eq!((found.aside.corner, found.map.columns), ([STRIP, 0], COLUMNS - STRIP), "{name}");
         assert!((cv / wanted - 1.0).abs() < 1e-6, "{name}: {cv} {wanted}");
         let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
@@ -121,7 +121,7 @@ fn an_opaque_picture_stays_whole() {
         ("no mask", tiff_of_channels::<RGBA8>(COLUMNS, &channels(3, 0, |at| (at % 251) as u8 | 1), &[0])),
     ] {
         let found = found(&file).unwrap();
-        let [one, other] = [&found, &plain].map(|found| found.patches[0].unevenness.cv);
+        let [one, other] = [&found, &plain].map(|found| found.patches[0].patch_cv.cv);
         assert!((one / other - 1.0).abs() < 1e-6 && found.aside.cut_off == 0.0, "{name}: {one} {other}");
         assert!(!found.notes.iter().any(|note| note.message.contains("transparent")), "{name}");
     }

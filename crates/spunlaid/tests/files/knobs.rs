@@ -14,7 +14,7 @@ const SPUN: &str = r#"
 throughput = "0.5 g/min"   # of each hole
 basis_weight = "20 g/m²"
 filaments_per_metre = 5000   # 250 kg/h
-depth = "20 mm"
+slot_gap = "20 mm"
 cabin_pressure = "3200 Pa"   # of the plant
 [web]
 width = "0.2 m"
@@ -97,7 +97,7 @@ fn beside_cases(name: &str) -> String {
 /// Every kind of line: text and path.
 fn lines() -> Vec<(String, String)> {
     let cases = ["web.toml", "web_shared.toml", "web_known.toml", "whole_line.toml"].map(beside_cases);
-    let prove = ["flown", "places", "layers", "web"]
+    let prove = ["simulated", "places", "layers", "web"]
         .map(|name| beside_cases(&format!("../crates/spunlaid-cli/examples/prove/{name}.toml")));
     let files = cases.into_iter().chain(prove).map(|path| (fs::read_to_string(&path).unwrap(), path));
     let own = [SPUN, BEAMS].map(|text| (text.to_owned(), beside_cases("line.toml")));
@@ -345,8 +345,8 @@ fn rejects_what_no_line_can_be() {
 #[test]
 fn a_tension_that_flights_have_to_find_is_said() {
     assert!(!turned(&spun(), &[("distance", 0.4)]).needs_flights);
-    let flown = SPUN.replace("follows_air = true", "follows_air = true\nend_tension = \"flown\"");
-    let line = opened(&flown, &beside_cases("line.toml"));
+    let simulated = SPUN.replace("follows_air = true", "follows_air = true\nend_tension = \"simulated\"");
+    let line = opened(&simulated, &beside_cases("line.toml"));
     let resources = Resources::default();
     let turned = line.turned(&[turn("distance", 0.4)], &resources).unwrap();
     assert!(turned.needs_flights && resources.wanted() == 1);

@@ -85,7 +85,7 @@ fn identical_in_one_file_and_in_two() {
         &[][..],
         &[("line.throughput", "0.4 g/min"), ("line.basis_weight", "20 g/m²")],
         &[("spinline.die_temperature", "240 °C"), ("belt.speed", "2 m/s"), ("web.width", "1 m")],
-        &[("air.length_factor", "2"), ("run.replicates", "3"), ("web.guessed", "air.length_factor")],
+        &[("air.length_factor", "2"), ("run.replicates", "3"), ("web.assumed", "air.length_factor")],
     ] {
         let one = read_web(WHOLE, &set(values)).unwrap_or_else(|error| panic!("{error}"));
         let two = read(two, values);
@@ -110,9 +110,9 @@ fn identical_filament_of_a_web_and_of_a_case() {
     assert_eq!(case(&read_web(WHOLE, &[]).unwrap(), 0), &in_one_air(alone));
     // In the words of a line too, and with what is set.
     for values in [&[][..], &[("air.speed_factor", "1.2"), ("line.basis_weight", "15 g/m²")]] {
-        let (flown, _) = read_case((LINE, PLACE), &set(values)).unwrap();
-        assert_eq!(case(&read(LINE, values), 0), &in_one_air(flown.clone()));
-        assert!((flown.throughput().unwrap() / (0.5e-3 / 60.0) - 1.0).abs() < 1e-12);
+        let (simulated, _) = read_case((LINE, PLACE), &set(values)).unwrap();
+        assert_eq!(case(&read(LINE, values), 0), &in_one_air(simulated.clone()));
+        assert!((simulated.throughput().unwrap() / (0.5e-3 / 60.0) - 1.0).abs() < 1e-12);
     }
     let whole = std::fs::read_to_string(WHOLE).unwrap();
     let solved = read_spinline((&whole, WHOLE), &set(&[("line.throughput", "0.4 g/min")])).unwrap();
@@ -141,9 +141,9 @@ fn layers_have_in_common_what_stands_above_them() {
     let file = read(BEAMS, &[]);
     let belt = (3000.0 * 0.5e-3 + 2000.0 * 0.4e-3) / 60.0 / 20e-3;
     for (number, throughput) in [0.5e-3 / 60.0, 0.4e-3 / 60.0].into_iter().enumerate() {
-        let flown = case(&file, number);
-        assert!((flown.throughput().unwrap() / throughput - 1.0).abs() < 1e-12);
-        assert!((flown.line.unwrap().belt_speed / belt - 1.0).abs() < 1e-12);
+        let simulated = case(&file, number);
+        assert!((simulated.throughput().unwrap() / throughput - 1.0).abs() < 1e-12);
+        assert!((simulated.line.unwrap().belt_speed / belt - 1.0).abs() < 1e-12);
     }
     // What is written reads back, with what both have in common once.
     let again = read(&file.text.replace("../../cases/", ""), &[]);
@@ -160,9 +160,9 @@ fn layers_have_in_common_what_stands_above_them() {
     let own = format!("{BEAMS}[layer.fibre]\nyoungs_modulus = \"1 GPa\"\n");
     assert_eq!(case(&read(&own, &[]), 1).fibre.youngs_modulus, 1e9);
     assert_eq!(case(&read(&own, &[("fibre.youngs_modulus", "3 GPa")]), 1).fibre.youngs_modulus, 3e9);
-    // One filament is flown alone, so that it must be known which.
+    // One filament is simulated alone, so that it must be known which.
     let said = read_case((BEAMS, PLACE), &[]).unwrap_err().to_string();
-    assert!(said.contains("have different filaments, and one is flown"), "{said}");
+    assert!(said.contains("have different filaments, and one is simulated"), "{said}");
     assert!(read_case((BEAMS, PLACE), &set(&[("layer.2.line.throughput", "0.5 g/min")])).is_ok());
 }
 

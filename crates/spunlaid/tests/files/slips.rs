@@ -47,7 +47,7 @@ const CASES: [(&str, Set<'static>); 14] = [
         &[
             ("spinline.profile", "auto"),
             ("spinline.velocity", "70 m/s"),
-            ("spinline.material.freezing_temperature", "160 °C"),
+            ("spinline.material.solidification_temperature", "160 °C"),
         ],
     ),
     // In air that hardly pulls: a godet must draw faster than the filament runs freely.
@@ -56,7 +56,7 @@ const CASES: [(&str, Set<'static>); 14] = [
         &[
             ("spinline.profile", "auto"),
             ("spinline.velocity", "0.5 m/s"),
-            ("spinline.material.freezing_temperature", "160 °C"),
+            ("spinline.material.solidification_temperature", "160 °C"),
             ("spinline.end", "take-up"),
             ("spinline.take_up_speed", "40 m/s"),
         ],

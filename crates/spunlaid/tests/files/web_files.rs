@@ -142,7 +142,7 @@ fn rows_and_layers_are_read_in_their_order() {
     assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
 }
 
-/// The air of a web in one air differs across the flow whether its case says so or not, so that the cut-off
+/// The air of a web in shared turbulence differs across the flow whether its case says so or not, so that the cut-off
 /// alone can be set.
 #[test]
 fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across() {
@@ -154,7 +154,7 @@ fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across(
     let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
     assert_eq!(alone.lateral_cutoff(0), Some(12.0));
     assert_eq!(alone, both);
-    // What is written says what is flown, whether the case does or not, and is the same web when it is read.
+    // What is written says what is simulated, whether the case does or not, and is the same web when it is read.
     let plain = read(&[]).unwrap();
     assert!(plain.text.contains("lateral = \"von-karman\"\nlateral_cutoff = "), "{}", plain.text);
     let uniform = read(&[("air.lateral", "uniform")]).unwrap();
@@ -174,7 +174,7 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     let in_slot = [
         ("line.rows", "auto"),
         ("line.filaments_per_metre", "500"),
-        ("line.depth", "20 mm"),
+        ("line.slot_gap", "20 mm"),
         ("web.memory_limit", "20 GB"),
     ];
     let file = read(&in_slot);
@@ -186,7 +186,7 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     // A study varies the number of filaments and keeps the slot.
     let key = |name: &str| WEB_KEYS.iter().find(|key| key.name == name).unwrap();
     key("line.filaments_per_metre").set(&mut spec, 700_u64).unwrap();
-    key("line.depth").set(&mut spec, 0.0).unwrap();
+    key("line.slot_gap").set(&mut spec, 0.0).unwrap();
     assert_eq!(spec.layers[0].filaments, Filaments::Slot { per_metre: 700.0, depth: 0.0 });
 
     let rows =
@@ -205,14 +205,14 @@ fn a_slot_rows_at_places_along_and_one_air_are_read_and_written() {
     assert_eq!(file.spec.layers[0].defects, [half, later]);
 }
 
-/// Filaments of cases hang in one air, and those of known numbers are independent: the source decides.
+/// Filaments of cases hang in shared turbulence, and those of known numbers are independent: the source decides.
 #[test]
 fn a_web_hangs_in_one_air_where_its_filaments_fly() {
     let read = |text: &str| read_web((text, "web.toml"), &[]).unwrap();
-    let flown = "[laydown]\ncase = \"tests/bad_webs/short.case\"\n[line]\nfilaments_per_metre = 5000\n[web]\n\
+    let simulated = "[laydown]\ncase = \"tests/bad_webs/short.case\"\n[line]\nfilaments_per_metre = 5000\n[web]\n\
         width = \"0.5 m\"\nlength = \"0.5 m\"\n";
     let known = fs::read_to_string(KNOWN).unwrap();
-    for (text, flies) in [(flown, true), (LAYERS, false), (&known, false)] {
+    for (text, flies) in [(simulated, true), (LAYERS, false), (&known, false)] {
         let file = read(text);
         assert_eq!(file.spec.flies(), flies, "{text}");
         assert_eq!(read(&file.text).spec.flies(), flies, "{}", file.text);
@@ -223,29 +223,29 @@ fn a_web_hangs_in_one_air_where_its_filaments_fly() {
 
 #[test]
 fn few_filaments_are_flown_as_a_web_says() {
-    let read = |value: &str| read_web(FLOWN, &set("web.flown", value)).unwrap();
-    for (value, flown, written) in [
+    let read = |value: &str| read_web(FLOWN, &set("web.simulated", value)).unwrap();
+    for (value, simulated, written) in [
         ("auto", Flown::Auto, None),
-        ("all", Flown::All, Some("flown = \"all\"")),
-        ("200", Flown::PerMetre(200), Some("flown = 200")),
+        ("all", Flown::All, Some("simulated = \"all\"")),
+        ("200", Flown::PerMetre(200), Some("simulated = 200")),
     ] {
         let file = read(value);
-        assert_eq!(file.spec.flown, flown);
+        assert_eq!(file.spec.simulated, simulated);
         assert_reads_back(&file);
-        assert_eq!(file.text.lines().find(|line| line.starts_with("flown")), written, "{}", file.text);
+        assert_eq!(file.text.lines().find(|line| line.starts_with("simulated")), written, "{}", file.text);
     }
-    let key = WEB_KEYS.iter().find(|key| key.name == "web.flown").unwrap();
+    let key = WEB_KEYS.iter().find(|key| key.name == "web.simulated").unwrap();
     let mut spec = read("auto").spec;
-    for (value, flown) in [
+    for (value, simulated) in [
         (Value::from(300_u64), Flown::PerMetre(300)),
         ("all".into(), Flown::All),
         ("auto".into(), Flown::Auto),
     ] {
         key.set(&mut spec, value).unwrap();
-        assert_eq!(spec.flown, flown);
+        assert_eq!(spec.simulated, simulated);
     }
     assert!(key.set(&mut spec, 0_u64).is_err() && key.set(&mut spec, "some").is_err());
-    assert_eq!(spec.flown, Flown::Auto, "what is refused changes nothing");
+    assert_eq!(spec.simulated, Flown::Auto, "what is refused changes nothing");
 }
 
 #[test]
@@ -374,14 +374,14 @@ proptest! {
 #[test]
 fn rejects_guesses_that_have_no_half() {
     let two = LAYERS.replace("[web]", "[web]\nguessed = \"line.throughput\"");
-    for (text, guessed, message) in [
+    for (text, assumed, message) in [
         (
             KNOWN,
             "line.filaments_per_meter",
             "no key of the web or of its cases; did you mean line.filaments_per_metre?",
         ),
         (KNOWN, "belt.distance", "it is a key of a filament that flies, and this web flies none"),
-        (KNOWN, "line.depth", "names line.depth, which is zero or not written here"),
+        (KNOWN, "line.slot_gap", "names line.slot_gap, which is zero or not written here"),
         (KNOWN, "web.edges", "names web.edges, of which there is no half and no twice"),
         (
             FLOWN,
@@ -390,18 +390,18 @@ fn rejects_guesses_that_have_no_half() {
         ),
         (FLOWN, "fibre.diameter, air.spectrum", "names air.spectrum, of which"),
     ] {
-        let refused = read_web(text, &set("web.guessed", guessed)[..]).unwrap_err().to_string();
-        assert!(refused.contains("web.guessed") && refused.contains(message), "{guessed}: {refused}");
+        let refused = read_web(text, &set("web.assumed", assumed)[..]).unwrap_err().to_string();
+        assert!(refused.contains("web.assumed") && refused.contains(message), "{assumed}: {refused}");
     }
     let refused = read_web((&two, "layers.toml"), &[]).unwrap_err().to_string();
     assert!(
-        refused.contains("layers.toml:4: web.guessed") && refused.contains("line.throughput"),
+        refused.contains("layers.toml:4: web.assumed") && refused.contains("line.throughput"),
         "{refused}"
     );
     // What can be halved is read, and written as it was.
-    let file = read_web(FLOWN, &set("web.guessed", "belt.distance,line.rows.1.pitch")[..]).unwrap();
-    assert_eq!(file.spec.guessed, ["belt.distance", "line.rows.1.pitch"]);
-    assert!(file.text.contains("guessed = \"belt.distance, line.rows.1.pitch\""), "{}", file.text);
+    let file = read_web(FLOWN, &set("web.assumed", "belt.distance,line.rows.1.pitch")[..]).unwrap();
+    assert_eq!(file.spec.assumed, ["belt.distance", "line.rows.1.pitch"]);
+    assert!(file.text.contains("assumed = \"belt.distance, line.rows.1.pitch\""), "{}", file.text);
     assert_reads_back(&file);
-    assert!(read_web(FLOWN, &set("web.guessed", "none")[..]).unwrap().spec.guessed.is_empty());
+    assert!(read_web(FLOWN, &set("web.assumed", "none")[..]).unwrap().spec.assumed.is_empty());
 }

@@ -51,7 +51,7 @@ fn analytic_speeds_follow_from_throughput_and_basis_weight() {
     near(layer.belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
     let LaydownSource::Surrogate(surrogate) = layer.source else { panic!("numbers") };
     near(file.spec.web([Fibres::Surrogate(surrogate)]).basis_weight(), 20e-3);
-    // The nozzles of a row stay even when their number or the width changes.
+    // The holes of a row stay even when their number or the width changes.
     for (key, value, pitch) in [("line.rows.1.filaments", "4000", 0.25e-3), ("web.width", "2 m", 0.4e-3)] {
         let Filaments::Rows(rows) = &read_line(&[(key, value)]).spec.layers[0].filaments else {
             panic!("rows")
@@ -144,7 +144,7 @@ fn analytic_several_layers_make_up_the_basis_weight() {
     }
 }
 
-/// The numbers of the line hold for the case that is flown.
+/// The numbers of the line hold for the case that is simulated.
 #[test]
 fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let read = |case: &str, values: &[(&str, &str)]| {
@@ -160,10 +160,12 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let line = [("line.throughput", "0.5 g/min"), ("line.basis_weight", "20 g/m²")];
     let file = read("spunbond", &line);
     assert_reads_back_beside_cases(&file);
-    let (layer, flown) = (&file.spec.layers[0], case(&file));
-    near(flown.throughput().unwrap(), 0.5e-3 / 60.0);
-    near(flown.line.unwrap().belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
-    let Some(speeds) = flown.line.map(|line| [line.feed_speed, line.belt_speed]) else { panic!("no line") };
+    let (layer, simulated) = (&file.spec.layers[0], case(&file));
+    near(simulated.throughput().unwrap(), 0.5e-3 / 60.0);
+    near(simulated.line.unwrap().belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
+    let Some(speeds) = simulated.line.map(|line| [line.feed_speed, line.belt_speed]) else {
+        panic!("no line")
+    };
     assert_eq!([layer.feed_speed, layer.belt_speed], speeds);
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     for note in [
@@ -178,13 +180,13 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let alone = alone.map(|(key, value)| (key.to_owned(), value));
     let mut alone = read_case("../../cases/spunbond.toml", &alone).unwrap().0;
     alone.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
-    assert_eq!(alone, flown);
+    assert_eq!(alone, simulated);
     // A spinline is solved with the throughput.
     let file = read("whole_line_fibre", &[("line.throughput", "0.4 g/min")]);
-    let flown = case(&file);
-    near(flown.throughput().unwrap(), 0.4e-3 / 60.0);
-    assert_eq!(flown.spinline.as_ref().unwrap().throughput, 0.4e-3 / 60.0);
-    assert!(flown.fibre.diameter < case(&read("whole_line_fibre", &[])).fibre.diameter);
+    let simulated = case(&file);
+    near(simulated.throughput().unwrap(), 0.4e-3 / 60.0);
+    assert_eq!(simulated.spinline.as_ref().unwrap().throughput, 0.4e-3 / 60.0);
+    assert!(simulated.fibre.diameter < case(&read("whole_line_fibre", &[])).fibre.diameter);
     // What the case has itself is no change.
     let file =
         read("whole_line_fibre", &[("line.throughput", "0.5 g/min"), ("line.basis_weight", "13.9 g/m²")]);

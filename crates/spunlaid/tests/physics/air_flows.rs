@@ -7,10 +7,10 @@ use spunlaid::air::{
 };
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight};
-use spunlaid::ground::{Control, Error, Isa, Vec3};
+use spunlaid::ground::{Error, Isa, RunContext, Vec3};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, KeepShapes, Trajectory};
+use spunlaid::simulation::{KeepShapes, Recorded, Trajectory};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -23,11 +23,11 @@ fn table1(changes: &[(&str, &str)]) -> Case {
 
 fn flights(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
+    let computing = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
     let mut flights = Vec::new();
     fly::<Error>(
         case,
-        Keep { shapes: KeepShapes { replicates: 1, every: 1 }, ..Keep::SAMPLES },
+        Recorded { shapes: KeepShapes { replicates: 1, every: 1 }, ..Recorded::SAMPLES },
         computing,
         |flight| {
             flights.push(flight);
@@ -374,7 +374,7 @@ fn identical_in_any_flight_on_any_instruction_set() {
     check_identical(|| placed(mesh(), Vec3::new(0.0, 0.5, 0.5), Axis::ALL[0], 1.0));
 }
 
-/// * `flow` – made anew for each run, because a field keeps what is looked up in it
+/// * `flow` – made again for each run, because a field keeps what is looked up in it
 fn check_identical(flow: impl Fn() -> Flow) {
     let mut case =
         table1(&[("run.time_step", "20 µs"), ("run.scheme", "leapfrog"), ("run.duration", "0.05 s")]);
@@ -390,12 +390,12 @@ fn check_identical(flow: impl Fn() -> Flow) {
     for isa in Isa::available() {
         for threads in [1, 3] {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-            let computing = Control { threads, isa, stop: &stop, done: &steps };
+            let computing = RunContext { threads, isa, stop: &stop, done: &steps };
             let mut fewer = case.clone();
             fewer.run.replicates = 3;
             fewer.air.flow = flow();
             let mut n = 0;
-            fly::<Error>(&fewer, Keep::SAMPLES, computing, |flight| {
+            fly::<Error>(&fewer, Recorded::SAMPLES, computing, |flight| {
                 assert_eq!(bits(&flight), bits(&whole[n]), "{} {threads}", isa.name());
                 n += 1;
                 Ok(())

@@ -1,4 +1,4 @@
-//! Threads that coil on a plane and are laid on a belt, flown, against the boundary-value problem of the coil.
+//! Threads that coil on a plane and are laid on a belt, simulated, against the boundary-value problem of the coil.
 
 use crate::common::coiling::coil;
 use crate::common::laying::{Circle, Thread, circle_through, flight, turning};

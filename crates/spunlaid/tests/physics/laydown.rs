@@ -5,7 +5,7 @@ use crate::common::{X, in_all_lanes, steady_air};
 use spunlaid::air::Air;
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Fibre, Flight, Strand};
-use spunlaid::ground::{Control, Isa, Lanes, Vec3};
+use spunlaid::ground::{Isa, Lanes, RunContext, Vec3};
 use spunlaid::simulation::ensemble::turbulence_spectrum;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -314,7 +314,7 @@ fn the_step_limit_with_bending_viscosity_is_honest() {
 fn stat_turbulence_on_the_way_has_the_spectrum_that_is_wanted() {
     let case = spunbond(&[("run.duration", "1 s"), ("run.replicates", "8")]);
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
     let points = turbulence_spectrum(&case, computing).unwrap();
     // The air slows down on its way, so the cut-off falls, and the mean of all places falls in steps.
     for (from, to) in [(20.0, 180.0), (260.0, 310.0), (460.0, 500.0), (600.0, 630.0), (800.0, 830.0)] {

@@ -1,10 +1,10 @@
-//! The statistics of a spunbond line's lay-down: what must not move them, and what must not move a bit.
+//! The statistics of a spunbond line's laydown: what must not move them, and what must not move a bit.
 
 use crate::common::laying::{flight, laid_until, spunbond};
 use spunlaid::fibre::{Case, Flight, Job, LaidPoint};
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, LaidCurves};
+use spunlaid::simulation::{LaidCurves, Recorded};
 use spunlaid::web::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -100,8 +100,8 @@ fn identical_lay_down_for_any_packing_instruction_set_and_number_of_threads() {
     let ensemble = |threads| {
         let curves = LaidCurves::default();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-        fly::<Error>(&case, Keep { recorder: Some(&curves), ..Keep::NUMBERS }, computing, |_| Ok(()))
+        let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+        fly::<Error>(&case, Recorded { recorder: Some(&curves), ..Recorded::NUMBERS }, computing, |_| Ok(()))
             .unwrap();
         (0..11).map(|replicate| bits(&curves.take(replicate))).collect::<Vec<_>>()
     };

@@ -4,9 +4,9 @@ use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Flight, Run, Snapshot, Strand};
-use spunlaid::ground::{Control, Isa, WIDTH};
+use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, Keep};
+use spunlaid::simulation::{Job, Recorded};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;
@@ -17,8 +17,8 @@ fn table1_strand(damping: f64) -> Strand {
     Strand { fibre, drag, gravity: 9.81, damping }
 }
 
-/// Eight replicates of Table 1 at the end of `duration`, flown by steps of `h`.
-fn flown(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snapshot, f64) {
+/// Eight replicates of Table 1 at the end of `duration`, simulated by steps of `h`.
+fn simulated(isa: Isa, scheme: Scheme, damping: f64, h: f64, duration: f64) -> (Snapshot, f64) {
     let eddies = Eddies::along(1.0, 20, 0.05);
     let air = table1_air();
     let streams: Vec<(Air, StreamKey)> =
@@ -47,7 +47,7 @@ fn observed_order(scheme: Scheme, damping: f64) -> f64 {
     // The axial waves start with a jolt and are never damped: their phase, off by ω³h²t/24, must be small
     // (0.13 rad for the fastest, 5.8e4 rad/s).
     let duration = 4e-3;
-    let at = |h| end_positions(&flown(Isa::detect(), scheme, damping, h, duration).0);
+    let at = |h| end_positions(&simulated(Isa::detect(), scheme, damping, h, duration).0);
     let (coarse, middle, fine) = (at(2e-6), at(1e-6), at(0.5e-6));
     (rms_distance(&coarse, &middle) / rms_distance(&middle, &fine)).log2()
 }
@@ -170,8 +170,8 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
 #[test]
 fn order_both_schemes_tend_to_the_same_flight() {
     let duration = 0.064;
-    let euler = |h| end_positions(&flown(Isa::detect(), Scheme::SemiImplicitEuler, 0.0, h, duration).0);
-    let leapfrog = end_positions(&flown(Isa::detect(), Scheme::Leapfrog, 0.0, 1e-6, duration).0);
+    let euler = |h| end_positions(&simulated(Isa::detect(), Scheme::SemiImplicitEuler, 0.0, h, duration).0);
+    let leapfrog = end_positions(&simulated(Isa::detect(), Scheme::Leapfrog, 0.0, 1e-6, duration).0);
     let (coarse, fine) = (euler(2e-6), euler(1e-6));
     let off = rms_distance(&fine, &leapfrog);
     // First order: the fine flight is off by what the step from coarse to fine changed, and a little.
@@ -182,7 +182,7 @@ fn order_both_schemes_tend_to_the_same_flight() {
 fn invariant_energy_ledgers_close_in_proportion_to_the_step() {
     for (scheme, power) in [(Scheme::SemiImplicitEuler, 1.0), (Scheme::Leapfrog, 2.0)] {
         let errors = |h: f64| {
-            let e = flown(Isa::detect(), scheme, 10.0, h, 0.064).0.energy;
+            let e = simulated(Isa::detect(), scheme, 10.0, h, 0.064).0.energy;
             let (w, t, b, air) = (e.work.0, e.kinetic.0, e.imbalance().0, e.drag_work.0);
             let rms = |f: &dyn Fn(usize) -> f64| ((0..WIDTH).map(|i| f(i).powi(2)).sum::<f64>() / 8.0).sqrt();
             (rms(&|i| w[i] / t[i] - 1.0), rms(&|i| b[i] / air[i]))
@@ -210,10 +210,10 @@ fn invariant_strain_99_hardly_depends_on_the_step() {
         (case.run.time_step, case.run.steps, case.run.output_steps) = (h, steps(1.0), steps(1e-3));
         let jobs: Vec<Job<'_>> = (0..WIDTH as u64).map(|replicate| Job::new(&case, replicate)).collect();
         let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-        let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-        let flown = fly_together(&jobs, Keep::NUMBERS, computing).expect("the case flies");
+        let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+        let simulated = fly_together(&jobs, Recorded::NUMBERS, computing).expect("the case flies");
         ["strain_99", "max_strain"]
-            .map(|name| flown.iter().map(|fibre| fibre.number(name)).sum::<f64>() / 8.0)
+            .map(|name| simulated.iter().map(|fibre| fibre.number(name)).sum::<f64>() / 8.0)
     };
     let [usual, largest] = strains(Scheme::Leapfrog, 5e-6);
     // Mean drag and weight, 1.0033 mN, stretch the root by 0.0255 %; slow changes of the drag add less than a fifth.
@@ -254,7 +254,7 @@ fn identical_on_every_instruction_set() {
     for scheme in SCHEMES {
         for damping in [0.0, 5.0] {
             let bits = |isa| {
-                let (s, amplitude) = flown(isa, scheme, damping, 1e-5, 4e-3);
+                let (s, amplitude) = simulated(isa, scheme, damping, 1e-5, 4e-3);
                 let nodes = s.position.iter().chain(&s.velocity).flat_map(|p| [p.x, p.y, p.z]);
                 let e = s.energy;
                 let stored = [e.kinetic, e.axial, e.bending, e.gravity_work, e.strain, e.tension_dissipation];

@@ -36,7 +36,7 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected}");
 }
 
-/// The two stations around a distance, and where it lies between them. None of the two is beyond the freezing
+/// The two stations around a distance, and where it lies between them. None of the two is beyond the solidification
 /// point, where the thread has a kink.
 fn around(solution: &Solution, distance: f64) -> ([Station; 2], f64) {
     let above = solution.stations.partition_point(|station| station.distance < distance).max(1);
@@ -54,17 +54,17 @@ fn cubic([a, b]: [f64; 2], slopes: [f64; 2], gap: f64, share: f64) -> f64 {
 /// The speed at a distance from the die [m/s].
 fn speed_at(solution: &Solution, distance: f64) -> f64 {
     let (ends, share) = around(solution, distance);
-    // Beyond the freezing point nothing is stretched.
-    let is_melt = distance <= solution.freezing.distance;
+    // Beyond the solidification point nothing is stretched.
+    let is_melt = distance <= solution.solidification.distance;
     let slope = |end: Station| if is_melt { end.strain_rate / end.speed } else { 0.0 };
     let gap = ends[1].distance - ends[0].distance;
     cubic(ends.map(|end| end.speed.ln()), ends.map(slope), gap, share).exp()
 }
 
 /// The temperature at a distance from the die [K], by the cubic through the four stations around it, in the
-/// root of the distance. It does not reach over the freezing point.
+/// root of the distance. It does not reach over the solidification point.
 fn temperature_at(solution: &Solution, distance: f64) -> f64 {
-    let frozen = solution.freezing.distance;
+    let frozen = solution.solidification.distance;
     let is_of_phase = |station: &&Station| {
         if distance <= frozen { station.distance <= frozen } else { station.distance >= frozen }
     };
@@ -91,9 +91,9 @@ fn published_spinlines_of_another_program() {
             ("final_speed_m_s", found.final_speed),
             ("final_diameter_m", found.final_diameter),
             ("linear_density_kg_m", found.linear_density),
-            ("freezing_distance_m", found.freezing.distance),
-            ("freezing_diameter_m", found.freezing.diameter),
-            ("freezing_stress_pa", found.freezing.stress),
+            ("freezing_distance_m", found.solidification.distance),
+            ("freezing_diameter_m", found.solidification.diameter),
+            ("freezing_stress_pa", found.solidification.stress),
             ("force_at_die_n", found.force_at_die),
             ("largest_strain_rate_per_s", found.largest_strain_rate),
             ("birefringence", found.birefringence),
@@ -111,7 +111,7 @@ fn published_spinlines_of_another_program() {
             let off = kelvin - 273.15 - number(column);
             assert!(off.abs() < 0.01, "{name}: {column}: {off} K");
         };
-        celsius("freezing_temperature_c", found.freezing.temperature);
+        celsius("freezing_temperature_c", found.solidification.temperature);
         celsius("end_temperature_c", found.end().temperature);
         for i in 1..=3 {
             let distance = number(&format!("z{i}_m"));

@@ -49,7 +49,7 @@ fn compare(
             for (number, [a, b]) in [
                 ("speed", [followed, sought].map(|state| state.final_speed)),
                 ("force at the die", [followed, sought].map(|state| state.force_at_die)),
-                ("freezing point", [followed, sought].map(|state| state.freezing.distance)),
+                ("solidification point", [followed, sought].map(|state| state.solidification.distance)),
                 ("strain rate", [followed, sought].map(|state| state.largest_strain_rate)),
             ] {
                 let from = base.final_speed;

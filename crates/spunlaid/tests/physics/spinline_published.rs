@@ -31,7 +31,7 @@ fn ratios(what: &str, numbers: &[(f64, f64)], tolerance: f64) {
 fn published_isothermal_line_of_itwm() {
     let found = solve("published/isothermal.toml", &[]).unwrap();
     assert!((found.final_speed / 10.2 - 1.0).abs() < 1e-6);
-    let end = found.freezing.distance;
+    let end = found.solidification.distance;
     assert!((end / 1.4783 - 1.0).abs() < 1e-3, "{end}");
     let theirs = [1.076, 1.864, 2.472, 2.977, 3.415, 3.807, 4.164, 4.494, 4.802];
     let numbers: Vec<_> = (1..)
@@ -53,8 +53,8 @@ fn published_polyester_at_three_godet_speeds() {
         let found = solve("published/polyester.toml", &[("spinline.take_up_speed", speed)]).unwrap();
         let [die, godet] =
             [(found.force_at_die, die), (found.force_at_end, godet)].map(|(n, mn)| (n * 1e3, mn));
-        let freezing = &found.freezing;
-        let solid = [(freezing.distance * 1e3, distance), (freezing.stress * 1e-6, stress)];
+        let solidification = &found.solidification;
+        let solid = [(solidification.distance * 1e3, distance), (solidification.stress * 1e-6, stress)];
         ratios(speed, &[die, godet, solid[0], solid[1]], 0.035);
         if speed == "3480 m/min" {
             let theirs = [(0.02, 3.21), (0.05, 22.8), (0.08, 45.1), (0.1, 52.4)];
@@ -67,21 +67,21 @@ fn published_polyester_at_three_godet_speeds() {
 /// than it flows.
 #[test]
 fn invariant_lines_of_fast_growth_get_the_speed_that_is_asked_for() {
-    let fast = |length, freezing, speed| {
+    let fast = |length, solidification, speed| {
         let set = [
             ("spinline.length", length),
-            ("spinline.material.freezing_temperature", freezing),
+            ("spinline.material.solidification_temperature", solidification),
             ("spinline.take_up_speed", speed),
             ("spinline.material.activation_energy", "1 kJ/mol"),
         ];
         solve("published/isothermal.toml", &set)
     };
-    for (length, freezing, speed, value) in [
+    for (length, solidification, speed, value) in [
         ("1.9 m", "226.9 °C", "10.2 m/s", 10.2),
         ("2.5 m", "227 °C", "12 m/s", 12.0),
         ("1.9 m", "225 °C", "30 m/s", 30.0),
     ] {
-        let found = fast(length, freezing, speed).unwrap();
+        let found = fast(length, solidification, speed).unwrap();
         assert!((found.final_speed / value - 1.0).abs() < 1e-6, "{} for {speed}", found.final_speed);
         assert!(found.momentum_residual.abs() < 1e-6, "{}", found.momentum_residual);
     }

@@ -1,7 +1,7 @@
 //! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are
 //! not compared.
 
-use spunlaid::fibre::{FreezingCause, Solution};
+use spunlaid::fibre::{SolidificationCause, Solution};
 use spunlaid::input::read_spinline;
 use std::path::Path;
 
@@ -19,9 +19,9 @@ fn solve(file: &str, set: &[(&str, &str)]) -> Solution {
 #[test]
 fn published_trends_of_crystallisation_on_the_line() {
     let onset = |set: &[(&str, &str)]| {
-        let freezing = solve("tests/spinline_cases/pp_crystal_3000.toml", set).freezing;
-        assert_eq!(freezing.by, FreezingCause::Crystallisation, "{set:?}");
-        (freezing.distance, freezing.temperature)
+        let solidification = solve("tests/spinline_cases/pp_crystal_3000.toml", set).solidification;
+        assert_eq!(solidification.by, SolidificationCause::Crystallisation, "{set:?}");
+        (solidification.distance, solidification.temperature)
     };
     for (key, values) in [
         ("spinline.take_up_speed", ["4000 m/min", "3000 m/min", "2000 m/min"]),
@@ -69,7 +69,7 @@ fn polyester(speed: u32, more: &[(&str, &str)]) -> Solution {
 /// and others, Polymer Engineering & Science, 1999, the abstract.
 #[test]
 fn published_neck_of_polyester() {
-    let necks = |found: &Solution| found.freezing.by == FreezingCause::Crystallisation;
+    let necks = |found: &Solution| found.solidification.by == SolidificationCause::Crystallisation;
     for speed in [1500, 4000, 4500] {
         let found = polyester(speed, &[]);
         assert!(
@@ -91,7 +91,7 @@ fn published_neck_of_polyester() {
 fn published_stress_optical_law_of_polyester() {
     for speed in [1500, 3000, 5000] {
         let found = polyester(speed, &[]);
-        let law = 1.7e-6 * found.freezing.stress / found.freezing.temperature;
+        let law = 1.7e-6 * found.solidification.stress / found.solidification.temperature;
         assert!((found.birefringence / law - 1.0).abs() < 1e-9, "{} for {law}", found.birefringence);
     }
 }
@@ -101,10 +101,10 @@ fn published_stress_optical_law_of_polyester() {
 fn published_onset_of_polyamide() {
     let by = |speed| {
         let set = [("spinline.take_up_speed", speed), ("spinline.crystallisation", "true")];
-        solve("tests/spinline_cases/pa6_4000.toml", &set).freezing.by
+        solve("tests/spinline_cases/pa6_4000.toml", &set).solidification.by
     };
     assert_eq!(
         ["2500 m/min", "3500 m/min"].map(by),
-        [FreezingCause::Temperature, FreezingCause::Crystallisation]
+        [SolidificationCause::Temperature, SolidificationCause::Crystallisation]
     );
 }

@@ -114,12 +114,16 @@ fn published_hanging_chain() {
             nodes.push(nodes[nodes.len() - 1] + X * stretched(tension));
         }
         let h = 0.8 * fibre.axial_step_limit();
-        let flown = flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
+        let simulated = flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
         for i in 0..3 {
             // Half of the last digit published.
             assert!((stiff[i] - published[i]).abs() < 6e-6, "N = {elements}: {} Hz", stiff[i]);
             // Amplitude squared (1e-8), linear passages, time step. Found: up to 4e-7.
-            assert!((flown[i] / discrete[i] - 1.0).abs() < 2e-6, "N = {elements}, mode {i}: {} Hz", flown[i]);
+            assert!(
+                (simulated[i] / discrete[i] - 1.0).abs() < 2e-6,
+                "N = {elements}, mode {i}: {} Hz",
+                simulated[i]
+            );
         }
     }
 }
@@ -171,10 +175,15 @@ fn analytic_clamped_beam() {
     let nodes: Vec<V> = (0..=fibre.elements).map(|i| X * (l * i as f64)).collect();
     let h = 0.2 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 20.0 / discrete[0];
-    let flown = flown_frequencies(fibre, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, duration));
+    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, duration));
     for i in 0..3 {
         // Leapfrog raises a frequency by (ωh)²/24, below 1e-6 here; linear passages the same order.
-        assert!((flown[i] / discrete[i] - 1.0).abs() < 1e-5, "mode {i}: {} of {} Hz", flown[i], discrete[i]);
+        assert!(
+            (simulated[i] / discrete[i] - 1.0).abs() < 1e-5,
+            "mode {i}: {} of {} Hz",
+            simulated[i],
+            discrete[i]
+        );
     }
     // βL = 1.87510, 4.69409, 7.85476: the discrete error falls by four when the elements halve.
     let wave =
@@ -203,8 +212,8 @@ fn analytic_axial_chain() {
         .collect();
     let nodes: Vec<V> = (0..=n).map(|i| X * (l * i as f64)).collect();
     let h = 0.02 * fibre.axial_step_limit();
-    let flown = flown_frequencies(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact(0)));
-    for (mode, f) in flown.into_iter().enumerate() {
+    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact(0)));
+    for (mode, f) in simulated.into_iter().enumerate() {
         // Leapfrog: ω_flown = (2/h) asin(ωh/2).
         let leapfrog = (PI * exact(mode) * h).asin() / (PI * h);
         assert!((f / leapfrog - 1.0).abs() < 1e-6, "mode {mode}: {f} of {leapfrog} Hz");
@@ -241,9 +250,9 @@ fn analytic_taut_string() {
             flight.hold(n, Vec3::splat(stretched[n]));
             trace.push((1..n).map(|i| flight.chain().position[i].lane(0).y * shape(i)).sum());
         }
-        let flown = frequency_of(&trace, h);
+        let simulated = frequency_of(&trace, h);
         let leapfrog = (0.5 * w * h).asin() / (PI * h);
         // Amplitude squared over length squared, 1e-8, at its worst times the stiffness over the tension.
-        assert!((flown / leapfrog - 1.0).abs() < 1e-5, "mode {mode}: {flown} of {leapfrog} Hz");
+        assert!((simulated / leapfrog - 1.0).abs() < 1e-5, "mode {mode}: {simulated} of {leapfrog} Hz");
     }
 }

@@ -51,7 +51,7 @@ fn case(widening: Widening) -> Case {
 }
 
 /// The last instant of the fibres at [`PLACES`], side by side.
-fn flown(case: &Case) -> Snapshot {
+fn simulated(case: &Case) -> Snapshot {
     let jobs = PLACES.map(|y| Job { place: Inlet { y, z: 0.0 }, ..Job::new(case, 0) });
     let mut flight = Flight::new(&jobs, Isa::detect()).unwrap();
     flight.advance(case.run.steps);
@@ -90,7 +90,7 @@ fn analytic_the_widening_flow_has_no_divergence() {
 /// the widening `y` would be off by half there.
 #[test]
 fn analytic_a_hanging_fibre_lies_along_a_streamline_of_a_diffuser() {
-    let at = flown(&case(Widening::MachineDirection));
+    let at = simulated(&case(Widening::MachineDirection));
     for (lane, place) in PLACES.into_iter().enumerate() {
         let nodes = nodes(&at, lane);
         assert!(nodes.iter().any(|(x, _)| *x > 0.3), "{place}");
@@ -101,7 +101,7 @@ fn analytic_a_hanging_fibre_lies_along_a_streamline_of_a_diffuser() {
         }
     }
     // Where the air only slows, it blows past the fibre.
-    let at = flown(&case(Widening::None));
+    let at = simulated(&case(Widening::None));
     for (lane, place) in PLACES.into_iter().enumerate() {
         assert!(nodes(&at, lane).iter().all(|(_, y)| *y == place), "{place}");
     }

@@ -8,11 +8,11 @@ use spunlaid::experiment::study::fly_batches;
 use spunlaid::experiment::{Batch, Bundles, Point};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::threads::each;
-use spunlaid::ground::{Control, Error, Isa, Value as Measured};
+use spunlaid::ground::threads::par_map;
+use spunlaid::ground::{Error, Isa, RunContext, Value as Measured};
 use spunlaid::input::{parse_study, read_case, write_case};
 use spunlaid::simulation::ensemble::{fly, fly_together};
-use spunlaid::simulation::{Job, Keep, Trajectory};
+use spunlaid::simulation::{Job, Recorded, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -82,10 +82,10 @@ pub fn pairs(key: &Key, case: &Case) -> Vec<(usize, [String; 2])> {
 }
 
 /// All that may differ.
-const KEPT: Keep = Keep { samples: true, ..Keep::CURVES };
+const KEPT: Recorded = Recorded { samples: true, ..Recorded::CURVES };
 
-fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
-    Control { threads: 1, isa: Isa::detect(), stop, done: steps }
+fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunContext<'a> {
+    RunContext { threads: 1, isa: Isa::detect(), stop, done: steps }
 }
 
 /// What a run of a case alone gives, or why it gives nothing.
@@ -141,12 +141,12 @@ fn differing(points: &[Point], known: &mut BTreeMap<String, Result<Vec<Trajector
         .map(|point| known.entry(write_case(case_of(point))).or_insert_with(|| alone(case_of(point))).clone())
         .collect();
     match together(points) {
-        Ok(flown) => {
+        Ok(simulated) => {
             let mut differ = BTreeSet::new();
-            for (flown, single) in flown.iter().zip(&single) {
+            for (simulated, single) in simulated.iter().zip(&single) {
                 match single {
-                    Ok(single) if single.len() == flown.len() => {
-                        flown.iter().zip(single).for_each(|(a, b)| differ.extend(differences(a, b)));
+                    Ok(single) if single.len() == simulated.len() => {
+                        simulated.iter().zip(single).for_each(|(a, b)| differ.extend(differences(a, b)));
                     }
                     Ok(_) => drop(differ.insert("the number of replicates")),
                     Err(_) => drop(differ.insert("alone it is lost")),
@@ -179,10 +179,10 @@ fn vary_every_key(name: &str, text: &str) -> Found {
     let in_coarse_air =
         if text.contains("lateral = ") { text.clone() } else { text.replace("[air]\n", coarse) };
     for key in keys::all().iter().filter(|key| key.varies).filter(is_tested) {
-        let (mut refused, mut flown) = (Vec::new(), BTreeSet::new());
+        let (mut refused, mut simulated) = (Vec::new(), BTreeSet::new());
         let text = if key.name == "air.lateral" { &in_coarse_air } else { text };
         for (how, values) in pairs(key, &case) {
-            if flown.contains(&how) {
+            if simulated.contains(&how) {
                 continue;
             }
             let points = match points(text, key.name, &values) {
@@ -192,7 +192,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
                     continue;
                 }
             };
-            flown.insert(how);
+            simulated.insert(how);
             let differ = differing(&points, &mut known);
             if !differ.is_empty() {
                 found.wrong.push(format!("{name}: {} = {values:?}: {}", key.name, differ.join(", ")));
@@ -204,10 +204,10 @@ fn vary_every_key(name: &str, text: &str) -> Found {
         // Some keys have no meaning for a case, some are told by a file or by other keys.
         let is_there = key.get(&case).is_some() && !key.is_derived(&case);
         let excluded = refused.iter().all(|reason| reason.contains("cannot be combined with"));
-        if is_there && !excluded && key.kind.words().is_empty() && !flown.contains(&CLOSE) {
+        if is_there && !excluded && key.kind.words().is_empty() && !simulated.contains(&CLOSE) {
             found.wrong.push(format!("{name}: no two close values of {}: {refused:?}", key.name));
         }
-        if flown.iter().any(|how| *how >= FAR) {
+        if simulated.iter().any(|how| *how >= FAR) {
             found.varied.insert(key.name);
         }
     }
@@ -217,7 +217,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
 #[test]
 fn identical_alone_and_in_company_for_every_key() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let found = each(threads, CASES.len(), |i| vary_every_key(CASES[i].0, CASES[i].1));
+    let found = par_map(threads, CASES.len(), |i| vary_every_key(CASES[i].0, CASES[i].1));
     let mut wrong: Vec<String> = found.iter().flat_map(|found| found.wrong.clone()).collect();
     for key in keys::all().iter().filter(|key| key.varies) {
         if !found.iter().any(|found| found.varied.contains(key.name)) {
@@ -276,9 +276,9 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
                 Err(Error::Flight(fault))
                     if fault.message.starts_with("fibre 2 cannot fly beside the first") => {}
                 Err(other) => panic!("{other}"),
-                Ok(flown) => {
-                    for (flown, i) in flown.iter().zip(order) {
-                        let differ = differences(flown, &alone(&cases[i]).unwrap()[0]);
+                Ok(simulated) => {
+                    for (simulated, i) in simulated.iter().zip(order) {
+                        let differ = differences(simulated, &alone(&cases[i]).unwrap()[0]);
                         if !differ.is_empty() {
                             wrong.push(format!("{name}, {order:?}, in one flight: {differ:?}"));
                         }

@@ -304,7 +304,7 @@ crystallisation = true
 BELOW";
 
 /// A few points of a flow that widens along x, with its turbulence, and the beginning of a record: small,
-/// because every study reads them anew.
+/// because every study reads them again.
 fn files() -> &'static Path {
     static FILES: OnceLock<TempDir> = OnceLock::new();
     let folder = FILES.get_or_init(|| {

@@ -8,7 +8,7 @@ use spunlaid::experiment::study::{judge, rankings, results_of_point};
 use spunlaid::experiment::{Journal, PointResults, Record, ReplicateOutcome, Study, Verdict};
 use spunlaid::simulation::MEASURES;
 
-/// The case is never flown; its intensity is in the middle of the range that the studies vary.
+/// The case is never simulated; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
     short::study(&short::SHORT.replace("turbulence_intensity = 0.1\n", "turbulence_intensity = 0.15\n"), text)
         .study
@@ -49,7 +49,7 @@ struct Noise {
 }
 
 /// The records of a study whose fibres follow the model.
-fn flown(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) -> Journal {
+fn simulated(study: &Study, replicates: u64, model: Model, noise: Noise, seed: u64) -> Journal {
     let mut normal = Normal(ChaCha8Rng::seed_from_u64(seed));
     let common: Vec<[f64; 4]> = (0..replicates).map(|_| std::array::from_fn(|_| normal.next())).collect();
     let mut journal = Journal::in_memory();
@@ -88,7 +88,7 @@ fn coverage(design: &str, replicates: u64, model: Model, noise: Noise) -> (f64, 
         if is_drawn {
             study = of_trial(trial);
         }
-        let mut journal = flown(&study, replicates, model, noise, trial);
+        let mut journal = simulated(&study, replicates, model, noise, trial);
         // A hypercube of few points may be refused for a correlation by chance.
         let rankings = rankings(&study, &mut journal).unwrap().of_measures;
         for effect in rankings.first().iter().flat_map(|ranking| &ranking.effects) {
@@ -146,7 +146,7 @@ fn analytic_effects_of_a_straight_line() {
     ] {
         let study = three_keys(design, 6, 1);
         let none = Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 };
-        let mut journal = flown(&study, 6, STRAIGHT, none, 1);
+        let mut journal = simulated(&study, 6, STRAIGHT, none, 1);
         let rankings = rankings(&study, &mut journal).unwrap();
         assert_eq!((rankings.of_measures.len(), rankings.refusal), (MEASURES.len(), None));
         let ranking = &rankings.of_measures[0];
@@ -171,7 +171,7 @@ fn analytic_effects_of_a_straight_line() {
 
 fn refusal(text: &str) -> String {
     let study = study(&format!("case = 'case.toml'\nreplicates = 3\n{text}\n"));
-    let mut journal = flown(&study, 3, |x| x[0], ALONE, 1);
+    let mut journal = simulated(&study, 3, |x| x[0], ALONE, 1);
     let rankings = rankings(&study, &mut journal).unwrap();
     assert_eq!(rankings.of_measures, []);
     rankings.refusal.unwrap().to_string()
@@ -208,7 +208,7 @@ fn the_differences_of_a_smallest_design_are_ranked_without_a_share() {
          air.turbulence_intensity = [0.25]\n",
     );
     assert_eq!(study.points.len(), 3);
-    let mut journal = flown(&study, 4, |_| 0.0, Noise { fibre: 0.1, ..COMMON }, 3);
+    let mut journal = simulated(&study, 4, |_| 0.0, Noise { fibre: 0.1, ..COMMON }, 3);
     let rankings = rankings(&study, &mut journal).unwrap();
     let ranking = &rankings.of_measures[0];
     assert!(ranking.explained.is_nan());
@@ -333,7 +333,7 @@ fn verdicts(model: Model, own: f64, claims: &[&str]) -> Vec<Verdict> {
     let study = study(&text);
     assert_eq!(study.claims.len(), claims.len());
     let noise = Noise { fibre: own, replicate: 5.0, slopes: 0.0 };
-    let mut journal = flown(&study, 20, model, noise, 7);
+    let mut journal = simulated(&study, 20, model, noise, 7);
     let results: Vec<PointResults> =
         (0..study.points.len()).map(|point| results_of_point(&study, &mut journal, point).unwrap()).collect();
     let rankings = rankings(&study, &mut journal).unwrap().of_measures;
@@ -383,7 +383,7 @@ fn analytic_what_has_no_error_is_judged_by_its_values() {
              'It is so.' = 'amplitude_y: air.velocity {claim}'\n"
         );
         let study = short::study(&case, &text).study;
-        let mut journal = flown(&study, 1, model, Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 }, 7);
+        let mut journal = simulated(&study, 1, model, Noise { fibre: 0.0, replicate: 0.0, slopes: 0.0 }, 7);
         let results: Vec<PointResults> = (0..study.points.len())
             .map(|point| results_of_point(&study, &mut journal, point).unwrap())
             .collect();

@@ -4,10 +4,10 @@ use crate::common;
 use crate::common::*;
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Job, LaidPoint};
-use spunlaid::ground::{Control, Error, Estimate, Isa};
+use spunlaid::ground::{Error, Estimate, Isa, RunContext};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerPlans, Keep, Number, Recorder, Results, Trajectory, Unchecked};
+use spunlaid::simulation::{FinerPlans, Number, Recorded, Recorder, Results, Trajectory, Unchecked};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -19,9 +19,9 @@ pub fn table1(time_step: f64, duration: f64, replicates: u64) -> Case {
 
 pub fn flights(case: &Case, threads: usize) -> Vec<Trajectory> {
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
     let mut flights = Vec::new();
-    let done: Result<(), Error> = fly(case, Keep::SAMPLES, computing, |flight| {
+    let done: Result<(), Error> = fly(case, Recorded::SAMPLES, computing, |flight| {
         flights.push(flight);
         Ok(())
     });
@@ -173,8 +173,8 @@ fn rejects_a_flight_that_diverges() {
     let mut case = table1(3e-5, 0.5, 3);
     (case.fibre.diameter, case.air.velocity) = (2e-6, 3000.0);
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-    let done: Result<(), Error> = fly(&case, Keep::SAMPLES, computing, |_| Ok(()));
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let done: Result<(), Error> = fly(&case, Recorded::SAMPLES, computing, |_| Ok(()));
     let message = done.expect_err("must blow up").to_string();
     assert!(
         message.contains("which no fibre can have") && message.contains("lower run.time_step"),
@@ -203,7 +203,7 @@ impl Recorder for RecordedSamples {
     }
 }
 
-/// Fibres in a record with a gust of 90 km/s are lost where the gust is in their stretch of it. The others fly again
+/// Fibres in a record with a eddy of 90 km/s are lost where the eddy is in their stretch of it. The others fly again
 /// without them, to the bits that they have alone, and the recorder forgets what it was told before.
 #[test]
 fn fibres_that_are_lost_stop_no_others() {
@@ -236,19 +236,19 @@ replicates = 12
     for threads in [1, 2] {
         let (stop, fibre_steps, told) =
             (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
-        let computing = Control { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-        let (mut flown, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
+        let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+        let (mut simulated, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
         fly_for_checks(
             &case,
             &FinerPlans::none(Unchecked::NotAsked),
-            Keep { recorder: Some(&told), ..Keep::SAMPLES },
+            Recorded { recorder: Some(&told), ..Recorded::SAMPLES },
             computing,
             |_, _| Ok(None),
             |landed| {
                 match landed {
                     Ok(trajectory) => {
                         order.push(trajectory.replicate);
-                        flown.push(trajectory);
+                        simulated.push(trajectory);
                     }
                     Err(fibre) => {
                         order.push(fibre.replicate);
@@ -260,18 +260,19 @@ replicates = 12
         )
         .unwrap();
         assert_eq!(order, (0..12).collect::<Vec<_>>(), "each in its turn");
-        assert!(!lost.is_empty() && flown.len() > 2, "{lost:?}");
+        assert!(!lost.is_empty() && simulated.len() > 2, "{lost:?}");
         // What the flights that were given up have done is not counted.
-        assert_eq!(fibre_steps.load(Ordering::Relaxed), case.run.steps * flown.len() as u64);
+        assert_eq!(fibre_steps.load(Ordering::Relaxed), case.run.steps * simulated.len() as u64);
         for fibre in lost {
             assert!(fibre.reason.starts_with(&format!("replicate {}: ", fibre.replicate + 1)), "{fibre:?}");
             assert!(fibre.time >= 0.0 && fibre.time <= case.run.duration());
         }
         let told = told.0.lock().unwrap();
         assert!(told.values().any(|(begun, _)| *begun > 1));
-        for flight in flown {
+        for flight in simulated {
             let jobs = [Job::new(&case, flight.replicate)];
-            let alone = fly_together(&jobs, Keep::SAMPLES, Control { done: &AtomicU64::new(0), ..computing });
+            let alone =
+                fly_together(&jobs, Recorded::SAMPLES, RunContext { done: &AtomicU64::new(0), ..computing });
             assert_same(&alone.unwrap()[0], &flight);
             assert!(told[&flight.replicate].1 == flight.samples);
         }

@@ -5,10 +5,10 @@ use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
-use spunlaid::ground::{Control, Error, Estimate, Isa};
+use spunlaid::ground::{Error, Estimate, Isa, RunContext};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::{fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerCheck, FinerPlans, Keep, Refinement, Trajectory, Unchecked};
+use spunlaid::simulation::{FinerCheck, FinerPlans, Recorded, Refinement, Trajectory, Unchecked};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -21,7 +21,7 @@ fn checked_by(
     stop: bool,
 ) -> Result<(Vec<Trajectory>, Result<FinerCheck, Unchecked>), Error> {
     let (stop, fibre_steps) = (AtomicBool::new(stop), AtomicU64::new(0));
-    let computing = Control { threads, isa, stop: &stop, done: &fibre_steps };
+    let computing = RunContext { threads, isa, stop: &stop, done: &fibre_steps };
     let none = || Err(Unchecked::NotAsked);
     // Short runs are not worth a check; here all of them are checked.
     let whole = Case { run: Run { checks: Checks::Full, ..case.run }, ..case.clone() };
@@ -29,21 +29,21 @@ fn checked_by(
         (Refinement::TimeStep, FinerPlans { step, .. }) => FinerPlans { step, mesh: none() },
         (Refinement::Elements, FinerPlans { mesh, .. }) => FinerPlans { step: none(), mesh },
     };
-    let mut flown = Vec::new();
+    let mut simulated = Vec::new();
     let paths = fly_for_checks(
         case,
         &plans,
-        Keep::SAMPLES,
+        Recorded::SAMPLES,
         computing,
         |_, _| Ok(None),
         |trajectory| {
-            flown.push(trajectory.expect("no fibre is lost"));
+            simulated.push(trajectory.expect("no fibre is lost"));
             Ok::<(), Error>(())
         },
     )?;
     let checks = plans.check(&paths, computing);
     assert_eq!(fibre_steps.into_inner(), case.run.steps * case.run.replicates + plans.fibre_steps());
-    Ok((flown, if refined == Refinement::TimeStep { checks.step } else { checks.mesh }))
+    Ok((simulated, if refined == Refinement::TimeStep { checks.step } else { checks.mesh }))
 }
 
 /// The trajectories of a case, and what a finer step changes.
@@ -53,7 +53,8 @@ fn checked(
     isa: Isa,
     stop: bool,
 ) -> Result<(Vec<Trajectory>, Option<FinerCheck>), Error> {
-    checked_by(Refinement::TimeStep, case, threads, isa, stop).map(|(flown, check)| (flown, check.ok()))
+    checked_by(Refinement::TimeStep, case, threads, isa, stop)
+        .map(|(simulated, check)| (simulated, check.ok()))
 }
 
 /// What elements of half the length change.
@@ -95,8 +96,8 @@ fn apart(fibres: &[Trajectory], exact: &[Trajectory], instants: std::ops::RangeI
 fn checked_at(scheme: Scheme, step: f64, damping: f64) -> (Vec<Trajectory>, FinerCheck) {
     let mut case = table1(step, 0.5, 8);
     (case.run.scheme, case.run.damping) = (scheme, damping);
-    let (flown, check) = checked(&case, 1, Isa::detect(), false).expect("the case flies");
-    (flown, check.expect("500 instants"))
+    let (simulated, check) = checked(&case, 1, Isa::detect(), false).expect("the case flies");
+    (simulated, check.expect("500 instants"))
 }
 
 /// The fibre starts without tension, and the axial waves of the start run on for long. Implicit tension damps
@@ -116,7 +117,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
         ("belt.kept_length", "30 mm"),
     ]);
     case.run.replicates = 8;
-    let (flown, check) = checked(&case, 2, Isa::detect(), false).unwrap();
+    let (simulated, check) = checked(&case, 2, Isa::detect(), false).unwrap();
     let check = check.expect("long enough");
     assert_eq!(check.scheme, Scheme::Leapfrog);
     assert_eq!((check.replicates, check.error_of_step()), (8, Some(1.0)));
@@ -127,13 +128,13 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
     fine.set_time_step(check.time_step);
     let jobs: Vec<Job<'_>> = (0..8).map(|replicate| Job::new(&fine, replicate)).collect();
     let (stop, fibre_steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-    let resolved = fly_together(&jobs, Keep::SAMPLES, computing).unwrap();
-    let spread = off(&flown, &resolved, ["sigma_md", "sigma_cd"]);
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
+    let resolved = fly_together(&jobs, Recorded::SAMPLES, computing).unwrap();
+    let spread = off(&simulated, &resolved, ["sigma_md", "sigma_cd"]);
     let found = change(&check, "spread");
     // A touch-down more or less at the ends of the compared time, of 250 elements.
     assert!((found.mean - spread).abs() < 0.1 * spread.abs() + 1e-4, "{spread}, {found:?}");
-    let chord = off(&flown, &resolved, ["chord_over_arc"; 2]);
+    let chord = off(&simulated, &resolved, ["chord_over_arc"; 2]);
     assert!((change(&check, "chord_over_arc").mean - chord).abs() < 0.1 * chord.abs() + 1e-4, "{chord}");
     // Eight fibres of one metre are enough, because a pair stays together.
     assert!(found.standard_error.unwrap() < 0.01, "{found:?}");
@@ -213,7 +214,7 @@ fn order_of_the_error_of_the_mesh_is_what_two_halvings_show() {
     let allowed = 2.0 * 2.0 * factor * found.standard_error.unwrap() + error.abs() / 16.0;
     assert!((told - error).abs() < allowed && error > 0.1, "{told} for {error}");
     // Steps of other lengths, so that few crossings of the axis differ.
-    let (length, whole) = frequency.from_quarter.as_ref().expect("flown too");
+    let (length, whole) = frequency.from_quarter.as_ref().expect("simulated too");
     let near = 2.0 * whole.standard_error.unwrap();
     assert!((whole.mean - error).abs() < near && *length == 3.125e-3, "{whole:?} {error}");
 }
@@ -271,9 +272,10 @@ fn invariant_the_step_check_tells_the_error_of_the_step() {
         (Scheme::ImplicitTension, 5e-5, START),
         (Scheme::ImplicitTension, 2e-5, START),
     ] {
-        let (flown, check) = checked_at(scheme, h, 0.0);
+        let (simulated, check) = checked_at(scheme, h, 0.0);
         let instants = 1..=(check.duration / 1e-3).round() as usize;
-        let (error, change) = (apart(&flown, &converged, instants), check.path.as_ref().expect("paths").mean);
+        let (error, change) =
+            (apart(&simulated, &converged, instants), check.path.as_ref().expect("paths").mean);
         // The program takes the error to be at most 2.5 times the change.
         assert!(error < 2.5 * change + start, "{} at {h} s: {change:e} of {error:e}", scheme.name());
         assert!(change < 0.85 * error, "{} at {h} s: {change:e} of {error:e}", scheme.name());
@@ -285,8 +287,8 @@ fn invariant_the_step_check_tells_the_error_of_the_step() {
 /// half or three quarters. Damped, and seen after 0.4 s, the fibres have forgotten the waves of the start.
 #[test]
 fn order_of_the_error_is_what_half_the_step_shows() {
-    let flown = |scheme, step| checked_at(scheme, step, 20.0).0;
-    let converged = flown(Scheme::Leapfrog, 2e-6);
+    let simulated = |scheme, step| checked_at(scheme, step, 20.0).0;
+    let converged = simulated(Scheme::Leapfrog, 2e-6);
     // Found: 0.501, 0.758, and 0.719 and 0.690, where a little of the waves is left and steps are long.
     for (scheme, step, order, allowed) in [
         (Scheme::SemiImplicitEuler, 2e-5, 1, 0.02),
@@ -294,7 +296,7 @@ fn order_of_the_error_is_what_half_the_step_shows() {
         (Scheme::ImplicitTension, 5e-4, 2, 0.08),
         (Scheme::ImplicitTension, 2.5e-4, 2, 0.08),
     ] {
-        let [own, half] = [step, step / 2.0].map(|step| flown(scheme, step));
+        let [own, half] = [step, step / 2.0].map(|step| simulated(scheme, step));
         let share = apart(&own, &half, 400..=500) / apart(&own, &converged, 400..=500);
         let expected = 1.0 - 0.5f64.powi(order);
         assert!((share - expected).abs() < allowed, "{} at {step} s: {share}, not {expected}", scheme.name());
@@ -428,7 +430,7 @@ fn checks_count_the_turbulence_that_they_make() {
     );
     let whole = (20.0 * 2e5 + window) / all;
     assert!(whole > 0.1, "one flight of the check takes more than a tenth: {whole}");
-    // With 1 s nothing of it is worth its time; asked for, all is flown and its share told.
+    // With 1 s nothing of it is worth its time; asked for, all is simulated and its share told.
     let (short, mut full) = of(1.0, 65536);
     assert!(short.step.is_err() && short.mesh.is_err(), "{short:?}");
     full.run.checks = Checks::Full;

@@ -1,14 +1,14 @@
-//! The tension at the end of a spinline that flights find: a reader says what has to be flown, and whoever
+//! The tension at the end of a spinline that flights find: a reader says what has to be simulated, and whoever
 //! settles the file flies it.
 
 use spunlaid::air::Lateral;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::{Case, Note};
-use spunlaid::ground::{Control, Dimension, Error, Isa};
+use spunlaid::ground::{Dimension, Error, Isa, RunContext};
 use spunlaid::input::{
     CaseWithNotes, Overrides, Resources, StudyFile, parse_study, read_case, read_spinline, read_web,
 };
-use spunlaid::simulation::Keep;
+use spunlaid::simulation::Recorded;
 use spunlaid::simulation::ensemble::fly;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn case() -> String {
     let text = include_str!("../../../../cases/whole_line_fibre.toml");
     [
-        ("die_temperature", "end_tension = 'flown'\ndie_temperature"),
+        ("die_temperature", "end_tension = 'simulated'\ndie_temperature"),
         ("\"4 mm\"", "'20 mm'"),
         ("duration = \"1 s\"", "duration = '30 ms'\nspin_up = '12 ms'\nchecks = 'none'"),
         ("replicates = 8", "replicates = 2"),
@@ -39,11 +39,11 @@ fn owned(set: &[(&str, &str)]) -> Vec<(String, String)> {
     set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect()
 }
 
-fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
-    Control { threads, isa: Isa::detect(), stop, done: steps }
+fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunContext<'a> {
+    RunContext { threads, isa: Isa::detect(), stop, done: steps }
 }
 
-/// What a file is when everything has been flown, and how many tensions that took.
+/// What a file is when everything has been simulated, and how many tensions that took.
 fn settled<T>(threads: usize, read: impl Fn(Overrides<'_>) -> Result<T, Error>) -> (T, usize) {
     let (stop, steps, mut wanted) = (AtomicBool::new(false), AtomicU64::new(0), 0);
     let read = Resources::default().settle(
@@ -56,7 +56,7 @@ fn settled<T>(threads: usize, read: impl Fn(Overrides<'_>) -> Result<T, Error>) 
     (read.unwrap_or_else(|error| panic!("{error}")), wanted)
 }
 
-/// The case with such a value when everything has been flown.
+/// The case with such a value when everything has been simulated.
 fn settled_case(threads: usize, set: &[(&str, &str)]) -> CaseWithNotes {
     let set = owned(set);
     settled(threads, |known| read_case((&case(), NAME), Overrides { values: &set, ..known })).0
@@ -70,7 +70,7 @@ fn number(case: &Case, key: &str) -> f64 {
 fn tension_of(case: &Case) -> f64 {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut tensions = Vec::new();
-    fly::<Error>(case, Keep::NUMBERS, by(2, &stop, &steps), |one| {
+    fly::<Error>(case, Recorded::NUMBERS, by(2, &stop, &steps), |one| {
         tensions.push(one.number("root_tension"));
         Ok(())
     })
@@ -118,8 +118,8 @@ fn a_reader_flies_nothing_and_tells_what_has_to_be_flown() {
     resources.fly(by(1, &stop, &steps)).unwrap();
     let done = steps.into_inner() as f64 / most as f64;
     assert!((done - 1.0).abs() < 0.05, "{done}");
-    let (flown, _) = read_case((&self::case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
-    assert!(number(&flown, "feed.speed") > number(&zero, "feed.speed") && !flown.waits_for_flights());
+    let (simulated, _) = read_case((&self::case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
+    assert!(number(&simulated, "feed.speed") > number(&zero, "feed.speed") && !simulated.waits_for_flights());
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn rejects_flights_in_a_study_of_a_spinline_alone() {
     let read = parse_study(text, "study.toml", None, |_, _| Ok((case(), NAME.to_owned())));
     let said = read.unwrap_err().to_string();
     assert!(
-        said.contains("spinline.end_tension = \"flown\" needs flights, and a study of a spinline"),
+        said.contains("spinline.end_tension = \"simulated\" needs flights, and a study of a spinline"),
         "{said}"
     );
 }

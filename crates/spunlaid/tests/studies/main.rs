@@ -1,4 +1,4 @@
-//! Many flights: ensembles, studies, their effects, and fibres that are flown together.
+//! Many flights: ensembles, studies, their effects, and fibres that are simulated together.
 #![allow(clippy::expect_used, clippy::panic, clippy::unwrap_used)]
 
 #[path = "../common/mod.rs"]

@@ -8,10 +8,10 @@ use spunlaid::experiment::{
 };
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Value};
-use spunlaid::ground::{Control, Error, Estimate, Isa};
+use spunlaid::ground::{Error, Estimate, Isa, RunContext};
 use spunlaid::input::{StudyFile, parse_study, read_case, starter_case, write_case};
 use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Keep, Results, Trajectory};
+use spunlaid::simulation::{Recorded, Results, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -19,11 +19,11 @@ fn study(text: &str) -> StudyFile {
     short::study(SHORT, text)
 }
 
-fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> Control<'a> {
-    Control { threads, isa: Isa::detect(), stop, done: steps }
+fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunContext<'a> {
+    RunContext { threads, isa: Isa::detect(), stop, done: steps }
 }
 
-fn flown(study: &Study, threads: usize) -> Journal {
+fn simulated(study: &Study, threads: usize) -> Journal {
     let journal = Mutex::new(Journal::in_memory());
     let (stop, steps, progress) = (AtomicBool::new(false), AtomicU64::new(0), Progress::default());
     run(study, &journal, computing(threads, &stop, &steps), &progress).unwrap();
@@ -42,7 +42,7 @@ fn flown(study: &Study, threads: usize) -> Journal {
 fn single(case: &Case) -> Vec<Trajectory> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut flights = Vec::new();
-    let done: Result<(), Error> = fly(case, Keep::NUMBERS, computing(2, &stop, &steps), |flight| {
+    let done: Result<(), Error> = fly(case, Recorded::NUMBERS, computing(2, &stop, &steps), |flight| {
         flights.push(flight);
         Ok(())
     });
@@ -65,7 +65,7 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
     for common in [true, false] {
         let study = study(&format!("common_phases = {common}\n{MIXED}")).study;
         assert_eq!(study.points.len(), 12);
-        let mut journal = flown(&study, 2);
+        let mut journal = simulated(&study, 2);
         for (index, point) in study.points.iter().enumerate() {
             // `--print-point` prints exactly the point.
             let (case, _) = read_case((&write_case(case_of(point)), "point.toml"), &[]).unwrap();
@@ -114,12 +114,12 @@ fn seeds_of_points_differ_and_do_not_depend_on_other_points() {
 #[test]
 fn identical_for_any_threads_and_any_packing() {
     let study = study(MIXED).study;
-    let mut whole = flown(&study, 1);
+    let mut whole = simulated(&study, 1);
     let all = |journal: &mut Journal| -> Vec<Record> {
         (0..study.points.len()).flat_map(|point| journal.records(point, 99).unwrap()).collect()
     };
     let expected = all(&mut whole);
-    assert_eq!(all(&mut flown(&study, 3)), expected);
+    assert_eq!(all(&mut simulated(&study, 3)), expected);
     // Some fibres exist already, so the others are packed differently.
     for (offset, stride) in [(0, 2), (1, 3), (4, 7), (0, 60)] {
         let mut journal = Journal::in_memory();
@@ -130,7 +130,11 @@ fn identical_for_any_threads_and_any_packing() {
         run(&study, &journal, computing(2, &stop, &steps), &progress).unwrap();
         assert_eq!(all(&mut journal.into_inner().unwrap()), expected);
         let steps_per_fibre = case_of(&study.points[0]).run.steps;
-        assert_eq!(steps.into_inner(), (60 - there.len() as u64) * steps_per_fibre, "nothing is flown twice");
+        assert_eq!(
+            steps.into_inner(),
+            (60 - there.len() as u64) * steps_per_fibre,
+            "nothing is simulated twice"
+        );
     }
 }
 
@@ -140,11 +144,16 @@ fn flights_of_points_come_in_the_order_of_replicates() {
     let batches: Vec<Batch> = (0..12).map(|point| Batch { point, replicates: 1..4 }).collect();
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let mut taken = vec![Vec::new(); 12];
-    let done: Result<(), Error> =
-        fly_batches(&study.points, &batches, Keep::NUMBERS, computing(2, &stop, &steps), |point, flight| {
+    let done: Result<(), Error> = fly_batches(
+        &study.points,
+        &batches,
+        Recorded::NUMBERS,
+        computing(2, &stop, &steps),
+        |point, flight| {
             taken[point].push(flight.replicate);
             Ok(())
-        });
+        },
+    );
     done.unwrap();
     assert!(taken.iter().all(|replicates| *replicates == [1, 2, 3]));
 }
@@ -161,7 +170,7 @@ until = { amplitude_y = '10 %', frequency_y = 0.5 }
 'air.velocity' = ['5 m/s', '20 m/s']
 ";
     let study = study(text).study;
-    let mut journal = flown(&study, 2);
+    let mut journal = simulated(&study, 2);
     let counts: Vec<u64> = (0..2).map(|point| journal.held(point)).collect();
     for (point, count) in counts.iter().enumerate() {
         let results = results_of_point(&study, &mut journal, point).unwrap();
@@ -206,8 +215,8 @@ fn a_lost_fibre_costs_its_neighbours_nothing() {
     let mut bad = good.clone();
     (bad.fibre.diameter, bad.air.velocity) = (2e-6, 3000.0);
     let study = Study::from_cases([good.clone(), bad, good.clone()], Replicates::fixed(3));
-    let mut journal = flown(&study, 1);
-    let alone = flown(&Study::from_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
+    let mut journal = simulated(&study, 1);
+    let alone = simulated(&Study::from_cases([good], Replicates::fixed(3)), 1).records(0, 9).unwrap();
     for point in [0, 2] {
         let records = journal.records(point, 9).unwrap();
         assert!(records.iter().zip(&alone).all(|(a, b)| a.outcome == b.outcome));
@@ -376,7 +385,7 @@ fn identical_to_single_runs_where_words_vary() {
     let study = study(WORDS).study;
     // The base case, and every value that differs from its own.
     assert_eq!(study.points.len(), 1 + 2 + 1 + 1 + 1 + 2 + 2 + 2);
-    let mut journal = flown(&study, 2);
+    let mut journal = simulated(&study, 2);
     let mut different = std::collections::BTreeSet::new();
     for (index, point) in study.points.iter().enumerate() {
         let (case, _) = read_case((&write_case(case_of(point)), "point.toml"), &[]).unwrap();
@@ -396,7 +405,7 @@ fn identical_to_single_runs_where_elements_of_equal_number_differ_in_length() {
     let text = "case = 'c'\ndesign = 'paired'\nreplicates = 2\n[vary]\nfibre.length = ['1 m', '2 m']\n\
                 fibre.element_length = ['50 mm', '100 mm']\nair.length_scale = ['50 mm', '100 mm']\n";
     let study = study(text).study;
-    let mut journal = flown(&study, 1);
+    let mut journal = simulated(&study, 1);
     for (index, point) in study.points.iter().enumerate() {
         let records = journal.records(index, 9).unwrap();
         let landings: Vec<ReplicateOutcome> = records.iter().map(|record| record.outcome.clone()).collect();

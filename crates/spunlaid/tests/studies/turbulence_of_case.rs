@@ -5,7 +5,7 @@ use crate::company_cases::{CASES, with_files};
 use spunlaid::air::{Hint, Lateral, Wind};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys;
-use spunlaid::ground::threads::each;
+use spunlaid::ground::threads::par_map;
 use spunlaid::ground::{Isa, Vec3};
 use spunlaid::input::read_case;
 use spunlaid::simulation::Job;
@@ -99,7 +99,7 @@ fn the_turbulence_is_told_apart_if_and_only_if_other_air_is_drawn() {
     // Those with a spinline have no other air.
     let cases: Vec<_> = CASES.iter().filter(|(name, _)| !name.starts_with("spun")).collect();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let found = each(threads, cases.len(), |i| of_every_key(cases[i].0, cases[i].1));
+    let found = par_map(threads, cases.len(), |i| of_every_key(cases[i].0, cases[i].1));
     let wrong: Vec<&String> = found.iter().flat_map(|(_, wrong)| wrong).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
     let changing: BTreeSet<&str> = found.iter().flat_map(|(changing, _)| changing).copied().collect();

@@ -3,12 +3,12 @@
 use crate::web_studies::{study_beside_cases, web_beside_cases};
 use spunlaid::experiment::Batch;
 use spunlaid::experiment::study::fly_bundle;
-use spunlaid::ground::{Control, Dimension, Isa, Known, Measure, Value, measure};
+use spunlaid::ground::{Dimension, Isa, Known, Measure, RunContext, Value, measure};
 use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
 use spunlaid::simulation::layers::web_key;
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::map::PatchFindings;
-use spunlaid::web::{OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS};
+use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -83,7 +83,7 @@ filaments_per_metre = 300
 "#,
     ),
     (
-        "flown with charge",
+        "simulated with charge",
         r#"
 [laydown]
 case = "short.case"
@@ -94,13 +94,13 @@ walls = "0.1 m"
 [web]
 width = "300 mm"
 length = "100 mm"
-flown = "all"
+simulated = "all"
 cell = "2 mm"
 patches = ["20 mm"]
 "#,
     ),
     (
-        "flown",
+        "simulated",
         r#"
 [laydown]
 case = "short.case"
@@ -164,23 +164,24 @@ fn alone(text: &str, key: &str, value: &str, known: &mut BTreeMap<String, Vec<u6
 fn measured(spec: &WebSpec) -> Vec<u64> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let mut flown = Flyer::new(1, &stop, &follow).web(spec).unwrap();
-    let found = flown.find(Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid }).unwrap();
+    let mut simulated = Flyer::new(1, &stop, &follow).web(spec).unwrap();
+    let found =
+        simulated.find(RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid }).unwrap();
     // The strips that are cut off at the edges may leave no room for large patches.
     let patch = |side: f64| found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-9);
     let patches = spec.sheet.patches.iter().flat_map(|side| {
         let patch = patch(*side);
         patch_columns().map(move |of| patch.map_or(f64::NAN, |patch| of.number(patch)))
     });
-    let of_web = OF_WEBS.iter().map(|of| of.number(&found));
-    let fabric = spec.fabric(&flown.web, &found, 1);
+    let of_web = WEB_MEASURES.iter().map(|of| of.number(&found));
+    let fabric = spec.fabric(&simulated.web, &found, 1);
     let mut all: Vec<f64> = patches.chain(of_web).collect();
-    all.extend(told(OF_FABRICS, Some(&fabric)));
+    all.extend(told(FABRIC_MEASURES, Some(&fabric)));
     for side in [1e-3, 2e-3, 5e-3, 10e-3, 20e-3] {
         let patch = fabric.patches.iter().find(|patch| (patch.thin.patch / side - 1.0).abs() < 0.05);
-        all.extend(told(OF_FABRIC_PATCHES, patch));
+        all.extend(told(FABRIC_PATCH_MEASURES, patch));
     }
-    all.extend(fabric.strips.iter().flat_map(|strips| told(OF_STRIPS, strips.as_ref())));
+    all.extend(fabric.strips.iter().flat_map(|strips| told(STRIP_MEASURES, strips.as_ref())));
     all.into_iter().map(f64::to_bits).collect()
 }
 
@@ -200,7 +201,7 @@ fn told<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
 
 /// The measures of patches that studies keep, in the order of their columns.
 fn patch_columns() -> impl Iterator<Item = &'static Measure<PatchFindings>> {
-    measure::with_errors(OF_PATCHES).filter(|of| !of.name.is_empty())
+    measure::with_errors(PATCH_MEASURES).filter(|of| !of.name.is_empty())
 }
 
 /// What the two points of a study give, or why it is refused.
@@ -218,7 +219,7 @@ fn of_study(text: &str, study: &str, key: &str) -> Result<[Vec<u64>; 2], String>
     let study = study_beside_cases(text, study, &[]).map_err(|error| error.to_string())?.study;
     assert_ne!(study.points[0].experiment, study.points[1].experiment, "{key} is not set");
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
-    let computing = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
+    let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
     let bundle = [0, 1].map(|point| Batch { point, replicates: 0..1 });
     let records = fly_bundle((&study.points, &study.patch_sides()), &bundle, computing).unwrap();
     Ok([0, 1].map(|point| {
@@ -238,9 +239,10 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
     let mut refused = BTreeMap::new();
     for (name, text) in WEBS {
         let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
-        // What is not of a layer varies once, and a flown web, which takes long, varies only what the others cannot.
+        // What is not of a layer varies once, and a simulated web, which takes long, varies only what the others cannot.
         let done: BTreeSet<&str> = varied.iter().filter_map(|full| Some(web_key(full)?.name)).collect();
-        let is_once = |key: &WebKey| name.starts_with("flown") || ["web", "fabric"].contains(&key.table());
+        let is_once =
+            |key: &WebKey| name.starts_with("simulated") || ["web", "fabric"].contains(&key.table());
         let is_needed = |key: &&WebKey| key.varies && !(is_once(key) && done.contains(key.name));
         for key in WEB_KEYS.iter().filter(is_needed) {
             let full = full_name(&web, key);
@@ -278,7 +280,7 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// What is set in the flown case is set in a study of its web, and the belt is that of the case.
+/// What is set in the simulated case is set in a study of its web, and the belt is that of the case.
 #[test]
 fn keys_of_a_flown_case_are_set_in_a_study() {
     let (_, text) = WEBS[3];

@@ -123,7 +123,7 @@ fn identical_points_again_where_numbers_follow_from_others() {
             "throughput = \"0.5 g/min\"\nbasis_weight = \"2 g/m²\"",
         )
         .replace("filaments_per_metre = 200", "rows = [{ pitch = \"even\", filaments = 50 }]");
-    let flown = "[laydown]\ncase = 'spunbond.toml'\n[line]\nfilaments_per_metre = 5000\nbasis_weight = '20 g/m²'\n\
+    let simulated = "[laydown]\ncase = 'spunbond.toml'\n[line]\nfilaments_per_metre = 5000\nbasis_weight = '20 g/m²'\n\
                  [web]\nwidth = '1 m'\nlength = '1 m'\n";
     for (web, key, values) in [
         (&*known, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
@@ -134,11 +134,11 @@ fn identical_points_again_where_numbers_follow_from_others() {
         (&known, "fibre.density", "['905 kg/m³', '1340 kg/m³']"),
         (&known, "line.rows.1.filaments", "[40, 80]"),
         (&known, "web.width", "['250 mm', '500 mm']"),
-        (flown, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
-        (flown, "line.basis_weight", "['15 g/m²', '30 g/m²']"),
-        (flown, "belt.speed", "['3 m/s', '5 m/s']"),
-        (flown, "fibre.linear_density", "['1 dtex', '4 dtex']"),
-        (flown, "feed.speed", "['40 m/s', '60 m/s']"),
+        (simulated, "line.throughput", "['0.4 g/min', '0.6 g/min']"),
+        (simulated, "line.basis_weight", "['15 g/m²', '30 g/m²']"),
+        (simulated, "belt.speed", "['3 m/s', '5 m/s']"),
+        (simulated, "fibre.linear_density", "['1 dtex', '4 dtex']"),
+        (simulated, "feed.speed", "['40 m/s', '60 m/s']"),
     ] {
         let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n'{key}' = {values}\n");
         let file = study_of(web, &text, &[]).unwrap_or_else(|error| panic!("{key}: {error}"));
@@ -154,7 +154,7 @@ fn identical_points_again_where_numbers_follow_from_others() {
     // A basis weight that the study varies decides the belt of the case, and a belt that it varies the basis weight.
     let belts = |key: &str, values: &str| -> Vec<f64> {
         let text = format!("web = 'web.toml'\ndesign = 'grid'\n[vary]\n'{key}' = {values}\n");
-        let points = study_of(flown, &text, &[]).unwrap().study.points;
+        let points = study_of(simulated, &text, &[]).unwrap().study.points;
         points.iter().map(|point| layer(point).source.case().unwrap().line.unwrap().belt_speed).collect()
     };
     let [thin, thick] = belts("line.basis_weight", "['15 g/m²', '30 g/m²']")[..] else {
@@ -163,7 +163,7 @@ fn identical_points_again_where_numbers_follow_from_others() {
     assert!((thin / thick - 2.0).abs() < 1e-12, "{thin} {thick}");
     assert_eq!(belts("belt.speed", "['3 m/s', '5 m/s']"), [3.0, 5.0]);
     let set = "web = 'web.toml'\ndesign = 'grid'\n[set]\n'line.basis_weight' = '20 g/m²'\n[vary]\n";
-    let said = |vary: &str| study_of(flown, &format!("{set}{vary}\n"), &[]).unwrap_err().to_string();
+    let said = |vary: &str| study_of(simulated, &format!("{set}{vary}\n"), &[]).unwrap_err().to_string();
     let said = said("'belt.speed' = ['3 m/s']");
     let twice = "belt.speed is set to one value for all points by line.basis_weight, and varied";
     assert!(said.contains(twice), "{said}");
@@ -249,10 +249,10 @@ fn rejects_what_cannot_vary_of_a_layer() {
         let said = study_beside_cases(LAYERS, &text, &[]).unwrap_err().to_string();
         assert!(said.contains(wanted), "{line}\n{said}\n{wanted}");
     }
-    let flown = "[laydown]\ncase = 'short.case'\n[line]\nfilaments_per_metre = 5000\n\
+    let simulated = "[laydown]\ncase = 'short.case'\n[line]\nfilaments_per_metre = 5000\n\
                  [web]\nwidth = '250 mm'\nlength = '250 mm'\n";
     let text = "web = 'web.toml'\ndesign = 'grid'\n[vary]\nrun.replicates = [4]\n";
-    let said = study_beside_cases(flown, text, &[]).unwrap_err().to_string();
+    let said = study_beside_cases(simulated, text, &[]).unwrap_err().to_string();
     assert!(said.contains("the flights of all points have the same; write it under [set]"), "{said}");
 }
 

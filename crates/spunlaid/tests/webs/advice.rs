@@ -1,8 +1,8 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
 use spunlaid::experiment::advice::{advise, judged_by};
-use spunlaid::experiment::{Advice, Change, Tried, setting};
-use spunlaid::ground::{Control, Error, Isa, Setting, Turned};
+use spunlaid::experiment::{Advice, Change, SensitivityRun, setting};
+use spunlaid::ground::{Error, Isa, RunContext, Setting, Turned};
 use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use std::path::Path;
@@ -62,11 +62,11 @@ fn read(text: &str, set: &[(&str, &str)]) -> (WebFile, Vec<Change>) {
 fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error> {
     let (file, changes) = read(text, &[]);
     let (laid, on) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = Control { threads, isa: Isa::detect(), stop: &on, done: &laid };
+    let by = RunContext { threads, isa: Isa::detect(), stop: &on, done: &laid };
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
-    let mut flown = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
-    let findings = flown.find(by).unwrap();
-    advise(&file.spec, (&flown.web, &findings), changes, None, (None, Control { stop, ..by }))
+    let mut simulated = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
+    let findings = simulated.find(by).unwrap();
+    advise(&file.spec, (&simulated.web, &findings), changes, None, (None, RunContext { stop, ..by }))
 }
 
 fn weight(spec: &WebSpec) -> f64 {
@@ -108,7 +108,7 @@ fn no_change_makes_a_filament_faster_than_its_air() {
 fn invariant_every_changed_web_has_the_same_basis_weight() {
     let file = |name: &str| std::fs::read_to_string(Path::new(&cases()).with_file_name(name)).unwrap();
     let alone = |all: &[Setting]| all.iter().map(|setting| (*setting, None)).collect::<Vec<_>>();
-    let flown = alone(&[
+    let simulated = alone(&[
         setting::THROUGHPUT,
         setting::HOLES,
         setting::TITRE,
@@ -132,7 +132,7 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
         (setting::THROUGHPUT, Some(2)),
         (setting::HOLES, Some(2)),
     ];
-    let beams = [&beams[..], &flown[2..], &alone(&[setting::ROW_PLACES])].concat();
+    let beams = [&beams[..], &simulated[2..], &alone(&[setting::ROW_PLACES])].concat();
     let weight_written: &[(&str, &str)] = &[("line.basis_weight", "15 g/m²")];
     // With a fifth more throughput, a fifth finer, or in air a fifth slower, a filament of 50 m/s is too fast for its
     // air of 60 m/s.
@@ -140,9 +140,9 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
         (STRAIGHT, &[][..], alone(&[setting::THROUGHPUT, setting::HOLES, setting::TITRE]), 0),
         (STRAIGHT, weight_written, alone(&[setting::THROUGHPUT, setting::HOLES, setting::TITRE]), 0),
         (BEAMS, &[], beams, 3),
-        (&file("web.toml"), &[], flown.clone(), 3),
-        (&file("web.toml"), weight_written, flown.clone(), 3),
-        (&file("web_shared.toml"), &[], [&flown[..], &alone(&[setting::DEPTH])].concat(), 3),
+        (&file("web.toml"), &[], simulated.clone(), 3),
+        (&file("web.toml"), weight_written, simulated.clone(), 3),
+        (&file("web_shared.toml"), &[], [&simulated[..], &alone(&[setting::DEPTH])].concat(), 3),
         (&file("whole_line.toml"), &[], spun, 0),
     ] {
         let (base, changes) = read(text, set);
@@ -157,7 +157,7 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
             assert!((common / weight(&changes[0].experiment.spec) - 1.0).abs() < 1e-9, "{name}");
             assert!((common / weight(&base.spec) - 1.0).abs() < tolerance, "{name}");
             for (before, after) in base.spec.layers.iter().zip(&change.experiment.spec.layers) {
-                // All lie on one belt, above which the cases are flown.
+                // All lie on one belt, above which the cases are simulated.
                 assert_eq!(after.belt_speed, change.experiment.spec.layers[0].belt_speed, "{name}");
                 if let LaydownSource::Case { case, .. } = &after.source {
                     assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
@@ -332,7 +332,7 @@ fn analytic_titre_of_straight_filaments() {
     let advice = advice(STRAIGHT, 2, &AtomicBool::new(false)).unwrap();
     assert_eq!(advice.failed, []);
     let change = |setting: Setting, more: bool| {
-        let found = advice.tried.iter().find(|Tried { change, .. }| {
+        let found = advice.tried.iter().find(|SensitivityRun { change, .. }| {
             change.setting == setting && (change.keys[0].to > change.keys[0].from) == more
         });
         found.unwrap().effects[0].difference
@@ -369,7 +369,7 @@ fn advice_ends_when_it_is_stopped() {
 #[test]
 fn a_charge_is_changed_where_it_is_given() {
     let web = "[laydown]\ncase = \"spunbond_slot.toml\"\n[line]\nfilaments_per_metre = 5000\n\
-        depth = \"20 mm\"\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
+        slot_gap = \"20 mm\"\n[web]\nwidth = \"0.5 m\"\nlength = \"0.5 m\"\n";
     let of_charge = |set: &[(&str, &str)]| -> Vec<(f64, f64)> {
         let (_, changes) = read(web, set);
         assert!(changes.iter().any(|change| change.setting == setting::DEPTH));

@@ -1,9 +1,9 @@
-//! Charged filaments of a web in one air: nothing without charge, and the square of the charge with it.
+//! Charged filaments of a web in shared turbulence: nothing without charge, and the square of the charge with it.
 
 use super::one_air::{case_in, sheet};
 use spunlaid::fibre::{Case, Charge};
 use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::read_case;
 use spunlaid::simulation::{Beam, BeamCharge, BeamFindings};
 use spunlaid::web::{LaidWeb, Window};
@@ -35,7 +35,7 @@ fn lay(
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [5e-3, 5e-3], sides: [10e-3; 2] };
     let beam = Beam { charge, ..Beam::new(case, places) };
-    beam.lay(&sheet(COLUMNS, 32), window, Control { threads, isa, stop: &stop, done: &steps }).unwrap()
+    beam.lay(&sheet(COLUMNS, 32), window, RunContext { threads, isa, stop: &stop, done: &steps }).unwrap()
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn identical_without_charge_and_with_none_of_it() {
     let (none, of_none) = lay(&case, (&places, Some(&charge(0.0, &places))), by);
     assert_eq!(plain.map.cells, none.map.cells);
     assert_eq!(of_plain.kept, of_none.kept);
-    assert!(plain.flown[0].charged.is_none() && none.flown[0].charged.is_none());
+    assert!(plain.simulated[0].charged.is_none() && none.simulated[0].charged.is_none());
     let (charged, of_charged) = lay(&case, (&places, Some(&charge(2e-3, &places))), by);
     assert_ne!(plain.map.cells, charged.map.cells);
     assert_ne!(of_plain.kept, of_charged.kept);
@@ -61,7 +61,7 @@ fn identical_charged_webs_for_any_number_of_threads_and_any_registers() {
         let (other, of_other) = lay(&case, (&places, Some(&charge)), (isa, threads));
         assert_eq!(one.map.cells, other.map.cells, "{isa:?}");
         assert_eq!(of_one.kept, of_other.kept, "{isa:?}");
-        assert_eq!(one.flown[0].charged, other.flown[0].charged, "{isa:?}");
+        assert_eq!(one.simulated[0].charged, other.simulated[0].charged, "{isa:?}");
     }
 }
 
@@ -81,14 +81,14 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
     let opened = |per_mass: f64, count: usize| {
         let places = slot(count);
         let charge = charge(per_mass, &places);
-        let (_, flown) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
+        let (_, simulated) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
         let belt = case.line.unwrap().belt_speed;
         let of_filament = |(filament, points): &(usize, Vec<spunlaid::fibre::LaidPoint>)| {
             let points: Vec<f64> = points.iter().map(|point| point.md + belt * point.time).collect();
             let mean = points.iter().sum::<f64>() / points.len() as f64;
             mean * places[*filament].y.signum()
         };
-        flown.kept.iter().map(of_filament).sum::<f64>() / flown.kept.len() as f64
+        simulated.kept.iter().map(of_filament).sum::<f64>() / simulated.kept.len() as f64
     };
     let none = opened(0.0, 32);
     let [once, twice, minus, few] = [(6e-3, 32), (12e-3, 32), (-6e-3, 32), (12e-3, 16)]
@@ -113,7 +113,7 @@ fn limit_a_charge_of_next_to_nothing_keeps_the_load_on_the_air() {
     }
 }
 
-/// The load is known however many steps an element takes, also where it takes more than are flown at a time.
+/// The load is known however many steps an element takes, also where it takes more than are simulated at a time.
 #[test]
 fn limit_the_load_on_the_air_does_not_depend_on_the_steps_of_an_element() {
     let (case, places) = (case_in("uniform"), slot(3));

@@ -1,4 +1,4 @@
-//! Filaments that are filled in between flown ones, against the same filaments as they are flown.
+//! Filaments that are filled in between simulated ones, against the same filaments as they are simulated.
 
 use super::one_air::{case_in, cv, lay_by, row, sheet as sheet_of};
 use spunlaid::ground::Isa;
@@ -23,10 +23,10 @@ fn correlation(maps: [&Map; 2], cell: f64) -> f64 {
 fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let (case, sheet) = (case_in("von-karman"), sheet_of(32, 64));
     let places = row(&sheet, 64);
-    let (_, flown) = lay_by((&case, &sheet), &places, Isa::detect(), 2);
+    let (_, simulated) = lay_by((&case, &sheet), &places, Isa::detect(), 2);
     let line = case.line.unwrap();
     let start = line.feed_speed * case.run.spin_up();
-    let curves = flown.kept.iter().map(|(_, points)| {
+    let curves = simulated.kept.iter().map(|(_, points)| {
         let points = points.iter().filter(|point| point.fed >= start);
         points.map(|point| [point.md + line.belt_ratio() * point.fed, point.cd]).collect()
     });
@@ -44,12 +44,12 @@ fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let laid = |curtain: &dyn Curtain| {
         lay(curtain, belt, case.fibre.element_mass(), (2, &AtomicBool::new(false))).unwrap()
     };
-    let [(flown, strands), (filled, filled_strands)] = [laid(&all), laid(&filling)];
-    let maps = [&flown.map, &filled.map];
+    let [(simulated, strands), (filled, filled_strands)] = [laid(&all), laid(&filling)];
+    let maps = [&simulated.map, &filled.map];
     let alike = [2e-3, 8e-3].map(|cell| correlation(maps, cell));
     assert!(alike[0] > 0.93 && alike[1] > 0.985, "{alike:?}");
     for (side, most) in [(5, 0.06), (10, 0.05)] {
-        let change = cv(&filled.map, side) / cv(&flown.map, side) - 1.0;
+        let change = cv(&filled.map, side) / cv(&simulated.map, side) - 1.0;
         assert!(change.abs() < most, "{side}: {change}");
     }
     assert!(!strands.is_empty() && filled_strands.len() > strands.len() / 2);

@@ -1,7 +1,7 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
-use spunlaid::ground::{Control, Estimate, Isa};
+use spunlaid::ground::{Estimate, Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::map::{lay, strands};
@@ -52,7 +52,7 @@ fn missing(whole: &Map, other: &Map) -> (f64, f64) {
 fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() {
     let spec = read_web((KNOWN, "known.toml"), &[]).unwrap().spec;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = |threads| Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = |threads| RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let lay_with = |defects: &[Defect], threads: usize| {
         let spec = with(&spec, defects);
         let flyer = Flyer::new(threads, &stop, &unwatched);
@@ -96,7 +96,7 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() 
 #[test]
 fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = |threads| Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = |threads| RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let small = read(&[("web.length", "0.1 m"), ("web.window", "20 mm")]).spec;
     let blocked = Defect { from: Some(0.05), ..Defect::USUAL };
     let check = |spec: &WebSpec, lay: &dyn Fn(&WebSpec, usize) -> LaidWeb| {
@@ -114,13 +114,13 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
         let (less, _) = missing(&whole.map, &half.map);
         assert!((less / mass - 0.5).abs() < 1e-3, "{less} {mass}");
     };
-    let flown = |spec: &WebSpec, threads| {
+    let simulated = |spec: &WebSpec, threads| {
         Flyer::new(threads, &stop, &unwatched).web(spec).unwrap().find(by(threads)).unwrap().laid
     };
-    check(&small, &flown);
-    let set = [("web.length", "0.1 m"), ("web.window", "20 mm"), ("web.flown", "all")];
+    check(&small, &simulated);
+    let set = [("web.length", "0.1 m"), ("web.window", "20 mm"), ("web.simulated", "all")];
     let all = read(&[&set[..], &[("line.filaments_per_metre", "100")]].concat()).spec;
-    check(&all, &flown);
+    check(&all, &simulated);
 }
 
 #[test]
@@ -150,12 +150,12 @@ fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
 fn stat_the_errors_of_basis_weight_and_clouds() {
     const SEEDS: u64 = 40;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     let rows = KNOWN.lines().find(|line| line.starts_with("rows")).unwrap();
     let many = "filaments_per_metre = 2000\n";
     for (filaments, edges) in [
         (format!("{rows}\ndefects = [{{ share = 0.1, titre = 0.3 }}]"), "periodic"),
-        (format!("{many}depth = \"10 mm\""), "cut"),
+        (format!("{many}slot_gap = \"10 mm\""), "cut"),
         ("filaments_per_metre = 300\n".to_owned(), "cut"),
     ] {
         let text = format!("{}edges = \"{edges}\"\n", KNOWN.replace(rows, &filaments));

@@ -1,10 +1,10 @@
-//! How many filaments of a web in one air are flown for all of them.
+//! How many filaments of a web in shared turbulence are simulated for all of them.
 
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WebSpec};
 use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{FewDoubt, LayerFew};
+use spunlaid::web::{SubsampleEstimate, SubsampleWarning};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A row on so short a way that neighbours hardly know of each other.
@@ -39,26 +39,26 @@ length = \"20 mm\"
 cell = \"1 mm\"
 ";
 
-/// What the filaments say that are flown for all.
-fn told(flown: &str) -> LayerFew {
-    found(&format!("{WEB}flown = {flown}\n")).laid.flown[0].few.clone().unwrap()
+/// What the filaments say that are simulated for all.
+fn told(simulated: &str) -> SubsampleEstimate {
+    found(&format!("{WEB}simulated = {simulated}\n")).laid.simulated[0].few.clone().unwrap()
 }
 
 fn found(text: &str) -> Findings {
     let spec: WebSpec = read_web((text, "web.toml"), &[]).unwrap_or_else(|_| panic!("it is read")).spec;
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut web = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     web.find(by).unwrap()
 }
 
 /// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then
-/// four times as many are flown, as a number would say; a number is flown as it is.
+/// four times as many are simulated, as a number would say; a number is simulated as it is.
 #[test]
 fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell() {
     let [usual, fine, first] = ["\"auto\"", "2000", "500"].map(told);
     assert_eq!([&usual, &first].map(|few| few.filaments + few.lost), [320, 80]);
-    assert!(matches!(first.doubt(), Some(FewDoubt::Neighbours(_))), "{}", first.correlation);
+    assert!(matches!(first.doubt(), Some(SubsampleWarning::Neighbours(_))), "{}", first.correlation);
     assert_eq!(format!("{usual:?}"), format!("{fine:?}"));
     assert!((usual.pitch - 0.5e-3).abs() < 1e-12 && (first.pitch - 2e-3).abs() < 1e-12);
 }
@@ -119,16 +119,16 @@ fn identical_two_levels_on_any_number_of_threads() {
     let of = |error: &str, threads: usize| {
         let spec = read_web((format!("{text}error = {error}\n").as_str(), "web.toml"), &[]).unwrap().spec;
         let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-        let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+        let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
         let mut web = Flyer::new(threads, &stop, &|_, work| work()).web(&spec).unwrap();
-        web.find(by).unwrap().laid.flown[0].few.clone().unwrap()
+        web.find(by).unwrap().laid.simulated[0].few.clone().unwrap()
     };
     let [alone, one, two] =
         [("\"none\"", 1), ("0.2", 1), ("0.2", 2)].map(|(error, threads)| of(error, threads));
     assert_eq!(format!("{one:?}"), format!("{two:?}"));
     assert!(one.is_of_two_levels() && !alone.is_of_two_levels(), "{one:?}");
     // Over ten times the area the clouds leave a third of the error open.
-    let error = |few: &LayerFew| {
+    let error = |few: &SubsampleEstimate| {
         let cv = few.cvs.iter().find(|cv| cv.patch == 0.01).unwrap();
         cv.by_chance.map(|error| error / cv.cv)
     };

@@ -35,7 +35,7 @@ fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     assert!((0.3..3.0).contains(&(standard_error / least)), "{standard_error}, {least}");
 }
 
-/// Two keys that make up for each other in part; and the journal holds all webs, so that the same fit lays none anew.
+/// Two keys that make up for each other in part; and the journal holds all webs, so that the same fit lays none again.
 #[test]
 fn identical_from_the_journal_with_values_within_their_intervals() {
     let file = read(SMALL, &["laydown.noise=4 m^-0.5..48 m^-0.5", "line.filaments_per_metre"]);
@@ -61,7 +61,7 @@ fn identical_from_the_journal_with_values_within_their_intervals() {
 #[test]
 fn a_key_without_effect_is_named() {
     let text = SMALL.replace("filaments_per_metre = 250", "filaments_per_metre = 250\ndepth = \"10 mm\"");
-    let file = read(&text, &["line.depth", "line.filaments_per_metre"]);
+    let file = read(&text, &["line.slot_gap", "line.filaments_per_metre"]);
     let scan = scanned(&laid(&file, &[0.01, 350.0], 1000));
     let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory()).unwrap();
     assert_eq!(found.keys[0].doubt, Some(KeyDoubt::NoEffect), "{found:?}");
@@ -86,9 +86,9 @@ fn what_cannot_be_compared_is_refused() {
     assert!(target(&even).contains("does not vary"), "{}", target(&even));
     let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory()).unwrap_err().to_string();
     assert!(few.contains("too few to see a difference beyond chance"), "{few}");
-    // The lamp is a guess: values, but no intervals.
-    let guessed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
-    let found = fitted(&file, &guessed, false, 8, &mut Journal::in_memory()).unwrap();
+    // The lamp is an assumed value: values, but no intervals.
+    let assumed = MeasuredWeb { doubt: Some("the level of the lamp is a guess".to_owned()), ..scan };
+    let found = fitted(&file, &assumed, false, 8, &mut Journal::in_memory()).unwrap();
     assert_eq!(found.keys[0].interval, Err("the level of the lamp is a guess".to_owned()));
 }
 
@@ -101,7 +101,7 @@ fn few_filaments_of_a_trial_are_held_against_all_in_the_same_air() {
 case = \"spunbond_slot.toml\"
 [line]
 filaments_per_metre = 2000
-depth = \"5 mm\"
+slot_gap = \"5 mm\"
 [belt]
 distance = \"0.1 m\"
 speed = \"5 m/s\"
@@ -114,15 +114,15 @@ length_factor = 0.25
 width = \"40 mm\"
 length = \"30 mm\"
 cell = \"0.5 mm\"
-flown = 250
+simulated = 250
 ";
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web_shared.toml");
     let read = |set: &[(String, String)]| {
         let set = Overrides::new(set, "--set");
-        read_fit((LINE, path), set, &["line.depth".to_owned()], "--vary").unwrap()
+        read_fit((LINE, path), set, &["line.slot_gap".to_owned()], "--vary").unwrap()
     };
     let few = read(&[]);
-    let all = read(&[("web.flown".to_owned(), "\"all\"".to_owned())]);
+    let all = read(&[("web.simulated".to_owned(), "\"all\"".to_owned())]);
     let map = laid(&all, &[5e-3], 1);
     let patch = |side| MeasuredPatch { side, noise: 0.0, blur: 0.0 };
     let patches = [1e-3, 2e-3, 5e-3].map(patch).to_vec();

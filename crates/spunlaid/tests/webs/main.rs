@@ -2,12 +2,12 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 mod advice;
+mod assumed_values;
 mod charge;
 mod curtain;
 mod defects;
 mod few_filaments;
 mod fit;
-mod guesses;
 mod neighbours;
 mod one_air;
 mod pinned;

@@ -6,7 +6,7 @@ use spunlaid::ground::place::Inlet;
 use spunlaid::simulation::BeamFindings;
 use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
-fn flown(lateral: &str, sheet: &Sheet, places: &[Inlet], threads: usize) -> BeamFindings {
+fn simulated(lateral: &str, sheet: &Sheet, places: &[Inlet], threads: usize) -> BeamFindings {
     lay_by((&case_in(lateral), sheet), places, Isa::detect(), threads).1
 }
 
@@ -18,14 +18,14 @@ fn both(neighbour: &NeighbourCorrelation) -> [Correlation; 2] {
 #[test]
 fn limit_neighbours_in_the_same_air_have_a_correlation_of_one() {
     let sheet = sheet(24, 200);
-    let flown = flown("uniform", &sheet, &row(&sheet, 24), 2);
-    let distances: Vec<f64> = flown.layer.neighbours.iter().map(|neighbour| neighbour.distance).collect();
+    let simulated = simulated("uniform", &sheet, &row(&sheet, 24), 2);
+    let distances: Vec<f64> = simulated.layer.neighbours.iter().map(|neighbour| neighbour.distance).collect();
     // Once, twice, five and ten times the pitch of a millimetre, up to half of the width.
     assert_eq!(distances.len(), 4);
     for (found, wanted) in distances.iter().zip([1e-3, 2e-3, 5e-3, 10e-3]) {
         assert!((found - wanted).abs() < 1e-9, "{found} {wanted}");
     }
-    for correlation in flown.layer.neighbours.iter().flat_map(both) {
+    for correlation in simulated.layer.neighbours.iter().flat_map(both) {
         assert!((correlation.value - 1.0).abs() < 1e-9, "{correlation:?}");
     }
 }
@@ -39,20 +39,20 @@ fn analytic_rows_have_neighbours_of_their_own() {
     let mut places: Vec<Inlet> =
         rows.iter().flat_map(|row| (0..row.filaments).map(move |i| place(row, i))).collect();
     places.sort_by(|a, b| a.z.total_cmp(&b.z));
-    let flown = flown("uniform", &sheet, &places, 2);
+    let simulated = simulated("uniform", &sheet, &places, 2);
     let distances: Vec<f64> =
-        flown.layer.neighbours.iter().map(|neighbour| 1e3 * neighbour.distance).collect();
+        simulated.layer.neighbours.iter().map(|neighbour| 1e3 * neighbour.distance).collect();
     assert_eq!(distances.len(), 3, "{distances:?}");
     assert!((distances[0] - 2.0).abs() < 1e-9 && (distances[2] - 10.0).abs() < 1e-9, "{distances:?}");
     // A single filament has none.
-    assert!(self::flown("uniform", &sheet, &places[..1], 2).layer.neighbours.is_empty());
+    assert!(self::simulated("uniform", &sheet, &places[..1], 2).layer.neighbours.is_empty());
 }
 
 #[test]
 fn identical_neighbours_on_any_threads() {
     let sheet = sheet(24, 64);
     let places = row(&sheet, 12);
-    let of = |threads| flown("von-karman", &sheet, &places, threads).layer.neighbours;
+    let of = |threads| simulated("von-karman", &sheet, &places, threads).layer.neighbours;
     let one = of(1);
     assert!(!one.is_empty());
     assert_eq!(of(2), one);

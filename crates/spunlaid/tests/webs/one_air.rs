@@ -1,19 +1,19 @@
-//! All filaments of a beam, flown together: limits that hold exactly, and nothing that depends on the threads.
+//! All filaments of a beam, simulated together: limits that hold exactly, and nothing that depends on the threads.
 
 use spunlaid::air::Lateral;
 use spunlaid::fibre::Case;
 use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::read_case;
 use spunlaid::simulation::{Beam, BeamFindings};
-use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::{LaidWeb, Map, Sheet, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const CELL: f64 = 1e-3;
 
-/// A short line, so that little has to be flown.
+/// A short line, so that little has to be simulated.
 fn case() -> Case {
     case_in("uniform")
 }
@@ -50,7 +50,7 @@ pub(super) fn lay_by(
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam::new(case, places);
-    let laid = beam.lay(sheet, window, Control { threads, isa, stop: &stop, done: &steps }).unwrap();
+    let laid = beam.lay(sheet, window, RunContext { threads, isa, stop: &stop, done: &steps }).unwrap();
     assert!(steps.into_inner() > 0);
     laid
 }
@@ -60,7 +60,7 @@ fn lay(sheet: &Sheet, places: &[Inlet]) -> (LaidWeb, BeamFindings) {
 }
 
 pub(super) fn cv(map: &Map, side: usize) -> f64 {
-    unevenness(map, side).unwrap().cv
+    patch_cv(map, side).unwrap().cv
 }
 
 /// In an air that is the same for all, a row at even pitch has no variation across, only bars along the belt.
@@ -99,7 +99,7 @@ fn rows_lay_bars(case: &Case, most: f64) {
     assert!(bars > 0.1, "{bars}");
 }
 
-/// N filaments at one place in one air are N times one curve, with the unevenness of one.
+/// N filaments at one place in one air are N times one curve, with the CV of one.
 #[test]
 fn analytic_filaments_at_one_place_have_the_unevenness_of_one() {
     let sheet = sheet(32, 64);
@@ -141,14 +141,14 @@ fn identical_on_any_threads_and_instruction_sets() {
     for lateral in ["uniform", "von-karman"] {
         let (case, places) = (case_in(lateral), slot(&sheet, 12));
         let lay = |isa, threads| lay_by((&case, &sheet), &places, isa, threads);
-        let (one, flown) = lay(Isa::detect(), 1);
-        let strands = |laid: &LaidWeb| laid.flown[0].strands.clone();
+        let (one, simulated) = lay(Isa::detect(), 1);
+        let strands = |laid: &LaidWeb| laid.simulated[0].strands.clone();
         assert!(!strands(&one).is_empty());
         for (isa, threads) in Isa::available().into_iter().zip([2, 3, 1].into_iter().cycle()) {
             let (other, again) = lay(isa, threads);
             assert_eq!(other.map, one.map, "{lateral}: {} on {threads} threads", isa.name());
             assert_eq!(strands(&other), strands(&one), "{lateral}: {}", isa.name());
-            assert_eq!(again.kept, flown.kept, "{lateral}: {}", isa.name());
+            assert_eq!(again.kept, simulated.kept, "{lateral}: {}", isa.name());
         }
     }
 }
@@ -173,17 +173,17 @@ fn identical_a_filament_whatever_flies_beside_it() {
 #[test]
 fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let (sheet, case) = (sheet(64, 400), case_in("von-karman"));
-    let unevenness = |places: &[Inlet]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
+    let patch_cv = |places: &[Inlet]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
     let place = Inlet { y: 0.0, z: 30e-3 };
-    let (one, three) = (unevenness(&[place]), unevenness(&[place; 3]));
+    let (one, three) = (patch_cv(&[place]), patch_cv(&[place; 3]));
     assert!((three / one - 1.0).abs() < 1e-5, "{three} {one}");
     // The variances of independent ones add up, and at an even pitch even less is left.
-    let (row, independent) = (unevenness(&row(&sheet, 64)), one / 8.0);
+    let (row, independent) = (patch_cv(&row(&sheet, 64)), one / 8.0);
     assert!(row > 1.1 * independent, "{row} {independent}");
     assert!(row < 0.5 * one, "{row} {one}");
 }
 
-/// Filaments that do not reach the belt are lost, and without them there is no web. What cannot be flown says so.
+/// Filaments that do not reach the belt are lost, and without them there is no web. What cannot be simulated says so.
 #[test]
 fn rejects_a_beam_that_loses_its_filaments() {
     let sheet = sheet(24, 32);
@@ -193,7 +193,7 @@ fn rejects_a_beam_that_loses_its_filaments() {
     let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam::new(&case, &places);
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };
     let said = beam.lay(&sheet, window, by).unwrap_err().to_string();
     assert!(said.contains("of 12 filaments were lost"), "{said}");
 

@@ -2,19 +2,19 @@
 
 use crate::same_air::read;
 use spunlaid::experiment::advice::{LOOKS, Look, PinnedWeb, Seen};
-use spunlaid::ground::{Control, Error, Isa};
+use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::WebFile;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Enough filaments that half of them stand for all.
 fn line(set: &[(&str, &str)]) -> WebFile {
-    read(&[&[("web.flown", "1000"), ("belt.speed", "10 m/s")], set].concat())
+    read(&[&[("web.simulated", "1000"), ("belt.speed", "10 m/s")], set].concat())
 }
 
 /// What is seen of a web, and of changed ones in its turbulence: looks, and the number of points that were shown.
 fn looks(threads: usize, webs: &[&WebFile]) -> Vec<(Vec<Look>, usize)> {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads, isa: Isa::detect(), stop: &stop, done: &done };
+    let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &done };
     let mut all = Vec::new();
     let mut pinned = None;
     for web in webs {
@@ -53,7 +53,7 @@ fn limit_a_web_in_its_own_turbulence_has_not_changed() {
         }
     }
     assert!(seen[1].0.iter().all(|look| look.changes.len() == 2), "{seen:?}");
-    // One that has to be flown begins and ends with the same air.
+    // One that has to be simulated begins and ends with the same air.
     for change in seen[2].0.iter().flat_map(|look| &look.changes) {
         assert!(change.difference.value.abs() < 0.03 && change.in_common.unwrap() > 0.9, "{change:?}");
     }
@@ -61,7 +61,7 @@ fn limit_a_web_in_its_own_turbulence_has_not_changed() {
     assert!(seen[2].1 > 0);
 }
 
-/// A web that needs a larger room is flown beside the pinned one; the two ways to compare agree where both can be gone.
+/// A web that needs a larger room is simulated beside the pinned one; the two ways to compare agree where both can be gone.
 #[test]
 fn stat_a_changed_web_alone_in_the_room_and_beside_the_pinned_one_agree() {
     let (web, farther, far) =
@@ -81,7 +81,7 @@ fn stat_a_changed_web_alone_in_the_room_and_beside_the_pinned_one_agree() {
 /// Half of 64 filaments leave open what those between them do, so the flight begins again with all of them.
 #[test]
 fn filaments_that_are_too_few_are_doubled() {
-    let web = read(&[("web.flown", "400"), ("belt.speed", "10 m/s")]);
+    let web = read(&[("web.simulated", "400"), ("belt.speed", "10 m/s")]);
     let seen = looks(2, &[&web, &web]);
     assert_eq!(seen[0].0.len(), LOOKS.len());
     assert!(seen[1].0.iter().all(|look| look.changes.len() == 2), "{seen:?}");
@@ -100,7 +100,7 @@ fn stat_a_web_on_a_slower_belt_has_the_clouds_of_the_pinned_one() {
 #[test]
 fn a_flight_that_is_stopped_ends_between_two_blocks() {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
     let mut blocks = 0;
     let mut see = |_: Seen| {
         blocks += 1;

@@ -2,23 +2,23 @@
 
 use spunlaid::input::{Overrides, WebFile, read_web};
 use spunlaid::simulation::{Compared, Flights, Flyer};
-use spunlaid::web::LayerFew;
+use spunlaid::web::SubsampleEstimate;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
-/// A short line above a fast belt, so that little has to be flown.
+/// A short line above a fast belt, so that little has to be simulated.
 const WEB: &str = "
 [laydown]
 case = \"spunbond_slot.toml\"
 [line]
 filaments_per_metre = 2000
-depth = \"10 mm\"
+slot_gap = \"10 mm\"
 [web]
 width = \"0.16 m\"
 length = \"0.2 m\"
 cell = \"1 mm\"
 patches = [\"5 mm\", \"10 mm\"]
-flown = 150
+simulated = 150
 ";
 const SHORT: [(&str, &str); 5] = [
     ("belt.distance", "0.1 m"),
@@ -41,7 +41,7 @@ pub(super) fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
     work();
 }
 
-fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
+fn few(webs: &[&WebFile], threads: usize) -> Vec<SubsampleEstimate> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
     let flyer = Flyer::new(threads, &stop, &unwatched);
@@ -54,8 +54,9 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<LayerFew> {
 fn identical_a_web_beside_itself_has_not_changed() {
     let (web, farther) = (read(&[]), read(&[("belt.distance", "0.12 m")]));
     // Sixteen filaments are too few to tell the CV of all, but what they have laid is told, block by block.
-    let laid =
-        |few: &LayerFew| (few.sheet, few.blocks.clone(), few.cvs.iter().map(|cv| cv.few).collect::<Vec<_>>());
+    let laid = |few: &SubsampleEstimate| {
+        (few.sheet, few.blocks.clone(), few.cvs.iter().map(|cv| cv.few).collect::<Vec<_>>())
+    };
     let [one, two] =
         [1, 2].map(|threads| few(&[&web, &farther, &web], threads).iter().map(laid).collect::<Vec<_>>());
     assert_eq!(one, two);
@@ -64,16 +65,16 @@ fn identical_a_web_beside_itself_has_not_changed() {
 }
 
 /// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt
-/// is told by the same flight, as if it had been flown anew.
+/// is told by the same flight, as if it had been simulated again.
 #[test]
 fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
     let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.16 m")];
     let (web, slower) = (read(&[]), read(set));
     // The belt that is named first says for how long they fly.
-    let [told, flown] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
-    for (told, flown) in told.cvs.iter().zip(&flown.cvs) {
-        println!("{} {}", told.few, flown.few);
-        assert!((told.few / flown.few - 1.0).abs() < 0.03, "{told:?} {flown:?}");
+    let [told, simulated] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
+    for (told, simulated) in told.cvs.iter().zip(&simulated.cvs) {
+        println!("{} {}", told.few, simulated.few);
+        assert!((told.few / simulated.few - 1.0).abs() < 0.03, "{told:?} {simulated:?}");
     }
     assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
 }

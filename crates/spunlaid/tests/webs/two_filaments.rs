@@ -1,4 +1,4 @@
-//! The unevenness of a web in one air from what two of its filaments have in common.
+//! The CV of a web in shared turbulence from what two of its filaments have in common.
 
 use crate::one_air::{case_in, cv, lay_by, row, sheet};
 use spunlaid::air::Lateral;
@@ -49,20 +49,20 @@ fn expected_over_found(seed: u64) -> [f64; 2] {
     case.run.seed = seed;
     // With coarser waves the sum is 4 to 6 % too high.
     case.air.lateral = Lateral::VonKarman { cutoff: 15.0 };
-    let (laid, flown) = lay_by((&case, &sheet), &row(&sheet, COUNT), Isa::detect(), 2);
-    assert_eq!(flown.kept.len(), COUNT);
+    let (laid, simulated) = lay_by((&case, &sheet), &row(&sheet, COUNT), Isa::detect(), 2);
+    assert_eq!(simulated.kept.len(), COUNT);
     let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
     let per_point = line.belt_ratio() * spacing;
     // Places about the straight trace, point by point of each filament.
     let skip = (line.feed_speed * case.run.spin_up() / spacing).round() as usize;
-    let count = flown.kept.iter().map(|(_, points)| points.len()).min().unwrap();
+    let count = simulated.kept.iter().map(|(_, points)| points.len()).min().unwrap();
     let places = |(_, points): &(usize, Vec<LaidPoint>)| -> Vec<[f64; 2]> {
         let places = points[skip..count].iter().enumerate();
         let places: Vec<_> = places.map(|(k, point)| [point.md + k as f64 * per_point, point.cd]).collect();
         let mean = [0, 1].map(|d| places.iter().map(|place| place[d]).sum::<f64>() / places.len() as f64);
         places.iter().map(|place| [place[0] - mean[0], place[1] - mean[1]]).collect()
     };
-    let curves: Vec<Vec<[f64; 2]>> = flown.kept.iter().map(places).collect();
+    let curves: Vec<Vec<[f64; 2]>> = simulated.kept.iter().map(places).collect();
     let covariance = |neighbour: usize, lag: usize| {
         let (mut sums, mut pairs) = ([0.0; 2], 0.0);
         for (i, curve) in curves.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! The web: nothing is lost, and its unevenness is that of the laws.
+//! The web: nothing is lost, and its CV is that of the laws.
 
 use proptest::prelude::*;
-use spunlaid::ground::{Control, Isa};
-use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::ground::{Isa, RunContext};
+use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
 use spunlaid::web::{
     Edges, Fibres, LaidWeb, Layer, Map, OneFibre, Row, Sheet, Strand, Surrogate, Web, Window,
@@ -28,7 +28,7 @@ fn layer(fibres: Fibres, per_metre: f64) -> Layer {
 
 fn laid_by(web: &Web, isa: Isa, threads: usize) -> LaidWeb {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    lay(web, Control { threads, isa, stop: &stop, done: &laid }).expect("a web that can be laid")
+    lay(web, RunContext { threads, isa, stop: &stop, done: &laid }).expect("a web that can be laid")
 }
 
 fn laid(web: &Web) -> LaidWeb {
@@ -49,7 +49,7 @@ fn straight_fibres_at_random_have_the_unevenness_of_the_law() {
     close(thrown.basis_weight(), web.basis_weight(), 1e-3);
     let tau = web.basis_weight() / LINEAR_DENSITY;
     for (map, side) in [laid(&web).map, thrown].iter().flat_map(|map| [1, 2, 5, 10].map(|side| (map, side))) {
-        let found = unevenness(map, side).expect("an unevenness");
+        let found = patch_cv(map, side).expect("an patch_cv");
         let law = straight_fibres(tau, found.patch);
         let error = found.standard_error.expect("an error");
         assert!((found.cv - law).abs() < 4.0 * error, "{found:?} where {law} is wanted");
@@ -65,11 +65,11 @@ fn one_fibre_says_how_uneven_the_web_is() {
     let tau = web.basis_weight() / LINEAR_DENSITY;
     let sides = [1, 2, 5, 10, 20, 50];
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
     let of = OneFibre { cell: 1e-3, fibres: 64, seed: 1 };
     let alone = one_fibre(&by_surrogate, &sides, of, by).expect("single fibres");
     for (side, alone) in sides.into_iter().zip(alone.into_iter().map(|alone| alone.at_random)) {
-        let found = unevenness(&map, side).expect("an unevenness");
+        let found = patch_cv(&map, side).expect("an patch_cv");
         let wanted = (alone.mean / tau).sqrt();
         let own = alone.standard_error.expect("an error") / alone.mean / 2.0 * wanted;
         let error = found.standard_error.expect("an error");
@@ -82,7 +82,7 @@ fn one_fibre_says_how_uneven_the_web_is() {
 fn single_fibres_of_two_seeds_have_none_in_common() {
     let by_surrogate = layer(Fibres::Surrogate(SPUNBOND), 5000.0);
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
     let values = |seed| {
         let of = OneFibre { cell: 1e-3, fibres: 16, seed };
         one_fibre(&by_surrogate, &[10], of, by).expect("single fibres").remove(0).at_random.values
@@ -92,7 +92,7 @@ fn single_fibres_of_two_seeds_have_none_in_common() {
     assert!(!first.iter().any(|value| second.contains(value)), "{first:?} {second:?}");
 }
 
-/// Nozzles at an even pitch leave no streaks, and what is expected knows it; so do nozzles that stand far apart.
+/// Nozzles at an even pitch leave no streaks, and what is expected knows it; so do holes that stand far apart.
 #[test]
 fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
     for (pitch, count) in [(0.25e-3, 2000), (50e-3, 10)] {
@@ -102,7 +102,7 @@ fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
         let sheet = Sheet { patches: [2e-3, 10e-3, 40e-3].to_vec(), ..Sheet::new(0.5, 1.0, 1e-3) };
         let web = Web { sheet, layers: vec![layer], seed: 4 };
         let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
+        let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
         for patch in find(&web, by).expect("findings").patches {
             let (wanted, own) = patch.single_fibres.expect("known numbers");
             let error = patch.map.standard_error.expect("an error");
@@ -139,7 +139,7 @@ fn inside(web: &Web, off: usize) -> Window {
 
 fn fibres(web: &Web, window: Window) -> Vec<Strand> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    strands(web, window, Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid })
+    strands(web, window, RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid })
         .expect("fibres")
 }
 
@@ -231,7 +231,7 @@ fn half_of_the_mass_lies_along_the_machine_direction() {
         let layer = Layer { belt_speed, ..layer(Fibres::Surrogate(SPUNBOND), 640.0) };
         let web = Web { sheet: Sheet::new(0.1, belt_speed / 3.0, 1e-3), layers: vec![layer], seed: 2 };
         let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
         let found = orientation(&web, by).expect("an orientation");
         let error = found.cos_squared.standard_error.expect("an error");
         assert!(
@@ -249,10 +249,10 @@ fn the_whole_error_of_a_surrogate_alone_is_not_known() {
     let sheet = Sheet { patches: vec![5e-3], ..Sheet::new(0.2, 0.2, 1e-3) };
     let web = Web { sheet, layers: vec![layer(Fibres::Surrogate(SPUNBOND), 500.0)], seed: 1 };
     let (stop, pieces) = (AtomicBool::new(false), AtomicU64::new(0));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &pieces };
     let found = find(&web, by).expect("findings");
     let patch = found.patches[0];
-    let error = patch.whole_error();
+    let error = patch.total_error();
     assert!(error.chance.is_some() && error.flight.is_none() && error.whole().is_none(), "{error:?}");
     assert!(patch.single_fibres.is_some() && patch.independent().is_none());
 }

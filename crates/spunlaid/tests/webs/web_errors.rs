@@ -1,8 +1,8 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
 use spunlaid::ground::statistics::difference_of_logarithms;
-use spunlaid::ground::{Control, Error, Isa, NORMAL_95};
-use spunlaid::web::map::uniformity::{Unevenness, unevenness_at};
+use spunlaid::ground::{Error, Isa, NORMAL_95, RunContext};
+use spunlaid::web::map::uniformity::{PatchCv, unevenness_at};
 use spunlaid::web::map::{Filaments, Findings, find, lay};
 use spunlaid::web::{Clouds, Edges, Fibres, Layer, Row, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -34,9 +34,9 @@ fn rows(pitch: f64, filaments: u64) -> Filaments {
     Filaments::Rows(vec![Row::new(0.5 * pitch, pitch, filaments)])
 }
 
-fn with<T>(run: impl FnOnce(Control<'_>) -> T) -> T {
+fn with<T>(run: impl FnOnce(RunContext<'_>) -> T) -> T {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
-    run(Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid })
+    run(RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid })
 }
 
 /// Deviations of independent webs, each with its standard error: intervals cover the truth, errors are those
@@ -45,7 +45,7 @@ fn hold(what: &str, found: &[(f64, f64)]) {
     let count = found.len() as f64;
     let truth = (found.iter().map(|of| of.0 * of.0).sum::<f64>() / count).sqrt();
     let interval = |(cv, error): (f64, f64)| {
-        Unevenness { patch: 1.0, cv, standard_error: Some(error) }.interval().expect("an interval")
+        PatchCv { patch: 1.0, cv, standard_error: Some(error) }.interval().expect("an interval")
     };
     let covers = |[low, high]: [f64; 2]| (low..=high).contains(&truth);
     let held = found.iter().filter(|of| covers(interval(**of))).count() as f64;
@@ -65,7 +65,7 @@ fn hold(what: &str, found: &[(f64, f64)]) {
         let (a, b) = (pair[0], pair[1]);
         let (less, more) = if a.0 < b.0 { (a, b) } else { (b, a) };
         let ends = [interval(less)[1] / less.0, more.0 / interval(more)[0]];
-        difference_of_logarithms([less.0, more.0], ends.map(|end| end.ln() / NORMAL_95)).is_beyond_chance()
+        difference_of_logarithms([less.0, more.0], ends.map(|end| end.ln() / NORMAL_95)).is_significant()
     };
     let alarms = found.chunks_exact(2).filter(differ);
     let most = 0.05 * count / 2.0 + 4.0 * (0.05 * 0.95 * count / 2.0).sqrt();
@@ -86,7 +86,7 @@ fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
             let map = with(|by| lay(&web, by)).expect("a web").map;
             let places = web.places(web.sheet.width);
             for (side, found) in SIDES.iter().zip(&mut found) {
-                let of = unevenness_at(&map, *side, &places).expect("an unevenness");
+                let of = unevenness_at(&map, *side, &places).expect("an patch_cv");
                 found.extend(of.standard_error.map(|error| (of.cv, error)));
             }
             let (index, error) = Clouds::at(&map, &places, 1).expect("clouds").cloudiness(BAND[0], BAND[1]);
@@ -107,7 +107,7 @@ fn a_sheet_of_few_streaks_has_no_error() {
     // On a slow belt there is little else than streaks.
     web.layers[0].belt_speed = 2.0;
     let map = with(|by| lay(&web, by)).expect("a web").map;
-    let of = unevenness_at(&map, 20, &web.places(0.13)).expect("an unevenness");
+    let of = unevenness_at(&map, 20, &web.places(0.13)).expect("an patch_cv");
     assert_eq!((of.standard_error, of.interval()), (None, None));
 }
 
@@ -115,7 +115,7 @@ fn measured(web: &Web) -> Result<Findings, Error> {
     with(|by| find(web, by))
 }
 
-/// A web whose edges are cut is as uneven as the same web without edges: what is thinner at the edges is no unevenness.
+/// A web whose edges are cut is as uneven as the same web without edges: what is thinner at the edges is no CV.
 #[test]
 fn stat_edges_that_cut_do_not_count() {
     // The same pitch without edges, and on a sheet as wide as the row.
@@ -123,10 +123,10 @@ fn stat_edges_that_cut_do_not_count() {
     let whole = measured(&web(rows(1e-3, 480), Edges::Periodic, sizes)).expect("findings");
     let cut = measured(&web(rows(1e-3, 480), Edges::Cut, sizes)).expect("findings");
     assert_eq!((whole.margins, whole.reach), ([0.0; 2], [0.0, sizes[0]]));
-    // The first nozzle stands at the edge of the sheet, so the sheet cuts its reach.
+    // The first hole stands at the edge of the sheet, so the sheet cuts its reach.
     assert_eq!(cut.reach, [0.0, sizes[0]]);
     for margin in cut.margins {
-        // 3 σ_CD inwards of the first nozzle, in whole cells.
+        // 3 σ_CD inwards of the first hole, in whole cells.
         assert!((0.0..=CELL + 1e-9).contains(&(margin - 3.0 * 16e-3)), "{margin}");
     }
     for (whole, cut) in whole.patches.iter().zip(&cut.patches) {
@@ -143,7 +143,7 @@ fn stat_edges_that_cut_do_not_count() {
     assert!((between / dense - 1.0).abs() < 2e-3 && sheet < 0.99 * between, "{sheet} {between} {dense}");
 }
 
-/// On a sheet that is wider than its row, the web ends 3 σ_CD beyond the outermost nozzles.
+/// On a sheet that is wider than its row, the web ends 3 σ_CD beyond the outermost holes.
 #[test]
 fn a_web_ends_where_the_reach_of_its_outermost_filaments_does() {
     let Filaments::Rows(mut row) = rows(1e-3, 200) else { panic!("a row") };

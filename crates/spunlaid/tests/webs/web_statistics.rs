@@ -1,9 +1,9 @@
-//! Unevenness and clouds of maps whose statistics are known.
+//! PatchCv and clouds of maps whose statistics are known.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use spunlaid::web::map::autocorrelation;
-use spunlaid::web::map::uniformity::unevenness;
+use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::{Clouds, Map};
 use std::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ fn intervals_of_the_unevenness_hold() {
         for ((closed, [columns, rows]), found) in SHEETS.into_iter().zip(&mut found) {
             let map = map(columns, rows, closed, |row, column| STRENGTH * field[row * SIZE[0] + column]);
             for ((patch, truth), (held, mean)) in PATCHES.into_iter().zip(truth).zip(found) {
-                let one = unevenness(&map, patch).expect("an unevenness");
+                let one = patch_cv(&map, patch).expect("an patch_cv");
                 let error = one.standard_error.expect("an error");
                 *held += u64::from((one.cv - truth).abs() < 1.96 * error);
                 *mean += one.cv / FIELDS as f64;

@@ -325,7 +325,7 @@ fn twice(program: &Program, drawn: &Drawn, side: &str) -> Outcome {
 
 /// The CV of independent filaments at random places is that which a single one makes, in closed form.
 pub fn independent(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
-    if drawn.changes.iter().any(|change| ["line.depth", "web.edges"].contains(&change.key.as_str())) {
+    if drawn.changes.iter().any(|change| ["line.slot_gap", "web.edges"].contains(&change.key.as_str())) {
         return Outcome::Refused;
     }
     const OF_WEB: &str = "web.patches.cv";
@@ -345,7 +345,7 @@ pub fn independent(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
 
 /// A sample of the filaments and all filaments in the same air.
 pub fn few_and_all(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
-    let all = drawn.with(&[Change::new("web.flown", "all")]);
+    let all = drawn.with(&[Change::new("web.simulated", "all")]);
     /// The error by the sample alone is known within this factor: on sheets of few clouds fillings may agree.
     const KNOWN_WITHIN: f64 = 2.0;
     // Both are in the same air, and differ by what the sample of filaments leaves open.
@@ -373,8 +373,9 @@ pub fn nothing_changed(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     }
     let Some(found) = program.compared("one", "other") else { return Outcome::Refused };
     let measures = found["comparisons"][0]["measures"].as_object();
-    let claims = measures.into_iter().flatten().filter_map(|(name, of)| {
-        Some((format!("{} {name}", drawn.base.name), of["beyond_chance"].as_bool()?))
-    });
+    let claims = measures
+        .into_iter()
+        .flatten()
+        .filter_map(|(name, of)| Some((format!("{} {name}", drawn.base.name), of["significant"].as_bool()?)));
     Outcome::Claims(claims.collect())
 }

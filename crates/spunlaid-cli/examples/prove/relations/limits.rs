@@ -145,7 +145,7 @@ pub fn influences(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
         let of = |results: &Json| results["spinline"][result].as_f64().unwrap_or(f64::NAN);
         let found = (of(&more) / of(&less)).ln() / ((1.0 + STEP) / (1.0 - STEP)).ln();
         let said = one[name].as_f64().unwrap_or(f64::NAN);
-        // Where a line almost has another steady state, or freezes elsewhere, slopes are steep.
+        // Where a line almost has another steady state, or solidifies elsewhere, slopes are steep.
         if (found - said).abs() > ALMOST * (1.0 + found.abs().max(said.abs())) {
             return Outcome::Broken(format!(
                 "{key} moves the {name} by {said:.4}, and by hand by {found:.4}"
@@ -156,11 +156,11 @@ pub fn influences(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
 }
 
 /// A thread of a very viscous melt, whose weight, inertia and friction are nothing beside its tension: the tension is
-/// `3 η Q ln(v/v₀) / z` up to where it freezes (A. Ziabicki: Fundamentals of Fibre Formation, 1976, isothermal line).
+/// `3 η Q ln(v/v₀) / z` up to where it solidifies (A. Ziabicki: Fundamentals of Fibre Formation, 1976, isothermal line).
 pub fn line_in_closed_form(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     const VISCOSITY: f64 = 1e5;
     const SPECIFIC_VOLUME: f64 = 8e-4;
-    /// The melt still becomes more viscous by some 7 % before it freezes, and it is not free of the three forces.
+    /// The melt still becomes more viscous by some 7 % before it solidifies, and it is not free of the three forces.
     const SHARE: std::ops::RangeInclusive<f64> = 0.97..=1.1;
     let stiff = [
         ("law", "newtonian".to_owned()),
@@ -173,7 +173,7 @@ pub fn line_in_closed_form(program: &Program, drawn: &Drawn, _: &Json) -> Outcom
         ("material.viscosity", format!("{VISCOSITY} Pa s")),
         ("material.viscosity_temperature", "570 K".to_owned()),
         ("material.activation_energy", "1 kJ/mol".to_owned()),
-        ("material.freezing_temperature", "450 K".to_owned()),
+        ("material.solidification_temperature", "450 K".to_owned()),
         ("material.specific_volume", format!("{SPECIFIC_VOLUME} m³/kg")),
         ("material.specific_volume_slope", "1e-8 m³/(kg K)".to_owned()),
     ];
@@ -183,7 +183,7 @@ pub fn line_in_closed_form(program: &Program, drawn: &Drawn, _: &Json) -> Outcom
     slow.changes.retain(|change| !is_of_friction(change));
     let Said::Results(found) = program.computed(&slow, &[]) else { return Outcome::Refused };
     let of = |name: &str| found["spinline"][name].as_f64();
-    let frozen = &found["spinline"]["freezing"];
+    let frozen = &found["spinline"]["solidification"];
     let (Some(force), Some(ratio), Some(distance)) =
         (of("force_at_die_n"), of("draw_ratio"), frozen["distance_m"].as_f64())
     else {

@@ -36,7 +36,7 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
     let set = overrides(&check.source.set);
     let file = looked_at(|resources| read_web(&check.source.case, set.with(resources)))?;
     file.notes.iter().for_each(say::note);
-    let changes = [Changes::OfGuesses, Changes::OfLine]
+    let changes = [Changes::OfAssumedValues, Changes::OfLine]
         .map(|which| looked_at(|resources| read_changes(&check.source.case, set.with(resources), which)));
     let [assumed, of_line] = changes;
     let expected = expected_of_web(&file.spec, Threads::default().number(), [&assumed?, &of_line?])?;

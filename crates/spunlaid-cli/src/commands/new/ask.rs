@@ -109,7 +109,7 @@ mod tests {
         assert_eq!((numbers.holes_per_metre, numbers.beams), (Some(5000), 2));
         assert_eq!((value(&numbers.air_speed), numbers.distance.value), (Some(70.0), 0.5));
         // What need not be known stays away where the answers end.
-        assert_eq!([&numbers.slot_depth, &numbers.turbulence, &numbers.thickness].map(value), [None; 3]);
+        assert_eq!([&numbers.slot_gap, &numbers.turbulence, &numbers.thickness].map(value), [None; 3]);
         let remarks: Vec<&str> = numbers.remarks().collect();
         assert_eq!(
             remarks,
@@ -123,7 +123,7 @@ mod tests {
         let known = complete(&[], answers.as_bytes()).expect("all answers");
         assert_eq!((value(&known.basis_weight), value(&known.belt_speed)), (None, Some(250.0 / 60.0)));
         assert_eq!(
-            [&known.throughput, &known.slot_depth, &known.turbulence, &known.thickness].map(value),
+            [&known.throughput, &known.slot_gap, &known.turbulence, &known.thickness].map(value),
             [Some(0.6 / 60_000.0), Some(0.025), Some(0.12), Some(3e-4)]
         );
         let remarks: Vec<&str> = known.remarks().collect();

@@ -50,7 +50,7 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         holes = holes.unwrap_or_default(),
         flow = significant(of_beam * 3600.0, 4),
         in_all = in_all,
-        depth = length(value(&given.slot_depth).unwrap_or(DEPTH)),
-        guess = if given.slot_depth.is_none() { ", assumed" } else { "" },
+        depth = length(value(&given.slot_gap).unwrap_or(DEPTH)),
+        guess = if given.slot_gap.is_none() { ", assumed" } else { "" },
     )
 }

@@ -22,8 +22,8 @@ const SLOWED: f64 = 1.0 / 6.0;
 pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str, spinline: Option<&str>) -> String {
     let given = line.given;
     // What is assumed and counts for much. The numbers of the air are factors on what its table has.
-    let guesses = [
-        (given.slot_depth.is_none(), "line.depth, "),
+    let assumed_values = [
+        (given.slot_gap.is_none(), "line.slot_gap, "),
         (given.turbulence.is_none(), "air.intensity_factor, "),
         (true, "air.length_factor"),
     ];
@@ -35,7 +35,7 @@ pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str, spinline: Option<&
         name = name,
         beams = (1..=given.beams).map(|number| beam(line, number)).collect::<String>(),
         width = length(given.width.value),
-        guessed = guesses.map(|(is_guess, key)| if is_guess { key } else { "" }).concat(),
+        assumed = assumed_values.map(|(is_assumed, key)| if is_assumed { key } else { "" }).concat(),
         fabric = fabric.unwrap_or_default(),
         spinline = spinline.unwrap_or_default(),
         filament = if spinline.is_some() { String::new() } else { filament(line) },

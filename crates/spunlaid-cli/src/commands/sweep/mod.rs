@@ -58,7 +58,7 @@ fn write(
     let (found, text) = study::write(folder, &name, file, journal, by)?;
     let fibres: u64 = found.results.iter().map(|point| point.n + point.lost).sum();
     let noun = file.study.noun();
-    let done = if noun == "web" { "laid" } else { "flown" };
+    let done = if noun == "web" { "laid" } else { "simulated" };
     let complete =
         format!("the study was already complete: no {noun} was {done}, and the files were written again");
     let lines = &Vec::from_iter((before == fibres).then_some(complete));

@@ -1,4 +1,4 @@
-//! What is said of a study before it is flown, and meanwhile.
+//! What is said of a study before it is simulated, and meanwhile.
 
 use super::counted;
 use crate::args::Output;

@@ -31,17 +31,17 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let beside = output.folder(&name).display().to_string();
     let mut delivery = Delivery::open::<WebFolder>(invocation, [file], &name, shown)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;
-    // Before anything is flown, because the file may change meanwhile.
+    // Before anything is simulated, because the file may change meanwhile.
     let trials = Trials::read(arguments, &web.spec)?;
 
     let (started, laid, follow) = (Instant::now(), AtomicU64::new(0), flying(output.quiet));
     let by = control(threads, &laid);
-    let mut flown = Flyer::new(by.threads, by.stop, &follow).web(&web.spec)?;
-    let label = format!("laying {} km of fibre", significant(flown.web.fibre_length() / 1e3, 3));
-    let findings = progress::follow(&laid, flown.pieces()?, &label, output.quiet, || flown.find(by))?;
+    let mut simulated = Flyer::new(by.threads, by.stop, &follow).web(&web.spec)?;
+    let label = format!("laying {} km of fibre", significant(simulated.web.fibre_length() / 1e3, 3));
+    let findings = progress::follow(&laid, simulated.pieces()?, &label, output.quiet, || simulated.find(by))?;
     let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
     let trials = trials.worth_it(arguments.advice, &web.spec, &findings);
-    let mut web = WebFolder::new((name, beside), web, (flown, findings), (started, by));
+    let mut web = WebFolder::new((name, beside), web, (simulated, findings), (started, by));
     web.awaited = !trials.is_empty();
     if let Some(sheet) = &arguments.sheet {
         fs::write(sheet, web.specification()?).map_err(|error| Error::unwritable(sheet)(error))?;

@@ -1,4 +1,4 @@
-//! What is tried once a web has been laid: other values of numbers that are guesses, then changes of its line.
+//! What is tried once a web has been laid: other values of numbers that are assumed_values, then changes of its line.
 
 use super::settled_with;
 use super::tried::{kept, try_changes};
@@ -7,17 +7,17 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use spunlaid::experiment::advice::{are_tried, steps};
 use spunlaid::experiment::{Change, MOST_STEPS};
-use spunlaid::ground::Control;
+use spunlaid::ground::RunContext;
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes};
 use spunlaid::web::map::Findings;
 use spunlaid_results::products::web::WebFolder;
 use std::fs;
 
-/// Guesses and changes of the line: what a trial is, of what, and what leaves it out.
+/// AssumedValues and changes of the line: what a trial is, of what, and what leaves it out.
 const WORDS: [[&str; 3]; 2] =
-    [["other value", "guesses", "--set web.guessed=none"], ["change", "the line", "--no-advice"]];
+    [["other value", "assumed_values", "--set web.assumed=none"], ["change", "the line", "--no-advice"]];
 
-/// Guesses and changes of the line, of what is tried.
+/// AssumedValues and changes of the line, of what is tried.
 pub(super) struct Trials([Option<Vec<Change>>; 2]);
 
 impl Trials {
@@ -29,13 +29,13 @@ impl Trials {
             let all = read(&resources)?;
             match resources.wanted() {
                 0 => Ok(Some(all)),
-                // What is too long to be tried is not flown for either.
+                // What is too long to be tried is not simulated for either.
                 _ if !arguments.advice && steps(spec, &all) + resources.most_steps() > MOST_STEPS => Ok(None),
                 _ => settled_with(&mut resources, arguments.threads, arguments.output.quiet, read).map(Some),
             }
         };
-        let guesses = read(Changes::OfGuesses)?.filter(|all: &Vec<Change>| !all.is_empty());
-        Ok(Self([guesses, if arguments.no_advice { None } else { read(Changes::OfLine)? }]))
+        let assumed_values = read(Changes::OfAssumedValues)?.filter(|all: &Vec<Change>| !all.is_empty());
+        Ok(Self([assumed_values, if arguments.no_advice { None } else { read(Changes::OfLine)? }]))
     }
 
     /// Those that say enough and do not take too long, or are asked for.
@@ -53,7 +53,7 @@ impl Trials {
     pub(super) fn run(
         self,
         (mut web, judged_by): (WebFolder, Option<f64>),
-        by: Control<'_>,
+        by: RunContext<'_>,
         quiet: bool,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
@@ -63,7 +63,7 @@ impl Trials {
             let Some(changes) = changes else { continue };
             let tried = (&mut web, judged_by);
             let found = try_changes(changes, WORDS[number], tried, (log, by), (quiet, delivery))?;
-            *(if number == 0 { &mut web.guesses } else { &mut web.advice }) = found;
+            *(if number == 0 { &mut web.assumed_values } else { &mut web.advice }) = found;
             web.awaited = number == 0 && changes_line;
             delivery.rewrite(&web)?;
             delivery.say(&web, &[]);

@@ -6,14 +6,14 @@ use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, steps};
 use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES};
-use spunlaid::ground::{Control, Error, Log};
+use spunlaid::ground::{Error, Log, RunContext};
 use spunlaid_results::products::web::WebFolder;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 /// What flights have said, which is kept beside the folder until all is told. Nothing here ends the command: what is
-/// not kept is flown again.
+/// not kept is simulated again.
 pub(super) fn kept(delivery: &Delivery<'_>) -> Option<(PathBuf, Log)> {
     let folder = delivery.folder()?;
     let name = folder.file_name().unwrap_or_default().to_string_lossy();
@@ -34,13 +34,13 @@ pub(super) fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
     (web, judged_by): (&mut WebFolder, Option<f64>),
-    (kept, by): (Option<&Log>, Control<'_>),
+    (kept, by): (Option<&Log>, RunContext<'_>),
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
-    let (all, by) = (steps(spec, &changes), Control { done: &done, ..by });
-    let work = || advise(spec, (&web.flown.web, &web.findings), changes, judged_by, (kept, by));
+    let (all, by) = (steps(spec, &changes), RunContext { done: &done, ..by });
+    let work = || advise(spec, (&web.simulated.web, &web.findings), changes, judged_by, (kept, by));
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);

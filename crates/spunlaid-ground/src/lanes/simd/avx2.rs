@@ -3,7 +3,7 @@
 //! SAFETY of every block here: the instructions were found on the machine before [`super::super::Isa::run`] picked the
 //! type, and loads and stores go through references.
 
-use super::{Register, Simd, Singles};
+use super::{F32x12, Register, Simd};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use half::f16;
 use std::arch::x86_64::*;
@@ -70,8 +70,8 @@ pub(super) unsafe fn columns(rows: [&[f64; 4]; 4]) -> [__m256d; 4] {
 
 impl Register for Avx2 {
     const ISA: Isa = Isa::Avx2;
-    type Singles = Avx2Singles;
-    type Sixteen = super::sixteen::OfAvx2;
+    type F32x12 = Avx2F32x12;
+    type F32x16 = super::sixteen::OfAvx2;
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -220,9 +220,9 @@ impl Simd for Avx2 {
 
 /// Twelve numbers in a large and a small register.
 #[derive(Clone, Copy)]
-pub(crate) struct Avx2Singles(__m256, __m128);
+pub(crate) struct Avx2F32x12(__m256, __m128);
 
-impl Singles for Avx2Singles {
+impl F32x12 for Avx2F32x12 {
     #[inline(always)]
     fn zero() -> Self {
         unsafe { Self(_mm256_setzero_ps(), _mm_setzero_ps()) }

@@ -4,7 +4,7 @@
 //! type, and loads and stores go through references.
 
 use super::avx2::columns;
-use super::{Register, Simd, Singles};
+use super::{F32x12, Register, Simd};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use half::f16;
 use std::arch::x86_64::*;
@@ -15,8 +15,8 @@ pub(crate) struct Avx512(__m512d);
 
 impl Register for Avx512 {
     const ISA: Isa = Isa::Avx512;
-    type Singles = Avx512Singles;
-    type Sixteen = super::sixteen::OfAvx512;
+    type F32x12 = Avx512F32x12;
+    type F32x16 = super::sixteen::OfAvx512;
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -143,9 +143,9 @@ impl Simd for Avx512 {
 
 /// Twelve numbers in one register.
 #[derive(Clone, Copy)]
-pub(crate) struct Avx512Singles(__m512);
+pub(crate) struct Avx512F32x12(__m512);
 
-impl Singles for Avx512Singles {
+impl F32x12 for Avx512F32x12 {
     #[inline(always)]
     fn zero() -> Self {
         unsafe { Self(_mm512_setzero_ps()) }

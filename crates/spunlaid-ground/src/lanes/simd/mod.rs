@@ -21,7 +21,7 @@ pub(crate) use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx512::Avx512;
 pub use plain::Plain;
-pub use sixteen::Sixteen;
+pub use sixteen::F32x16;
 
 use super::{Isa, Lanes, WIDTH};
 use half::f16;
@@ -74,7 +74,7 @@ pub trait Simd: Copy {
 }
 
 /// Twelve sums of single precision in registers: of four neighbouring points of a field with three components.
-pub trait Singles: Copy {
+pub trait F32x12: Copy {
     /// Zero everywhere.
     fn zero() -> Self;
     /// `self + row · weight` for the first twelve numbers of a row, rounded after the product and after the sum.
@@ -91,9 +91,9 @@ pub trait Register: Simd {
     /// inlined is compiled once for every kernel.
     const ISA: Isa;
     /// Its registers of single precision.
-    type Singles: Singles;
+    type F32x12: F32x12;
     /// As many numbers of single precision as a register of 512 bits holds.
-    type Sixteen: Sixteen;
+    type F32x16: F32x16;
     /// Into memory.
     fn store(self) -> Lanes;
 

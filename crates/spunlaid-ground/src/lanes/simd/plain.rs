@@ -4,7 +4,7 @@
 //! be a third of the library's compile time and half of the kernel's code. Elsewhere it is the only one and
 //! is inlined.
 
-use super::{Register, Simd, Singles};
+use super::{F32x12, Register, Simd};
 use crate::lanes::{Isa, Lanes, WIDTH};
 use half::f16;
 
@@ -40,8 +40,8 @@ impl Plain {
 
 impl Register for Plain {
     const ISA: Isa = Isa::Baseline;
-    type Singles = [f32; 12];
-    type Sixteen = [f32; 16];
+    type F32x12 = [f32; 12];
+    type F32x16 = [f32; 16];
 
     #[inline(always)]
     fn store(self) -> Lanes {
@@ -134,7 +134,7 @@ impl Simd for Plain {
     }
 }
 
-impl Singles for [f32; 12] {
+impl F32x12 for [f32; 12] {
     #[inline(always)]
     fn zero() -> Self {
         [0.0; 12]

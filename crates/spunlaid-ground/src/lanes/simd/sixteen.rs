@@ -7,7 +7,7 @@ use half::f16;
 use half::slice::HalfFloatSliceExt;
 
 /// Sixteen numbers of single precision in registers, each of another signal. Every operation is rounded by itself.
-pub trait Sixteen: Copy {
+pub trait F32x16: Copy {
     /// The same number everywhere.
     fn splat(value: f32) -> Self;
     /// From memory.
@@ -53,7 +53,7 @@ pub trait Sixteen: Copy {
 }
 
 /// On x86-64 they are calls, as those of [`super::Plain`].
-impl Sixteen for [f32; 16] {
+impl F32x16 for [f32; 16] {
     #[inline(always)]
     fn splat(value: f32) -> Self {
         [value; 16]
@@ -88,7 +88,7 @@ pub(crate) use x86::{OfAvx2, OfAvx512};
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
-    use super::Sixteen;
+    use super::F32x16;
     use half::f16;
     use std::arch::x86_64::*;
 
@@ -96,7 +96,7 @@ mod x86 {
     #[derive(Clone, Copy)]
     pub(crate) struct OfAvx2(__m256, __m256);
 
-    impl Sixteen for OfAvx2 {
+    impl F32x16 for OfAvx2 {
         #[inline(always)]
         fn splat(value: f32) -> Self {
             unsafe { Self(_mm256_set1_ps(value), _mm256_set1_ps(value)) }
@@ -146,7 +146,7 @@ mod x86 {
         order
     };
 
-    impl Sixteen for OfAvx512 {
+    impl F32x16 for OfAvx512 {
         #[inline(always)]
         fn splat(value: f32) -> Self {
             unsafe { Self(_mm512_set1_ps(value)) }
@@ -212,11 +212,11 @@ mod tests {
         #[inline(always)]
         fn call<S: Register>(self) -> Self::Output {
             let [a, b, c] = &self.0;
-            let [a, b, c] = [S::Sixteen::load(a), S::Sixteen::load(b), S::Sixteen::load(c)];
+            let [a, b, c] = [S::F32x16::load(a), S::F32x16::load(b), S::F32x16::load(c)];
             let (mut triples, mut halves, mut numbers) = ([f16::ZERO; 48], [f16::ZERO; 16], [0.0; 16]);
-            S::Sixteen::store_interleaved([a, b, c], &mut triples);
-            a.mul(b).sub(c).add(S::Sixteen::splat(0.125)).store_halves(&mut halves);
-            S::Sixteen::load_halves(&halves).store(&mut numbers);
+            S::F32x16::store_interleaved([a, b, c], &mut triples);
+            a.mul(b).sub(c).add(S::F32x16::splat(0.125)).store_halves(&mut halves);
+            S::F32x16::load_halves(&halves).store(&mut numbers);
             (triples, halves, numbers)
         }
     }

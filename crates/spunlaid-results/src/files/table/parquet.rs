@@ -10,7 +10,7 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
 use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
 use parquet::schema::types::{ColumnDescPtr, Type};
-use spunlaid::ground::threads::each;
+use spunlaid::ground::threads::par_map;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
@@ -193,7 +193,8 @@ impl Parquet {
         let threads = if self.rows < FEW { 1 } else { available_parallelism().map_or(1, usize::from) };
         let (schema, properties) = (self.writer.schema_descr(), self.writer.properties());
         let columns = &self.columns;
-        let packed = each(threads, columns.len(), |i| columns[i].pack(schema.column(i), properties.clone()));
+        let packed =
+            par_map(threads, columns.len(), |i| columns[i].pack(schema.column(i), properties.clone()));
         let mut group = self.writer.next_row_group()?;
         for column in packed {
             let (bytes, closed) = column?;

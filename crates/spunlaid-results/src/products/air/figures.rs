@@ -1,4 +1,4 @@
-//! The planes as pictures: the gusts in machine direction, which swing a fibre from side to side.
+//! The planes as pictures: the eddies in machine direction, which swing a fibre from side to side.
 
 use super::files::{PLANES, Slices};
 use crate::numbers::significant;

@@ -35,7 +35,7 @@ pub struct AirFolder<'a> {
 }
 
 impl AirFolder<'_> {
-    /// How strong the gusts are, in a sentence.
+    /// How strong the eddies are, in a sentence.
     fn headline(&self) -> String {
         let PlaneFindings { rms, expected_rms, .. } = PlaneFindings::new(self.case, self.slices, 0);
         let [x, y, z] = rms.map(|rms| significant(rms, 3));

@@ -12,7 +12,7 @@ use spunlaid_charts::Figure;
 ///
 /// * `case` – and the same as a file
 /// * `field` – how it lies around the line, if it is a CFD field
-/// * `headline` – how strong the gusts are
+/// * `headline` – how strong the eddies are
 pub fn air_report<'a>(
     (case, toml): (&Case, &str),
     slices: &Slices,

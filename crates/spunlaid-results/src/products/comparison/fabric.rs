@@ -5,7 +5,7 @@ use super::web::{Web, WebNumber, are_alike, measure};
 use crate::numbers::significant;
 use serde_json::Value as Json;
 use spunlaid::ground::Measure;
-use spunlaid::web::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STRIPS};
+use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, STRIP_MEASURES};
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;
@@ -15,13 +15,14 @@ const SQUARE_OF_CV: &str = "formation";
 /// Every number that is told of both fabrics with what is known of it: of the whole, of patches and strips.
 pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
     let fabrics = webs.map(|web| (&web.fabric, web.name.as_str()));
-    let mut found = both(OF_FABRICS, ["", ""], fabrics, |_, values| values);
+    let mut found = both(FABRIC_MEASURES, ["", ""], fabrics, |_, values| values);
     let parts = |list: &str, key: &str, size: f64| {
         fabrics.map(|(fabric, name)| (part(&fabric[list], key, size), name))
     };
     let sides = webs[0].fabric["patches"].as_array().into_iter().flatten();
     for side in sides.filter_map(|patch| patch["patch_m"].as_f64()) {
-        let told = if are_alike(side, PATCH) { &OF_FABRIC_PATCHES[1..] } else { &OF_FABRIC_PATCHES[1..2] };
+        let told =
+            if are_alike(side, PATCH) { &FABRIC_PATCH_MEASURES[1..] } else { &FABRIC_PATCH_MEASURES[1..2] };
         let size = significant(side * 1e3, 3);
         let words = [&format!(", patches of {size} mm"), &format!("_{size}_mm")];
         let squared = |column: &str, [a, b]: [WebNumber; 2]| match column {
@@ -33,7 +34,7 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
     for (direction, list) in [("MD", "strips_md"), ("CD", "strips_cd")] {
         let words = [&format!(", strips along {direction}"), &format!("_{list}")];
         let strips = fabrics.map(|(fabric, name)| (&fabric[list], name));
-        found.extend(both(OF_STRIPS, words.map(String::as_str), strips, |_, values| values));
+        found.extend(both(STRIP_MEASURES, words.map(String::as_str), strips, |_, values| values));
     }
     found
 }

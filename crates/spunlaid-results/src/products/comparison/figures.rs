@@ -1,10 +1,10 @@
-//! The measured curves of several runs in one picture each; the unevenness and the spectra of several webs.
+//! The measured curves of several runs in one picture each; the CV and the spectra of several webs.
 
 use crate::figures::COLOURS;
 use crate::numbers::significant;
 use crate::products::run::figures::measured::axes;
 use crate::products::web::figures::clouds::{density, empty_spectrum};
-use crate::products::web::figures::unevenness::empty_chart;
+use crate::products::web::figures::patch_cv::empty_chart;
 use crate::products::web::figures::{MM, PER_CENT};
 use spunlaid::ground::MeasureKind;
 use spunlaid::simulation::{DECLARED, FibreMeasure};
@@ -89,7 +89,7 @@ fn overlaid(runs: &[Curves], measures: &[&FibreMeasure]) -> Figure {
     Figure::new(&chart, format!("{} Means over the replicates of each run.{bands}", figure.caption))
 }
 
-/// The unevenness of a web over patches of one size.
+/// The CV of a web over patches of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedPatch {
     /// Side of a patch [m].

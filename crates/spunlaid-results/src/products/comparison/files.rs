@@ -76,7 +76,7 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
             "standard_error": difference.map(|d| d.standard_error),
             // Half the width of the 95 % interval.
             "half_width": difference.map(|d| d.half_width()),
-            "beyond_chance": difference.map(|d| d.is_beyond_chance()),
+            "significant": difference.map(|d| d.is_significant()),
         });
         for (name, why) in [("remark", &compared.remark), ("no_verdict", &compared.doubt)] {
             why.iter().for_each(|why| told[name] = why.as_str().into());
@@ -105,11 +105,11 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
 
 impl Comparison {
     /// How many measures differ beyond chance, of how many.
-    pub fn beyond_chance(&self) -> (usize, usize) {
+    pub fn significant(&self) -> (usize, usize) {
         let known: Vec<bool> = self
             .measures
             .iter()
-            .filter_map(|measure| measure.difference.map(|d| d.is_beyond_chance()))
+            .filter_map(|measure| measure.difference.map(|d| d.is_significant()))
             .collect();
         (known.iter().filter(|is| **is).count(), known.len())
     }
@@ -126,7 +126,7 @@ impl ComparedMeasure {
         let verdict = match self.difference {
             None => self.doubt.clone().unwrap_or_else(|| "too few data".to_owned()),
             Some(d) if d.value == 0.0 && d.standard_error == 0.0 => "the same".to_owned(),
-            Some(d) if d.is_beyond_chance() => "significant".to_owned(),
+            Some(d) if d.is_significant() => "significant".to_owned(),
             Some(_) => {
                 self.remark.iter().fold("not significant".to_owned(), |v, remark| format!("{v}: {remark}"))
             }

@@ -36,7 +36,7 @@ fn pairs<'a>(comparisons: &[Comparison]) -> impl Iterator<Item = Section<'a>> {
 /// A result against another one, measure by measure.
 fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
     let Comparison { run, against, reason, errors, measures, .. } = comparison;
-    let (beyond, all) = comparison.beyond_chance();
+    let (beyond, all) = comparison.significant();
     let table = Table::new(["Measure", against, run, "Difference"]).sentences(["Verdict"]);
     let section = Section::new(format!("pair-{number}"), format!("{run} against {against}"))
         .paragraph(format!(
@@ -64,7 +64,7 @@ const CAUSES: &str = "A streak that lacks as much mass as one hole feeds, and is
     blocked hole. Widths are at half of the amplitude. To see one in a web, lay the line with it: line.defects.";
 
 fn row(compared: &ComparedMeasure) -> Row {
-    let is_sure = compared.difference.is_some_and(|difference| difference.is_beyond_chance());
+    let is_sure = compared.difference.is_some_and(|difference| difference.is_significant());
     let tone = if is_sure { Tone::Plain } else { Tone::Faint };
     let [first, other, difference, verdict] = compared.cells();
     let unit = if compared.unit.is_empty() { String::new() } else { format!(" ({})", compared.unit) };
@@ -81,7 +81,7 @@ fn first_doubt(comparison: &Comparison) -> Option<&str> {
 /// What is compared, how much of it differs, and what most clearly.
 fn title(comparisons: &[Comparison]) -> String {
     let first = comparisons.first().map_or("", |comparison| comparison.against.as_str());
-    let differing = |comparison: &Comparison| match comparison.beyond_chance() {
+    let differing = |comparison: &Comparison| match comparison.significant() {
         (_, 0) => match first_doubt(comparison) {
             Some(doubt) => format!("what differs is not known: {doubt}"),
             None => "too few data to say what differs".to_owned(),
@@ -104,7 +104,7 @@ fn title(comparisons: &[Comparison]) -> String {
 /// The measure whose difference is the most of its interval.
 fn clearest(comparison: &Comparison) -> Option<String> {
     let beyond = comparison.measures.iter().filter_map(|measure| Some((measure, measure.difference?)));
-    let beyond = beyond.filter(|(_, difference)| difference.is_beyond_chance());
+    let beyond = beyond.filter(|(_, difference)| difference.is_significant());
     let clear = |difference: &Difference| difference.value.abs() / difference.half_width();
     let (measure, _) = beyond.max_by(|a, b| clear(&a.1).total_cmp(&clear(&b.1)))?;
     let [.., difference, _] = measure.cells();

@@ -49,7 +49,7 @@ pub(super) struct WebNumber {
     pub(super) doubt: Option<String>,
 }
 
-/// The unevenness over patches of one size.
+/// The CV over patches of one size.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Patch {
     pub(super) side: f64,
@@ -80,7 +80,7 @@ impl Web {
         let all = web["patches"].as_array()?;
         let patch = |json: &Json| {
             let cv = number(json, ["cv", "cv_standard_error", "cv_interval"])?;
-            Some(Patch { side: json["patch_m"].as_f64()?, cv: cv.with_all_causes(&json["cv_whole_error"]) })
+            Some(Patch { side: json["patch_m"].as_f64()?, cv: cv.with_all_causes(&json["cv_total_error"]) })
         };
         let is_null = |json: &&Json| json.get("cv").is_some_and(Json::is_null);
         let untold = all.iter().filter(is_null).filter_map(|json| {
@@ -243,7 +243,7 @@ pub(super) fn measure(
         _ => None,
     };
     let remark = match (&values, &difference) {
-        ([Ok(a), Ok(b)], Some(difference)) if !difference.is_beyond_chance() => {
+        ([Ok(a), Ok(b)], Some(difference)) if !difference.is_significant() => {
             let up = b.value > a.value;
             let far = [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, per_si));
             far.reduce(|a, b| format!("{a}; {b}"))

@@ -146,7 +146,7 @@ mod tests {
         for values in [[a.clone(), b.clone()], [b.clone(), a.clone()]] {
             let difference = compared(values).difference.unwrap();
             let share = difference.half_width() / difference.value.abs();
-            assert!((share - far / 1.51_f64.ln()).abs() < 1e-6 && difference.is_beyond_chance());
+            assert!((share - far / 1.51_f64.ln()).abs() < 1e-6 && difference.is_significant());
         }
         let mut doubtful = a;
         doubtful.doubt = Some("below the blur".to_owned());
@@ -179,7 +179,7 @@ mod tests {
             };
             let distance = |power: i32| {
                 let difference = of(power).difference.unwrap();
-                assert_eq!(difference.is_beyond_chance(), is_beyond, "{power}: {difference:?}");
+                assert_eq!(difference.is_significant(), is_beyond, "{power}: {difference:?}");
                 difference.value.abs() / difference.half_width()
             };
             for power in [2, -1] {

@@ -1,4 +1,4 @@
-//! Figures of a fit: the unevenness of the scan beside that of the simulated webs, the spectrum, and how sure
+//! Figures of a fit: the CV of the scan beside that of the simulated webs, the spectrum, and how sure
 //! the values are.
 
 use crate::numbers::significant;
@@ -12,7 +12,7 @@ const PER_CENT: f64 = 100.0;
 
 /// All figures of a fit.
 pub fn fit_figures(fit: &Fit) -> Vec<Figure> {
-    let mut figures = vec![unevenness(fit), residuals(fit)];
+    let mut figures = vec![patch_cv(fit), residuals(fit)];
     if fit.numbers.iter().any(|number| matches!(number.texture, Texture::Band { .. })) {
         figures.extend([0, 1].map(|direction| spectrum(fit, direction)));
     }
@@ -39,7 +39,7 @@ fn curves(chart: Chart, drawn: &[CurveRow]) -> Chart {
 }
 
 /// CV over the size of the patches.
-fn unevenness(fit: &Fit) -> Figure {
+fn patch_cv(fit: &Fit) -> Figure {
     let patch = |number: &FittedNumber| match number.texture {
         Texture::Patch(side) => Some(drawn(side * MM, number, PER_CENT)),
         Texture::Band { .. } => None,

@@ -21,7 +21,7 @@ use spunlaid::experiment::{
     Fit, Header, Journal, JournalState, MOST_TRIALS, Question, Target, WebInProgress,
 };
 use spunlaid::fibre::Remark;
-use spunlaid::ground::{Control, Error, Fault};
+use spunlaid::ground::{Error, Fault, RunContext};
 use spunlaid::input::{FitFile, WebFile, WebSpec};
 use spunlaid::simulation::{Flights, Flyer};
 use std::path::Path;
@@ -57,7 +57,7 @@ impl FitInput<'_> {
     pub fn find(
         &self,
         web: &(dyn Fn(&[f64]) -> Result<WebFile, Error> + Sync),
-        by: Control<'_>,
+        by: RunContext<'_>,
         journal: &mut Journal,
         watch: &dyn Fn(WebInProgress<'_>),
     ) -> Result<FoundFit<'_>, Error> {

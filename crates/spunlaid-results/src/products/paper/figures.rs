@@ -1,4 +1,4 @@
-//! The figures of the paper, drawn anew: circles for y, triangles for z, with the error bars it lacks.
+//! The figures of the paper, drawn again: circles for y, triangles for z, with the error bars it lacks.
 
 use crate::numbers::capitalised;
 use spunlaid::ground::Vec3;

@@ -6,7 +6,7 @@ use crate::products::study::shown;
 use spunlaid::experiment::study::{results_of_point, run};
 use spunlaid::experiment::{Claim, Journal, PointResults, Progress, Replicates, Study};
 use spunlaid::fibre::Case;
-use spunlaid::ground::Control;
+use spunlaid::ground::RunContext;
 use spunlaid::ground::error::counted;
 use spunlaid::ground::threads::unlock;
 use spunlaid::input::paper::{
@@ -14,7 +14,7 @@ use spunlaid::input::paper::{
     in_scheme, time_steps,
 };
 use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
-use spunlaid::simulation::{CurveValue, Keep, KeepShapes, Number, Results, SpectrumPoint};
+use spunlaid::simulation::{CurveValue, KeepShapes, Number, Recorded, Results, SpectrumPoint};
 use spunlaid_charts::Figure;
 use std::sync::Mutex;
 
@@ -50,7 +50,7 @@ impl PaperFlights {
     /// If a case of the paper cannot be read.
     pub fn new(base: &Case, figures: &[&'static str]) -> Result<Self, Failure> {
         let wants = |figure| figures.contains(&figure);
-        // Points that several studies share, such as Table 1, are flown once.
+        // Points that several studies share, such as Table 1, are simulated once.
         let mut cases: Vec<Case> = Vec::new();
         let mut place = |case: Case| {
             let mut case = in_scheme(case, base.run.scheme, base.run.time_step);
@@ -101,7 +101,7 @@ impl PaperFlights {
     ///
     /// # Errors
     /// If a flight fails or is stopped.
-    pub fn fly(self, computing: Control<'_>) -> Result<PaperResults, Failure> {
+    pub fn fly(self, computing: RunContext<'_>) -> Result<PaperResults, Failure> {
         let journal = Mutex::new(Journal::in_memory());
         run(&self.study, &journal, computing, &Progress::default())?;
         let mut journal = unlock(journal);
@@ -111,7 +111,7 @@ impl PaperFlights {
         let mut steps = Vec::new();
         for case in &self.steps {
             let shapes = KeepShapes { replicates: 1, every: case.run.steps / case.run.output_steps };
-            let keep = Keep { shapes, ..Keep::CURVES };
+            let keep = Recorded { shapes, ..Recorded::CURVES };
             let mut collector = Results::collector(1);
             fly(case, keep, computing, |trajectory| {
                 collector.take(trajectory);

@@ -6,7 +6,7 @@ use crate::page::document::{Report, Section};
 use crate::page::methods::methods;
 use crate::page::table::{Content, Layout, Row, Table};
 use crate::page::words::{count, time};
-use spunlaid::air::{Analysis, Component, OF_COMPONENTS, OF_RECORDS, Record};
+use spunlaid::air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
 use spunlaid::ground::{Dimension, Interval, Measure, Measured, measure};
 use spunlaid_charts::Figure;
 
@@ -39,11 +39,11 @@ pub fn analysis_report<'a>(
 
 /// The numbers for the air of a case, then those of each component.
 fn numbers(analysis: &Analysis) -> [Section<'static>; 2] {
-    let air = table(OF_RECORDS, analysis);
+    let air = table(RECORD_MEASURES, analysis);
     let air = Section::new("air", "The air of a case").table(air).caption(durations(analysis));
     let of_each = Section::new("components", "Each component");
     let add = |section: Section<'static>, component: &Component| {
-        section.heading(&component.name).table(table(OF_COMPONENTS, component))
+        section.heading(&component.name).table(table(COMPONENT_MEASURES, component))
     };
     [air, analysis.components.iter().fold(of_each, add)]
 }
@@ -69,7 +69,7 @@ fn table<T>(measures: &'static [Measure<T>], found: &T) -> Table {
 /// With the numbers of the table below it, and their intervals.
 fn headline(analysis: &Analysis) -> String {
     let told = |name: &str| {
-        let row = measure::measured(OF_RECORDS, analysis).find(|row| row.measure.label == name);
+        let row = measure::measured(RECORD_MEASURES, analysis).find(|row| row.measure.label == name);
         row.map_or_else(String::new, |row| {
             let [value, low, high] = with_interval(&row, analysis);
             format!("{value}{THIN}{} ({low} to {high})", row.measure.unit.shown)

@@ -1,8 +1,8 @@
 //! What a case means: its mesh, its limits, and what a run of it is expected to need.
 
 use super::POSITIONS;
-use super::flown::ROOM;
 use super::report::frames::POSITIONS as POSITIONS_OF_PAGE;
+use super::simulated::ROOM;
 use crate::numbers::significant;
 use crate::products::spinline::files as spinline;
 use spunlaid::air::{Air, Axis, Flow, PlacedField, Spread};
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 /// * `reading` – time that it took to read the case and its files [s]
 ///
 /// # Errors
-/// If it cannot be flown.
+/// If it cannot be simulated.
 pub fn about_case(case: &Case, threads: usize, reading: f64) -> Result<Vec<String>, Error> {
     let expected = Needs::new(case, threads as u64, reading)?;
     let field = match &case.air.flow {

@@ -1,19 +1,19 @@
-//! A case that was flown.
+//! A case that was simulated.
 
 pub(crate) mod checked;
 mod doubt;
 pub(crate) mod figures;
 mod finer;
-mod flown;
 mod report;
 #[cfg(test)]
 pub(crate) mod sample;
+mod simulated;
 pub(crate) mod summary;
 mod tables;
 
 pub use checked::about_case;
-pub use flown::Flights;
 pub use report::frames::{CAMERA, SCENE};
+pub use simulated::Flights;
 pub use tables::unit_of_column;
 
 use crate::Failure;
@@ -26,13 +26,13 @@ use crate::numbers::{lost_fibres_text, significant};
 use crate::products::spinline::figures::{SPINLINE, spinline_figures};
 use crate::products::spinline::files::{SpinResults, write_stations};
 use figures::run_figures;
-use flown::Tables;
 use report::run_report;
+use simulated::Tables;
 use spunlaid::fibre::{Case, Note, Remark};
-use spunlaid::ground::{Control, Isa, WIDTH};
+use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
 use spunlaid::simulation::{
-    FinerChecks, FinerPlans, Keep, KeepShapes, LostFibre, Recorder, Results, RunPaths,
+    FinerChecks, FinerPlans, KeepShapes, LostFibre, Recorded, Recorder, Results, RunPaths,
 };
 use spunlaid_charts::Figure;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -49,7 +49,7 @@ const LOST_LISTED: usize = 10;
 /// Number of node positions kept for the report and ParaView. Each takes 24 bytes.
 pub const POSITIONS: u64 = 4_000_000;
 
-/// What was flown of a case.
+/// What was simulated of a case.
 #[derive(Debug)]
 pub struct Flown {
     /// The results of the replicates, the lost ones among them.
@@ -76,13 +76,13 @@ pub struct Flown {
 pub fn fly(
     case: &Case,
     plans: &FinerPlans,
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     staging: Option<&Staging<'_>>,
     with_shapes: bool,
     found: impl FnOnce(u64),
 ) -> Result<Flown, Failure> {
     let shapes = if with_shapes { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
-    let keep = Keep { shapes, ..Keep::CURVES };
+    let keep = Recorded { shapes, ..Recorded::CURVES };
     let flights = staging.map(|staging| Flights::open(staging, case, Some(keep))).transpose()?;
     if let Some(left) = flights.as_ref().map(Flights::earlier).filter(|left| *left > 0) {
         found(left);
@@ -90,9 +90,9 @@ pub fn fly(
     let tables = staging.zip(flights.as_ref()).map(|(staging, flights)| Tables::create(staging, flights));
     let mut tables = tables.transpose()?;
     let recorder = flights.as_ref().map(|flights| flights as &dyn Recorder);
-    let recorded = Keep { recorder, ..keep };
+    let recorded = Recorded { recorder, ..keep };
     let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
-    let flown = fly_for_checks(
+    let simulated = fly_for_checks(
         case,
         plans,
         recorded,
@@ -115,7 +115,7 @@ pub fn fly(
             Ok::<(), Failure>(())
         },
     );
-    let paths = match flown {
+    let paths = match simulated {
         Ok(paths) => Some(paths),
         // What has landed becomes results. Another interruption ends that too.
         Err(Failure::Interrupted)
@@ -154,14 +154,14 @@ impl RunFolder {
     /// landed.
     ///
     /// * `notes` – about the case
-    /// * `flown` – the results, the number of replicates, and whether these are all
+    /// * `simulated` – the results, the number of replicates, and whether these are all
     /// * `started` – when the flights began
     pub fn new(
         name: String,
         (mut case, notes): (Arc<Case>, &[Note]),
         (results, replicates, is_whole): (Results, u64, bool),
         plans: &FinerPlans,
-        (started, by): (Instant, Control<'_>),
+        (started, by): (Instant, RunContext<'_>),
     ) -> Self {
         let mut notes = Remark::notes_of_results(notes);
         let checks = if is_whole { plans.before_flight() } else { plans.stopped() };
@@ -200,7 +200,7 @@ impl Contents for RunFolder {
         let input = maker.keep(Input::Case(case))?;
         if self.drawn.get().is_none() {
             let (Making { threads, stop, .. }, fibre_steps) = (maker.making, &AtomicU64::new(0));
-            let computing = Control { threads, isa: Isa::detect(), stop, done: fibre_steps };
+            let computing = RunContext { threads, isa: Isa::detect(), stop, done: fibre_steps };
             let drawn = run_figures(case, results, &turbulence_spectrum(case, computing)?);
             let _ = self.drawn.set(drawn);
         }
@@ -288,7 +288,7 @@ pub fn coarse_shapes(case: &Case, results: &Results) -> Option<String> {
 /// What the flights cost, without those of the checks.
 ///
 /// * `wall_s` – time that they took [s]
-pub fn performance(case: &Case, results: &Results, computing: Control<'_>, wall_s: f64) -> Performance {
+pub fn performance(case: &Case, results: &Results, computing: RunContext<'_>, wall_s: f64) -> Performance {
     let threads = computing.threads.min(case.flights() as usize);
     // Of a fed fibre, as many as there are in the air on average.
     let elements =

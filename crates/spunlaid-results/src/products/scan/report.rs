@@ -15,14 +15,15 @@ use crate::products::web::report::cards;
 use crate::products::web::report::cards::scale_card;
 use crate::products::web::report::fabric::{compare, fabric_section, shown as of_fabric};
 use crate::products::web::report::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
+use crate::products::web::report::patch_cv::{CV_OF_PATCHES, headline, largest_clouds, per_cent};
 use crate::products::web::report::scale::Judged;
-use crate::products::web::report::unevenness::{CV_OF_PATCHES, headline, largest_clouds, per_cent};
 use spunlaid::ground::{Measure, Measured, measure};
 use spunlaid::web::map::nearest_to_seen;
-use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::scan::{Doubt, Findings, PatchFindings, StreakLimit};
 use spunlaid::web::{
-    Fabric, Map, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS,
+    Fabric, Map, SCAN_MEASURES, SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES,
+    STREAK_LIMIT_MEASURES,
 };
 use spunlaid_charts::Figure;
 use std::borrow::Cow;
@@ -40,7 +41,7 @@ pub fn scan_report<'a>(
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
-    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
+    let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.patch_cv.patch));
     let judged = seen.map(|i| judged(findings, &findings.patches[i]));
     let map = with_spots(findings);
     let pictures = Pictures::new(&map, None, below(judged));
@@ -82,16 +83,16 @@ pub fn scan_report<'a>(
         .costing(cost(performance)))
 }
 
-/// What is known of the unevenness over patches; where it is guessed, nothing.
-fn judged(findings: &Findings, PatchFindings { unevenness, interval, .. }: &PatchFindings) -> Judged {
-    let told = findings.guess.is_none().then_some((unevenness.cv, unevenness.standard_error));
-    let (patch, of_map, chance) = (unevenness.patch, unevenness.cv, None);
+/// What is known of the CV over patches; where it is assumed, nothing.
+fn judged(findings: &Findings, PatchFindings { patch_cv, interval, .. }: &PatchFindings) -> Judged {
+    let told = findings.guess.is_none().then_some((patch_cv.cv, patch_cv.standard_error));
+    let (patch, of_map, chance) = (patch_cv.patch, patch_cv.cv, None);
     Judged { patch, of_map, told, interval: interval.ok().filter(|_| told.is_some()), chance }
 }
 
 fn title(findings: &Findings) -> String {
-    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.unevenness.patch));
-    let patch = nearest_patch.map(|i| &findings.patches[i].unevenness);
+    let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.patch_cv.patch));
+    let patch = nearest_patch.map(|i| &findings.patches[i].patch_cv);
     let (Some(guess), Some(patch)) = (findings.guess, patch) else {
         return headline(patch, false, None);
     };
@@ -106,12 +107,12 @@ fn title(findings: &Findings) -> String {
 }
 
 /// A CV whose error is not known, to two digits.
-fn rough(patch: &Unevenness) -> String {
+fn rough(patch: &PatchCv) -> String {
     format!("{}{THIN}%", significant(100.0 * patch.cv, 2))
 }
 
 /// A CV with its error; to two digits where that is not known.
-fn cv(patch: &Unevenness) -> String {
+fn cv(patch: &PatchCv) -> String {
     match patch.standard_error {
         Some(_) => per_cent(patch.cv, patch.standard_error),
         None => rough(patch),
@@ -153,7 +154,7 @@ fn streaks(findings: &Findings) -> Section<'static> {
         );
     };
     let least = |limit: &StreakLimit| {
-        let [width, amplitude] = OF_STREAK_LIMITS else { return String::new() };
+        let [width, amplitude] = STREAK_LIMIT_MEASURES else { return String::new() };
         format!("{} if they are {} wide", of_fabric(amplitude, limit), of_fabric(width, limit))
     };
     let ends = [search.limits.first(), search.limits.last()].into_iter().flatten().map(least);
@@ -168,10 +169,10 @@ fn streaks(findings: &Findings) -> Section<'static> {
         count(search.periods.len(), "period across the web"),
         ends.collect::<Vec<_>>().join(", ")
     ));
-    let [place, measures @ ..] = OF_SCAN_STREAKS else { return section };
+    let [place, measures @ ..] = SCAN_STREAK_MEASURES else { return section };
     let rows: Vec<_> = search.streaks.iter().map(|streak| (of_fabric(place, streak), streak)).collect();
     let section = compare(section, ("Streaks", place.label), measures, &rows);
-    let [period, measures @ ..] = OF_SCAN_PERIODS else { return section };
+    let [period, measures @ ..] = SCAN_PERIOD_MEASURES else { return section };
     let rows: Vec<_> = search.periods.iter().map(|wave| (of_fabric(period, wave), wave)).collect();
     compare(section, ("Periods", period.label), measures, &rows).caption(ABOUT_STREAKS)
 }
@@ -186,12 +187,12 @@ fn told_of(findings: &Findings) -> impl Iterator<Item = &'static Measure<PatchFi
     let is_known = |measure: &&'static Measure<PatchFindings>| {
         findings.patches.iter().any(|patch| measure.of(patch).value.is_some())
     };
-    OF_SCANNED_PATCHES.iter().skip(1).filter(is_known)
+    SCANNED_PATCH_MEASURES.iter().skip(1).filter(is_known)
 }
 
 fn row(findings: &Findings, patch: &PatchFindings) -> Row {
     let mut cells = vec![
-        cv(&patch.unevenness),
+        cv(&patch.patch_cv),
         patch.interval.map_or_else(
             |doubt| format!("none: {doubt}"),
             |[low, high]| {
@@ -201,7 +202,7 @@ fn row(findings: &Findings, patch: &PatchFindings) -> Row {
     ];
     // The CV stands before the interval.
     cells.extend(told_of(findings).map(|measure| shown(&measure.of(patch)).unwrap_or_default()));
-    Row::new(millimetres(patch.unevenness.patch), cells)
+    Row::new(millimetres(patch.patch_cv.patch), cells)
 }
 
 /// The value of a measure with its unit; none if there is no value.
@@ -261,7 +262,7 @@ fn facts(file: &str, findings: &Findings) -> Vec<(&'static str, String)> {
     // What is zero has not been found.
     let is_found =
         |row: &Measured<Findings>| !row.measure.label.is_empty() && row.measure.number(findings) != 0.0;
-    let labelled = measure::measured(OF_SCANS, findings).filter(is_found);
+    let labelled = measure::measured(SCAN_MEASURES, findings).filter(is_found);
     facts.extend(labelled.filter_map(|row| Some((row.measure.label, shown(&row)?))));
     if let Some(largest) = findings.aside.spots.first() {
         let spots = format!(

@@ -34,7 +34,7 @@ pub struct SourcesFolder<'a> {
 
 impl<'a> SourcesFolder<'a> {
     /// * `name` – what the line is called: the name of its file
-    /// * `input` – what it is from, the case that was flown, and notes about both
+    /// * `input` – what it is from, the case that was simulated, and notes about both
     pub fn new(name: String, (input, case, notes): (Input<'a>, &'a Case, &[Note]), sources: Sources) -> Self {
         let lost = lost(&sources.lost, case.run.replicates);
         let lacking: Vec<String> = lost.into_iter().chain(unsteady(case, &sources)).collect();

@@ -7,7 +7,9 @@ use crate::files::table::{Column, Value, number, whole};
 use crate::files::versioned_json;
 use crate::numbers::{number_to, significant, to_decimals};
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::{Case, FreezingCause, FrictionLaw, OF_SPINLINES, Solution, Station, ZERO_CELSIUS};
+use spunlaid::fibre::{
+    Case, FrictionLaw, SPINLINE_MEASURES, SolidificationCause, Solution, Station, ZERO_CELSIUS,
+};
 use spunlaid::ground::{Dimension, Error};
 use spunlaid::input::{Influence, OfFilament, SpinFile};
 use spunlaid_charts::label::plain;
@@ -61,8 +63,8 @@ fn part(SpinResults { rows, influences }: &SpinResults) -> Json {
 }
 
 fn measures(row: &Solution) -> Json {
-    let mut told = values(OF_SPINLINES, row);
-    told["freezing"]["by"] = row.freezing.by.name().into();
+    let mut told = values(SPINLINE_MEASURES, row);
+    told["solidification"]["by"] = row.solidification.by.name().into();
     told["second_steady_state"] = row.has_second.into();
     told
 }
@@ -166,13 +168,13 @@ pub fn filament(case: &Case) -> Vec<String> {
         significant(throughput * 6e4, 3),
     );
     let solution = case.spinline.as_ref().and_then(|spinline| spinline.solve(case.drag.along).ok());
-    let frozen = solution.map(|solution| format!("from the spinline: {}", freezing(&solution)));
+    let frozen = solution.map(|solution| format!("from the spinline: {}", solidification(&solution)));
     [fed].into_iter().chain(frozen).collect()
 }
 
-/// Where and by what the thread freezes, in a sentence.
-pub fn freezing(solution: &Solution) -> String {
-    let point = solution.freezing;
+/// Where and by what the thread solidifies, in a sentence.
+pub fn solidification(solution: &Solution) -> String {
+    let point = solution.solidification;
     format!(
         "The filament is drawn {}-fold and solidifies {} below the die, at {}, {}, under a stress of {} MPa and \
         while it cools at {} K/s.",
@@ -180,8 +182,8 @@ pub fn freezing(solution: &Solution) -> String {
         Dimension::Length.pretty_to(point.distance, 3),
         Dimension::Temperature.pretty_to(point.temperature, 4),
         match point.by {
-            FreezingCause::Temperature => "by its temperature",
-            FreezingCause::Crystallisation => "by crystallisation",
+            SolidificationCause::Temperature => "by its temperature",
+            SolidificationCause::Crystallisation => "by crystallisation",
         },
         significant(point.stress * 1e-6, 3),
         two_digits(point.cooling_rate)

@@ -1,13 +1,13 @@
 //! The report of a spinline, and the section about it in the reports of runs and of webs.
 
-use super::files::{SpinResults, freezing, influence, model_error, numerical_error};
+use super::files::{SpinResults, influence, model_error, numerical_error, solidification};
 use crate::numbers::{THIN, number_to, significant};
 use crate::page::document::{Part, Report, Section};
 use crate::page::methods::methods;
 use crate::page::table::Table;
 use crate::page::words::length;
 use spunlaid::fibre::{
-    Case, End, Law, OF_SPINLINES, PolymerSource, Solution, SpinSpec, Surroundings, ZERO_CELSIUS,
+    Case, End, Law, PolymerSource, SPINLINE_MEASURES, Solution, SpinSpec, Surroundings, ZERO_CELSIUS,
 };
 use spunlaid_charts::Figure;
 
@@ -67,7 +67,7 @@ pub(crate) fn section<'a>(
     figures: &'a [Figure],
 ) -> Section<'a> {
     let first = rows.first();
-    let results = first.map(|first| Table::of_measures(OF_SPINLINES, first)).unwrap_or_default();
+    let results = first.map(|first| Table::of_measures(SPINLINE_MEASURES, first)).unwrap_or_default();
     let is_low = first.is_some_and(|row| row.has_low_birefringence);
     let section = section.paragraphs(sentences.into_iter().chain(curtain(rows)));
     let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
@@ -93,7 +93,7 @@ fn headline(solution: &Solution) -> String {
     )
 }
 
-/// What is spun, and where it freezes, in sentences.
+/// What is spun, and where it solidifies, in sentences.
 fn summary(spec: &SpinSpec, rows: &[Solution]) -> String {
     let spinline = &spec.spinline;
     let mut text = format!(
@@ -105,7 +105,7 @@ fn summary(spec: &SpinSpec, rows: &[Solution]) -> String {
     );
     if let Some(solution) = rows.first() {
         text += " ";
-        text += &freezing(solution);
+        text += &solidification(solution);
     }
     text
 }
@@ -132,7 +132,11 @@ pub(crate) fn section_of_fibre<'a>(case: &Case, results: &SpinResults, figures: 
         _ => "diameter, density and speed",
     };
     let sentences = results.rows.first().map(|solution| {
-        format!("{} {} This gives the simulated fibre its {gives}.", headline(solution), freezing(solution))
+        format!(
+            "{} {} This gives the simulated fibre its {gives}.",
+            headline(solution),
+            solidification(solution)
+        )
     });
     section(Section::new("spinline", "Spinline"), sentences.into_iter().collect(), results, figures)
 }

@@ -2,7 +2,7 @@
 
 use spunlaid::fibre::spinline::HoleRows;
 use spunlaid::fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
-use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, Setting, Tried, Turned};
+use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, SensitivityRun, Setting, Turned};
 use spunlaid::input::{Influence, OfFilament};
 
 /// Friction between thread and air.
@@ -52,7 +52,7 @@ pub fn influences() -> Vec<Influence> {
         let change = Change { setting, layers: Vec::new(), keys, experiment: (), refusal: None };
         let effects = [(OfFilament::Diameter, diameter), (OfFilament::Speed, -2.0 * diameter)]
             .map(|(of, value)| Effect::new(of, Difference::exact(value)));
-        Tried { change, effects: effects.to_vec(), at_first: Vec::new() }
+        SensitivityRun { change, effects: effects.to_vec(), at_first: Vec::new() }
     };
     vec![
         one("spinline.velocity_factor", "Air velocity along the filament, from 10 m/s", false, -0.78),
@@ -61,7 +61,7 @@ pub fn influences() -> Vec<Influence> {
         one("spinline.melt_flow_rate", "Melt flow rate", false, -0.27),
         one("spinline.die_temperature", "Die temperature", true, -0.057),
         one("spinline.temperature_offset", "Air temperature", true, -0.018),
-        one("spinline.material.freezing_temperature", "Solidification temperature", true, 0.006),
+        one("spinline.material.solidification_temperature", "Solidification temperature", true, 0.006),
         one("spinline.hole_diameter", "Hole diameter", false, 0.14),
     ]
 }

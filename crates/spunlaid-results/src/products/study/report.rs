@@ -202,7 +202,7 @@ fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let result = &study.quantities[quantity];
     let label = &result.label;
     let size = |effect: &&Effect<Contrast>| effect.difference.value.abs();
-    let known = effects.iter().filter(|effect| effect.difference.is_beyond_chance());
+    let known = effects.iter().filter(|effect| effect.difference.is_significant());
     let Some(effect) = known.max_by(|a, b| size(a).total_cmp(&size(b))) else {
         let all_known = effects.iter().all(|effect| effect.difference.known_half_width().is_some());
         return all_known.then(|| format!("{label} does not change significantly"));

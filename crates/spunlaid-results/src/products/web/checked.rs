@@ -9,7 +9,7 @@ use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{are_short, steps};
 use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
 use spunlaid::ground::error::counted;
-use spunlaid::ground::threads::try_each;
+use spunlaid::ground::threads::try_par_map;
 use spunlaid::ground::{Dimension, Error, Isa, WIDTH};
 use spunlaid::input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
 use spunlaid::simulation::PlannedFlight;
@@ -19,7 +19,7 @@ use spunlaid_charts::label::plain;
 
 /// What a web means, in lines.
 pub fn about_web(spec: &WebSpec) -> Vec<String> {
-    [line(spec), spinlines(spec), sheet(spec).to_vec(), air(spec), load(spec), guesses(spec)].concat()
+    [line(spec), spinlines(spec), sheet(spec).to_vec(), air(spec), load(spec), assumed_values(spec)].concat()
 }
 
 /// The numbers by which a line is known: `20 g/m² on a belt of 2.083 m/s`, `150 kg/h`.
@@ -138,7 +138,7 @@ fn sheet(spec: &WebSpec) -> [String; 2] {
 
 /// In which air the filaments hang, and what that means for the CV.
 fn air(spec: &WebSpec) -> Vec<String> {
-    let flown = |layer: &LayerSpec| {
+    let simulated = |layer: &LayerSpec| {
         let path = layer.source.path().display();
         match &layer.source {
             LaydownSource::Surrogate(_) => {
@@ -152,7 +152,7 @@ fn air(spec: &WebSpec) -> Vec<String> {
         }
     };
     let mut lines = vec!["air".to_owned()];
-    for line in spec.layers.iter().flat_map(flown) {
+    for line in spec.layers.iter().flat_map(simulated) {
         if !lines.contains(&line) {
             lines.push(line);
         }
@@ -193,7 +193,7 @@ fn is_at_random(spec: &WebSpec) -> bool {
     spec.layers.iter().any(|layer| matches!(layer.filaments, Filaments::AtRandom { .. }))
 }
 
-/// How many filaments of each layer are flown on which sheet, and what memory their air takes.
+/// How many filaments of each layer are simulated on which sheet, and what memory their air takes.
 fn in_one_air(spec: &WebSpec) -> Vec<String> {
     let flights = spec.planned_flights();
     let size = |size: f64| Dimension::Length.pretty(size);
@@ -203,7 +203,7 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         match flight.is_few {
             true => format!(
                 "  {}{of} are simulated in shared turbulence, on a sheet of {width} × {length}; the web of {all} \
-                is estimated from them (web.flown){}",
+                is estimated from them (web.simulated){}",
                 counted(flight.filaments, "filament"),
                 match flight.coarse_sheets {
                     0 => String::new(),
@@ -220,13 +220,13 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
         }
     };
     let mut lines: Vec<String> = flights.iter().zip(&spec.layers).enumerate().map(flight).collect();
-    // The layers are flown one after the other.
+    // The layers are simulated one after the other.
     let memory = flights.iter().map(|flight| flight.memory).fold(0.0, f64::max);
     lines.push(format!("  the field takes {} of memory", Dimension::Memory.pretty_to(memory, 2)));
     if is_at_random(spec) {
         lines.push(
             "  they come in one row, at random places of it; the slot of a line has a depth: --set \
-            line.depth=\"20 mm\""
+            line.slot_gap=\"20 mm\""
                 .to_owned(),
         );
     }
@@ -260,7 +260,7 @@ fn load(spec: &WebSpec) -> Vec<String> {
 /// * `changes` – the values and the changes
 ///
 /// # Errors
-/// If a case cannot be flown.
+/// If a case cannot be simulated.
 pub fn expected_of_web(
     spec: &WebSpec,
     threads: usize,
@@ -273,7 +273,7 @@ pub fn expected_of_web(
         let mut alone = case.clone();
         alone.air.lateral = Lateral::Uniform;
         // On all threads together, because they may share a core. A thread flies eight filaments at once.
-        let paces = try_each(threads, threads.max(1), |_| pace(&alone, Isa::detect()))?;
+        let paces = try_par_map(threads, threads.max(1), |_| pace(&alone, Isa::detect()))?;
         let pace = paces.iter().sum::<f64>() / paces.len() as f64;
         each.push(pace / (WIDTH as f64 * abreast));
     }
@@ -299,7 +299,7 @@ pub fn expected_of_web(
         (!changes.is_empty()).then(|| format!("  {words}, {count}: {}{asked}", duration(seconds)))
     };
     let trials =
-        [trial(assumed, "other value", "assumptions (web.guessed)"), trial(of_line, "change", "advice")];
+        [trial(assumed, "other value", "assumptions (web.assumed)"), trial(of_line, "change", "advice")];
     let head = format!("expected, on {}", counted(threads as u64, "thread"));
     Ok([head, web].into_iter().chain(trials.into_iter().flatten()).collect())
 }
@@ -312,16 +312,16 @@ const KNOWN: f64 = 1.2;
 const FINDING: f64 = 5.0;
 const TRIAL: f64 = 5.4;
 
-/// Which numbers are guesses, and what is done about them.
-fn guesses(spec: &WebSpec) -> Vec<String> {
-    if spec.guessed.is_empty() {
+/// Which numbers are assumed_values, and what is done about them.
+fn assumed_values(spec: &WebSpec) -> Vec<String> {
+    if spec.assumed.is_empty() {
         return Vec::new();
     }
     let each = format!(
         "  {}: spunlaid web also gives the CV for half and twice of each, from a sample of filaments",
-        spec.guessed.join(", ")
+        spec.assumed.join(", ")
     );
-    vec!["assumed values (web.guessed)".to_owned(), each]
+    vec!["assumed values (web.assumed)".to_owned(), each]
 }
 
 /// That the web is a lower bound, and the way out of it.

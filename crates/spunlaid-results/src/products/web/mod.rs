@@ -28,7 +28,7 @@ use report::spinlines::LayerSpinline;
 use report::web_report;
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::{Case, Load, Remark, Solution};
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::FlownWeb;
 use spunlaid::web::map::{Filaments, Findings, strands};
@@ -45,15 +45,15 @@ pub struct WebFolder {
     /// The file.
     pub file: WebFile,
     /// The web that was laid, with the fibres of its layers.
-    pub flown: FlownWeb,
+    pub simulated: FlownWeb,
     /// What was found of it.
     pub findings: Findings,
     /// What is told of the fabric.
     pub fabric: Fabric,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<Advice>,
-    /// What guesses matter for it; None if it was not tried.
-    pub guesses: Option<Advice>,
+    /// What assumed_values matter for it; None if it was not tried.
+    pub assumed_values: Option<Advice>,
     /// The folder of the web, beside which those of changed webs lie.
     pub beside: String,
     /// Whether what was not tried is tried next.
@@ -71,14 +71,26 @@ impl WebFolder {
     pub fn new(
         (name, beside): (String, String),
         file: WebFile,
-        (flown, findings): (FlownWeb, Findings),
-        (started, by): (Instant, Control<'_>),
+        (simulated, findings): (FlownWeb, Findings),
+        (started, by): (Instant, RunContext<'_>),
     ) -> Self {
-        let fabric = file.spec.fabric(&flown.web, &findings, by.threads);
+        let fabric = file.spec.fabric(&simulated.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
-        let notes = [Remark::notes_of_results(&file.notes), notes(&flown, &findings)];
-        let (advice, guesses, awaited) = (None, None, false);
-        Self { name, file, flown, findings, fabric, advice, guesses, beside, awaited, notes, performance }
+        let notes = [Remark::notes_of_results(&file.notes), notes(&simulated, &findings)];
+        let (advice, assumed_values, awaited) = (None, None, false);
+        Self {
+            name,
+            file,
+            simulated,
+            findings,
+            fabric,
+            advice,
+            assumed_values,
+            beside,
+            awaited,
+            notes,
+            performance,
+        }
     }
 
     /// The specification sheet, one page of PDF.
@@ -109,9 +121,9 @@ impl Contents for WebFolder {
     const OF_ONE_FORMAT: &'static [&'static str] = &["map.npy"];
 
     fn summary(&self) -> String {
-        let web = &self.flown.web;
+        let web = &self.simulated.web;
         let rows = rows(&self.file.spec, web);
-        let tried = (self.advice.as_ref(), self.guesses.as_ref(), &*self.beside);
+        let tried = (self.advice.as_ref(), self.assumed_values.as_ref(), &*self.beside);
         files::summary::summary_of_web(
             web,
             (&self.findings, &self.fabric),
@@ -127,15 +139,16 @@ impl Contents for WebFolder {
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let Self { flown: FlownWeb { web, .. }, findings, .. } = self;
-        let (spec, advice, guesses) = (&self.file.spec, self.advice.as_ref(), self.guesses.as_ref());
+        let Self { simulated: FlownWeb { web, .. }, findings, .. } = self;
+        let (spec, advice, assumed_values) =
+            (&self.file.spec, self.advice.as_ref(), self.assumed_values.as_ref());
         let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
-        let by = Control { threads, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
-        let strands = match findings.laid.flown.is_empty() {
+        let by = RunContext { threads, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
+        let strands = match findings.laid.simulated.is_empty() {
             true => strands(web, spec.window(), by)?,
             false => findings.laid.strands(),
         };
-        let tried = [advice, guesses].into_iter().flatten();
+        let tried = [advice, assumed_values].into_iter().flatten();
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
         let field = spec.cases().find_map(|case| field_figure(case, None));
         let figures: Vec<Figure> =
@@ -161,7 +174,7 @@ impl Contents for WebFolder {
             web_report(
                 (spec, &input, web),
                 (findings, &self.fabric),
-                Advised { advice, guesses, awaited: self.awaited, beside: &self.beside },
+                Advised { advice, assumed_values, awaited: self.awaited, beside: &self.beside },
                 (&rows(spec, web), &spinlines),
                 (&pictures, &strands),
                 &figures,
@@ -175,7 +188,7 @@ impl Contents for WebFolder {
 /// What layers were laid from, for the files.
 fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
-        let fit = drawn.fibres.flown().and_then(|flown| flown.residual);
+        let fit = drawn.fibres.simulated().and_then(|simulated| simulated.residual);
         let surrogate = drawn.fibres.surrogate();
         Layer {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
@@ -198,7 +211,11 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
             fit_residual: fit.map(|fit| fit.rms),
             fit_residual_by_chance: fit.and_then(|fit| fit.by_chance),
             lateral_cutoff: spec.lateral_cutoff(i),
-            curtain: curtain(layer, drawn.count(&web.sheet) as f64 / web.sheet.width, drawn.fibres.flown()),
+            curtain: curtain(
+                layer,
+                drawn.count(&web.sheet) as f64 / web.sheet.width,
+                drawn.fibres.simulated(),
+            ),
             spinline: layer.source.case().and_then(part_of_case),
         }
     };
@@ -206,8 +223,8 @@ fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
 }
 
 /// What the filaments of a layer do to their air.
-fn curtain(layer: &LayerSpec, filaments_per_metre: f64, flown: Option<&FlownFibres>) -> Option<Load> {
-    let way = flown.map_or(&[][..], |flown| &flown.way);
+fn curtain(layer: &LayerSpec, filaments_per_metre: f64, simulated: Option<&FlownFibres>) -> Option<Load> {
+    let way = simulated.map_or(&[][..], |simulated| &simulated.way);
     load_of(layer.source.case()?, filaments_per_metre, layer.filaments.slot(), way)
 }
 
@@ -233,8 +250,8 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
 }
 
 /// What a reader must know of what was found.
-fn notes(flown: &FlownWeb, findings: &Findings) -> Vec<String> {
-    let mut notes: Vec<String> = flown.doubts(findings).iter().map(ToString::to_string).collect();
+fn notes(simulated: &FlownWeb, findings: &Findings) -> Vec<String> {
+    let mut notes: Vec<String> = simulated.doubts(findings).iter().map(ToString::to_string).collect();
     if findings.laid.map.cells.len() > files::MOST_CELLS {
         notes.push(
             "the map is only in map.npy, because it has more cells than a table or a picture can hold"

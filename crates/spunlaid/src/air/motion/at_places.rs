@@ -61,7 +61,7 @@ impl AirAtPlaces {
 
     /// Velocities of the air at places [m/s].
     ///
-    /// Looks at times that rise are fast; one at an earlier time makes the field anew.
+    /// Looks at times that rise are fast; one at an earlier time makes the field again.
     ///
     /// * `time` – from the start of a run [s]
     /// * `places` – the origin is the inlet or the root, and x points along gravity [m]. The turbulence

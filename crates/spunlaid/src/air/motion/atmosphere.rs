@@ -146,7 +146,7 @@ impl Atmosphere {
         }
     }
 
-    /// Forgets how the air was so far, before fibres start anew.
+    /// Forgets how the air was so far, before fibres start again.
     pub(crate) fn forget(&mut self) {
         match self {
             Self::Uniform(_) => {}

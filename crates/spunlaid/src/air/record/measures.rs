@@ -11,7 +11,7 @@ type OfRecord = Measure<Analysis>;
 type OfComponent = Measure<Component>;
 
 /// The measures of a record, in the order of the tables: what the `[air]` of a case needs.
-pub const OF_RECORDS: &[Measure<Analysis>] = &[
+pub const RECORD_MEASURES: &[Measure<Analysis>] = &[
     result("mean_velocity_m_s", "Mean velocity", METRES_PER_SECOND, |record| record.mean_velocity)
         .meaning("mean of the component along the flow")
     .remark(|record| Some(format!("mean of {}", along(record)))),
@@ -42,7 +42,7 @@ pub const OF_RECORDS: &[Measure<Analysis>] = &[
 
 /// The measures of each component of a record, in the order of the tables; what has no label stands in
 /// `analysis.json` alone.
-pub const OF_COMPONENTS: &[Measure<Component>] = &[
+pub const COMPONENT_MEASURES: &[Measure<Component>] = &[
     OfComponent::new("mean_m_s", "Mean", METRES_PER_SECOND, Interval(|found| found.mean))
         .meaning("mean over the record"),
     OfComponent::new("rms_m_s", "Rms", METRES_PER_SECOND, Interval(|found| found.rms))

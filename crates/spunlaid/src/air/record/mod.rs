@@ -65,7 +65,7 @@ pub use correlation::{Autocorrelation, IntegralRule};
 pub use flat::FlatPart;
 pub use interval::Trend;
 pub use jackknife::Moments;
-pub use measures::{OF_COMPONENTS, OF_RECORDS};
+pub use measures::{COMPONENT_MEASURES, RECORD_MEASURES};
 pub use text::parse_csv;
 
 /// Largest number of samples in a record, over all components.

@@ -1,9 +1,9 @@
-//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are guesses.
+//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are assumed_values.
 //!
 //! ```text
 //! settings of the line → webs with one of them changed, on the belt that lays the same weight
-//!   → flown anew in the same gusts → expected CV, compared with that of the web fibre by fibre, or block by block
-//!   → in one air the best ones flown once more in another air → Advice
+//!   → simulated again in the same eddies → expected CV, compared with that of the web fibre by fibre, or block by block
+//!   → in one air the best ones simulated once more in another air → Advice
 //! ```
 
 mod kept;
@@ -19,8 +19,10 @@ use self::kept::{numbers_of, outcomes_of};
 use self::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use crate::experiment::study::Experiment;
 use crate::fibre::Case;
-use crate::ground::threads::try_each;
-use crate::ground::{Control, Dimension, Effect, Error, Fault, Log, Outcome, RACING, Trials, effects};
+use crate::ground::threads::try_par_map;
+use crate::ground::{
+    Dimension, Effect, Error, Fault, Log, Outcome, RACING, RunContext, Sensitivity, effects,
+};
 use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
@@ -31,11 +33,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub type Change = effects::Change<ChangedWeb>;
 /// A change of a web with what it does to the CV over patches of each size, as a share of it: negative for a
 /// more even web.
-pub type Tried = effects::Tried<ChangedWeb, f64>;
+pub type SensitivityRun = effects::SensitivityRun<ChangedWeb, f64>;
 /// What changes of settings do to the CV of a web.
-pub type Advice = Trials<ChangedWeb, f64>;
+pub type Advice = Sensitivity<ChangedWeb, f64>;
 
-/// What is flown of webs in one air: where guesses are tried, which may be far from what the file says; where
+/// What is simulated of webs in shared turbulence: where assumed_values are tried, which may be far from what the file says; where
 /// all changes are; and where those are compared once more that may be the best.
 const GUESSES: Compared = Compared { area: 0.045, pitches: 2.0 };
 const CHANGES: Compared = Compared { area: 0.06, pitches: 2.0 };
@@ -45,47 +47,47 @@ const OTHER_EDDIES: f64 = 1.5;
 /// Bits of a seed that are others in another air.
 const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in one air, about.
+/// Steps of all fibres of the flights that it takes to try some changes of a web; of webs in shared turbulence, about.
 pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
     if spec.flies() {
         let all = compared(changes);
         let alone = changes.iter().filter(|change| has_own_clouds(spec, change));
         let alone: u64 = alone.map(|change| steps_in_same_air(&[&change.experiment.spec], all)).sum();
-        let racing = changes.iter().filter(|change| !is_guess(change)).count().min(RACING) as u64;
+        let racing = changes.iter().filter(|change| !is_assumed(change)).count().min(RACING) as u64;
         let again = if racing == 0 { 0 } else { (1 + racing) * steps_in_same_air(&[spec], RACE) };
         return steps_in_same_air(&all_webs(spec, changes), all) + alone + again;
     }
     0
 }
 
-/// What is flown of some changes of a web in one air.
+/// What is simulated of some changes of a web in shared turbulence.
 fn compared(changes: &[Change]) -> Compared {
-    if changes.iter().any(is_guess) { GUESSES } else { CHANGES }
+    if changes.iter().any(is_assumed) { GUESSES } else { CHANGES }
 }
 
-/// A web and the changed ones that are flown beside it.
+/// A web and the changed ones that are simulated beside it.
 fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
     let beside = changes.iter().filter(|change| !has_own_clouds(spec, change));
     std::iter::once(spec).chain(beside.map(|change| &change.experiment.spec)).collect()
 }
 
-/// Most steps of all fibres that are flown for advice or for guesses without being asked: a minute or two of
+/// Most steps of all fibres that are simulated for advice or for assumed_values without being asked: a minute or two of
 /// a processor.
 pub const MOST_STEPS: u64 = 20_000_000;
 
 /// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
-/// filaments tell the web. Where all filaments in one air are flown, two maps are compared, and only large
-/// effects are seen. Guesses must also fit into the memory beside each other.
+/// filaments tell the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only large
+/// effects are seen. AssumedValues must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
     let is_told = findings.seen().is_none_or(|seen| seen.doubt.is_none());
-    let says_enough = is_told && findings.laid.flown.iter().all(|layer| layer.few.is_some());
+    let says_enough = is_told && findings.laid.simulated.iter().all(|layer| layer.few.is_some());
     says_enough && are_short(spec, changes)
 }
 
 /// Whether changes are tried without being asked if a few filaments tell the web.
 pub fn are_short(spec: &WebSpec, changes: &[Change]) -> bool {
-    let are_guesses = changes.iter().any(is_guess);
-    let fits = || !are_guesses || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
+    let are_assumed = changes.iter().any(is_assumed);
+    let fits = || !are_assumed || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
     steps(spec, changes) <= MOST_STEPS && fits()
 }
 
@@ -93,8 +95,8 @@ fn is_same(patch: f64, side: f64) -> bool {
     (patch / side - 1.0).abs() < 1e-6
 }
 
-fn is_guess(change: &Change) -> bool {
-    change.setting == setting::GUESS
+fn is_assumed(change: &Change) -> bool {
+    change.setting == setting::ASSUMED
 }
 
 /// Tries changes of a web.
@@ -112,14 +114,14 @@ pub fn advise(
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
     judged_by: Option<f64>,
-    (kept, by): (Option<&Log>, Control<'_>),
+    (kept, by): (Option<&Log>, RunContext<'_>),
 ) -> Result<Advice, Error> {
     let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
         few_of_changes((spec, findings), (changes, of_each), (kept, by))
     };
     let has_few = findings.laid.few().next().is_some();
     let mut is_in_same_air = false;
-    let mut advice = Trials::new(changes, |changes| {
+    let mut advice = Sensitivity::new(changes, |changes| {
         let in_same_air = if has_few { few_of((spec, changes), compared(changes))? } else { None };
         is_in_same_air = in_same_air.is_some();
         in_same_air.map_or_else(|| try_alone(spec, (web, findings), changes, by), Ok)
@@ -134,8 +136,8 @@ pub fn advise(
         let what = format!("the CV over patches of {side} is not known of the compared webs");
         return Err(Fault::new(what, "take smaller patches, or a larger sheet").into());
     }
-    // Nobody chooses the best one of some guesses.
-    if is_in_same_air && advice.tried.iter().any(|tried| !is_guess(&tried.change)) {
+    // Nobody chooses the best one of some assumed_values.
+    if is_in_same_air && advice.tried.iter().any(|tried| !is_assumed(&tried.change)) {
         advice.confirm(|changes| {
             let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };
             let mut changes = changes.to_vec();
@@ -153,11 +155,11 @@ type Outcomes = Vec<Outcome<f64>>;
 
 /// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
 ///
-/// * `of_each` – what is flown of each
+/// * `of_each` – what is simulated of each
 fn few_of_changes(
     (spec, findings): (&WebSpec, &Findings),
     (changes, of_each): (&[Change], Compared),
-    (kept, by): (Option<&Log>, Control<'_>),
+    (kept, by): (Option<&Log>, RunContext<'_>),
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them.
@@ -169,7 +171,7 @@ fn few_of_changes(
         }
         let Some(told) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
         let found = effects(told)?;
-        // What cannot be kept is flown again.
+        // What cannot be kept is simulated again.
         kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
         Ok::<_, Error>(Some(found))
     };
@@ -187,7 +189,7 @@ fn few_of_changes(
             tried.extend(beside.next());
             continue;
         }
-        // The web as it is has been flown.
+        // The web as it is has been simulated.
         let changed = &change.experiment.spec;
         let alone = tell(&[changed], &|told| {
             // Both without what places, defects and common clouds of layers do to the sheet of the web as it is.
@@ -198,7 +200,7 @@ fn few_of_changes(
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
         })?;
-        let all_are_flown = || Err("its filaments are so few that all of them are flown".to_owned());
+        let all_are_flown = || Err("its filaments are so few that all of them are simulated".to_owned());
         tried.push(alone.into_iter().flatten().next().unwrap_or_else(all_are_flown));
     }
     Ok(Some(tried))
@@ -238,20 +240,20 @@ fn try_alone(
     spec: &WebSpec,
     (web, findings): (&Web, &Findings),
     changes: &[Change],
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Outcomes, Error> {
     let is_shared = spec.flies();
     let aside = AtomicU64::new(0);
     let base = match is_shared {
         true => of_maps(&findings.patches),
-        false => expected_cv(web, Control { done: &aside, ..by })?,
+        false => expected_cv(web, RunContext { done: &aside, ..by })?,
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in
     // one air take all threads.
     let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
-    try_each(abreast, changes.len(), |i| {
+    try_par_map(abreast, changes.len(), |i| {
         let changed = &changes[i..=i];
-        let found = cvs(&changed[0].experiment.spec, Control { threads, done: &aside, ..by });
+        let found = cvs(&changed[0].experiment.spec, RunContext { threads, done: &aside, ..by });
         by.done.fetch_add(steps(spec, changed), Ordering::Relaxed);
         match found {
             Ok(found) => Ok(Ok(effects_between(&base, &found))),
@@ -265,18 +267,18 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
     work();
 }
 
-/// How uneven a web of filaments in one air is.
+/// How uneven a web of filaments in shared turbulence is.
 fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     let of_map = |found: &PatchFindings| {
-        let (told, error) = (found.told()?, found.whole_error().whole());
+        let (told, error) = (found.told()?, found.total_error().whole());
         Some(ExpectedCv::alone(told.patch, told.cv, error.unwrap_or(f64::NAN)))
     };
     patches.iter().filter_map(of_map).collect()
 }
 
-/// How uneven a web is over patches of each size: on the map of filaments in one air, or as it is expected of
+/// How uneven a web is over patches of each size: on the map of filaments in shared turbulence, or as it is expected of
 /// independent ones.
-fn cvs(spec: &WebSpec, by: Control<'_>) -> Result<Vec<ExpectedCv>, Error> {
-    let mut flown = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
-    if spec.flies() { Ok(of_maps(&flown.find(by)?.patches)) } else { expected_cv(&flown.web, by) }
+fn cvs(spec: &WebSpec, by: RunContext<'_>) -> Result<Vec<ExpectedCv>, Error> {
+    let mut simulated = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
+    if spec.flies() { Ok(of_maps(&simulated.find(by)?.patches)) } else { expected_cv(&simulated.web, by) }
 }

@@ -1,11 +1,11 @@
 //! A web with which changed ones are compared in the same turbulence, one after another, while somebody watches.
 
 use super::web_of_few::{OF_OTHER_MESH, WebOfFew};
-use crate::ground::{Control, Effect, Error};
+use crate::ground::{Effect, Error, RunContext};
 pub use crate::simulation::one_air::LaidStretch;
 use crate::simulation::one_air::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
 use crate::simulation::{Compared, Flyer, WebSpec};
-use crate::web::LayerFew;
+use crate::web::SubsampleEstimate;
 
 /// Areas of the sheets at which a flight is looked at [m²].
 pub const LOOKS: [f64; 3] = [0.04, 0.1, 0.2];
@@ -42,7 +42,7 @@ pub struct Look {
     pub changes: Vec<Effect<f64>>,
 }
 
-/// A web that has been flown coarsely, with what its filaments have laid.
+/// A web that has been simulated coarsely, with what its filaments have laid.
 #[derive(Debug)]
 pub struct PinnedWeb {
     spec: WebSpec,
@@ -55,13 +55,13 @@ impl PinnedWeb {
     /// * `see` – gets what is seen of the flight
     ///
     /// # Errors
-    /// If the web cannot be flown, if all of its filaments have to be flown, or if it is stopped.
-    pub fn fly(spec: &WebSpec, see: &mut dyn FnMut(Seen), by: Control<'_>) -> Result<Self, Error> {
+    /// If the web cannot be simulated, if all of its filaments have to be simulated, or if it is stopped.
+    pub fn fly(spec: &WebSpec, see: &mut dyn FnMut(Seen), by: RunContext<'_>) -> Result<Self, Error> {
         let mut looks = Looks::new(spec);
         let mut layers = Vec::new();
         for number in 0..spec.layers.len() {
             let mut seen = |seen| {
-                let found = |area, [_, layers]: [Vec<LayerFew>; 2]| {
+                let found = |area, [_, layers]: [Vec<SubsampleEstimate>; 2]| {
                     let cvs = cvs_of(&WebOfFew::new(spec, layers));
                     Look { area, cvs, changes: Vec::new() }
                 };
@@ -76,11 +76,16 @@ impl PinnedWeb {
     ///
     /// # Errors
     /// As of [`PinnedWeb::fly`].
-    pub fn compare(&self, spec: &WebSpec, see: &mut dyn FnMut(Seen), by: Control<'_>) -> Result<(), Error> {
+    pub fn compare(
+        &self,
+        spec: &WebSpec,
+        see: &mut dyn FnMut(Seen),
+        by: RunContext<'_>,
+    ) -> Result<(), Error> {
         let mut looks = Looks::new(spec);
         for layer in &self.layers {
             let mut seen = |seen| {
-                let found = |area, [pinned, layers]: [Vec<LayerFew>; 2]| {
+                let found = |area, [pinned, layers]: [Vec<SubsampleEstimate>; 2]| {
                     let pinned = WebOfFew::new(&self.spec, pinned);
                     let changes = pinned.changes_to(&WebOfFew::new(spec, layers));
                     Look { area, cvs: Vec::new(), changes }
@@ -99,7 +104,7 @@ impl PinnedWeb {
         &self,
         spec: &WebSpec,
         see: &mut dyn FnMut(Seen),
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<(), Error> {
         let (flyer, webs) = (Flyer::new(by.threads, by.stop, &super::unwatched), [&self.spec, spec]);
         for area in LOOKS {
@@ -114,11 +119,11 @@ impl PinnedWeb {
     }
 }
 
-/// What layers say of a web, look by look, until all of them have been flown.
+/// What layers say of a web, look by look, until all of them have been simulated.
 struct Looks {
     layers: usize,
     /// Of each look what the layers say: of the pinned web, and of the one that flies.
-    found: [[Vec<LayerFew>; 2]; LOOKS.len()],
+    found: [[Vec<SubsampleEstimate>; 2]; LOOKS.len()],
 }
 
 impl Looks {
@@ -129,7 +134,11 @@ impl Looks {
     /// What is seen of the web, once all layers have been looked at.
     ///
     /// * `look` – makes it, of an area and the layers
-    fn take(&mut self, seen: SeenOfLayer, look: impl Fn(f64, [Vec<LayerFew>; 2]) -> Look) -> Option<Seen> {
+    fn take(
+        &mut self,
+        seen: SeenOfLayer,
+        look: impl Fn(f64, [Vec<SubsampleEstimate>; 2]) -> Look,
+    ) -> Option<Seen> {
         match seen {
             SeenOfLayer::Laid(stretch) => Some(Seen::Laid(stretch)),
             SeenOfLayer::Look(found) => {

@@ -46,8 +46,8 @@ pub const CHARGE: Setting = running("charge", "charge of the filaments");
 pub const BELT_SPEED: Setting = running("belt_speed", "belt speed");
 /// Mass of the web per area: the belt follows. No advice tries it.
 pub const BASIS_WEIGHT: Setting = running("basis_weight", "basis weight");
-/// None of the machine: a number that is a guess, and may be another one than is written.
-pub const GUESS: Setting = rebuilt("guess", "guessed number");
+/// None of the machine: a number that is an assumed value, and may be another one than is written.
+pub const ASSUMED: Setting = rebuilt("guess", "assumed number");
 
 /// All settings of the machine that advice tries.
 pub const SETTINGS: [Setting; 12] = [
@@ -75,7 +75,7 @@ pub(crate) fn on_line_of(web: &WebSpec, setting: Setting) -> Setting {
     Setting { turned, ..setting }
 }
 
-/// A changed web; of the same basis weight, unless what changes is a guess.
+/// A changed web; of the same basis weight, unless what changes is an assumed value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChangedWeb {
     /// The file of the web.
@@ -99,7 +99,7 @@ pub(crate) struct Aim {
     side: fn(&WebSpec) -> f64,
 }
 
-/// All of them. How many thin places there are follows from the CV over patches of their size, and the weakest
+/// All of them. How many thin spots there are follows from the CV over patches of their size, and the weakest
 /// section of a strip from that over patches of the area of a section.                 theory.md (103), (104)
 pub(crate) const AIMS: [Aim; 2] = [
     Aim { name: "thin-places", side: |_| 10e-3 },

@@ -1,9 +1,9 @@
-//! Webs of which a few filaments were flown in the same air, compared block by block.
+//! Webs of which a few filaments were simulated in the same air, compared block by block.
 
 use crate::ground::{Difference, Effect};
 use crate::simulation::WebSpec;
 use crate::web::map::OfMean;
-use crate::web::{ExpectedCv, FewDoubt, LayerFew};
+use crate::web::{ExpectedCv, SubsampleEstimate, SubsampleWarning};
 
 /// What the coarser mesh and air of webs that are compared do to a change of the CV, and to a CV by itself, as
 /// shares of the CV.
@@ -13,7 +13,7 @@ pub(super) const OF_OTHER_MESH: f64 = 0.03;
 /// What a few filaments say about the layers of a web.
 pub(super) struct WebOfFew {
     /// Of each layer: its share of the basis weight, and what its filaments say.
-    layers: Vec<(f64, LayerFew)>,
+    layers: Vec<(f64, SubsampleEstimate)>,
 }
 
 /// What is known of the patches of one side.
@@ -29,7 +29,7 @@ struct Patches<'a> {
 }
 
 impl WebOfFew {
-    pub(super) fn new(spec: &WebSpec, few: Vec<LayerFew>) -> Self {
+    pub(super) fn new(spec: &WebSpec, few: Vec<SubsampleEstimate>) -> Self {
         let share = |layer: usize| spec.alone(layer).mass_flow() / spec.mass_flow();
         Self { layers: few.into_iter().enumerate().map(|(layer, few)| (share(layer), few)).collect() }
     }
@@ -82,7 +82,7 @@ impl WebOfFew {
         let Some((_, first)) = self.layers.first() else { return Vec::new() };
         let of_patch = |patch: f64| {
             let cv = self.over(patch)?.square.sqrt();
-            let part = |(share, few): &(f64, LayerFew)| {
+            let part = |(share, few): &(f64, SubsampleEstimate)| {
                 let of_layer = few.cvs.iter().find(|of_layer| of_layer.patch == patch)?;
                 let error = of_layer.by_chance?.hypot(of_layer.by_pitch);
                 Some((share * share * of_layer.cv * error / cv).powi(2))
@@ -95,7 +95,7 @@ impl WebOfFew {
     }
 
     fn over(&self, patch: f64) -> Option<Patches<'_>> {
-        let of_layer = |(share, few): &'_ (f64, LayerFew)| {
+        let of_layer = |(share, few): &'_ (f64, SubsampleEstimate)| {
             let number = few.cvs.iter().position(|cv| cv.patch == patch)?;
             Some((share * share, number))
         };
@@ -103,7 +103,9 @@ impl WebOfFew {
         for layer in &self.layers {
             let (weight, number) = of_layer(layer)?;
             // Nothing is a change of a CV that is not told at all.
-            if let Some(FewDoubt::Own(_) | FewDoubt::Neighbours(_)) = layer.1.doubt_over(patch) {
+            if let Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)) =
+                layer.1.doubt_over(patch)
+            {
                 return None;
             }
             let cv = layer.1.cvs[number];

@@ -17,7 +17,7 @@
 //! values that would be found for it scatter as those for a real scan do (simulated method of moments: D.
 //! McFadden, Econometrica 57 (1989) 995–1026; C. Gouriéroux, A. Monfort, E. Renault, Journal of Applied
 //! Econometrics 8 (1993) S85–S118). An interval holds the values of which the scan may well be a web, by webs
-//! that are laid at its ends. Errors of the camera, of the few flown fibres and of the surrogate are added.
+//! that are laid at its ends. Errors of the camera, of the few simulated fibres and of the surrogate are added.
 //!
 //! **Whether such webs can look like the scan** is said by the misfit itself: that of the scan stands among
 //! those that the simulated webs have when each is taken as the scan.
@@ -47,7 +47,7 @@ pub use texture::Texture;
 pub use webs::{MOST_TRIALS, WebInProgress};
 
 use crate::experiment::study::{Experiment, Journal};
-use crate::ground::{Control, Error, Fault};
+use crate::ground::{Error, Fault, RunContext};
 use crate::simulation::{Flyer, WebSpec};
 
 use simulator::{Simulator, WebSimulator};
@@ -63,7 +63,7 @@ pub const USUAL_WEBS: u64 = 20;
 
 /// Most searches after the first one.
 const ROUNDS: usize = 3;
-/// Values that are further from the place where a search has ended are sought anew from there [standard errors].
+/// Values that are further from the place where a search has ended are sought again from there [standard errors].
 const FAR: f64 = 0.9;
 
 /// What is sought, and in what.
@@ -115,7 +115,7 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
 pub fn fit<'a>(
     question: Question<'a>,
     flyer: Flyer<'a>,
-    by: Control<'a>,
+    by: RunContext<'a>,
     journal: &'a mut Journal,
     watch: &'a dyn Fn(WebInProgress<'_>),
 ) -> Result<Fit, Error> {
@@ -127,7 +127,7 @@ pub fn fit<'a>(
 }
 
 /// How far the numbers of simulated webs are off at the start by causes other than chance: standard errors of
-/// their logarithms by each cause, common to all numbers. These causes are the few filaments that are flown
+/// their logarithms by each cause, common to all numbers. These causes are the few filaments that are simulated
 /// for all, and the surrogate.
 ///
 /// # Errors
@@ -135,7 +135,7 @@ pub fn fit<'a>(
 pub fn errors_of_model(
     question: Question<'_>,
     flyer: Flyer<'_>,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<Vec<f64>>, Error> {
     let start: Vec<f64> = question.parameters.iter().map(|sought| sought.start).collect();
     WebSimulator::new((question.make, question.target), flyer, by, &start)?.errors_of_model()

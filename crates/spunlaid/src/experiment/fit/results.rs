@@ -33,7 +33,7 @@ pub struct Fit {
     pub trials: Vec<FitTrial>,
     /// Whether the search has ended because its steps had become short.
     pub settled: bool,
-    /// Trials whose webs could not be laid: their values, and why.
+    /// Sensitivity whose webs could not be laid: their values, and why.
     pub refused: Vec<(Vec<f64>, String)>,
 }
 
@@ -100,7 +100,7 @@ pub struct FittedNumber {
     /// Standard deviation of its logarithm from one simulated web to another: a scan of such a web is as far
     /// off by chance.
     pub scatter: f64,
-    /// Standard error of its logarithm by the few filaments that are flown for all and by the surrogate.
+    /// Standard error of its logarithm by the few filaments that are simulated for all and by the surrogate.
     pub model_error: f64,
 }
 

@@ -4,7 +4,7 @@ use super::target::Target;
 use super::texture::Texture;
 use super::weights::Matrix;
 use crate::experiment::study::seed_of_web;
-use crate::ground::{Control, Error, Fault};
+use crate::ground::{Error, Fault, RunContext};
 use crate::simulation::{Flown, Flyer, WantedError, WebSpec};
 use crate::web::map::{PatchFindings, inner_columns};
 
@@ -41,12 +41,12 @@ pub(super) struct WebSimulator<'a> {
     make: MakeWeb<'a>,
     target: &'a Target,
     flyer: Flyer<'a>,
-    by: Control<'a>,
+    by: RunContext<'a>,
     /// The web of the values that were set last.
     spec: WebSpec,
 }
 
-/// The same web, flown on one sheet: a fit looks at maps, to which coarse flights in other airs add nothing.
+/// The same web, simulated on one sheet: a fit looks at maps, to which coarse flights in other airs add nothing.
 fn on_one_sheet(spec: WebSpec) -> WebSpec {
     WebSpec { error: WantedError::OfOneSheet, ..spec }
 }
@@ -59,7 +59,7 @@ impl<'a> WebSimulator<'a> {
     pub(super) fn new(
         (make, target): (MakeWeb<'a>, &'a Target),
         flyer: Flyer<'a>,
-        by: Control<'a>,
+        by: RunContext<'a>,
         start: &[f64],
     ) -> Result<Self, Error> {
         Ok(Self { make, target, flyer, by, spec: on_one_sheet(make(start)?) })
@@ -76,12 +76,12 @@ impl Simulator for WebSimulator<'_> {
         self.web_of(&self.spec.clone(), replicate)
     }
 
-    /// The errors of the logarithms by the few flown filaments.
+    /// The errors of the logarithms by the few simulated filaments.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
-        // Where all filaments in one air have been flown nothing is left out, and known numbers say nothing
+        // Where all filaments in shared turbulence have been simulated nothing is left out, and known numbers say nothing
         // of real fibres.
-        if spec.flown == Flown::All || !spec.flies() {
+        if spec.simulated == Flown::All || !spec.flies() {
             return Ok(Vec::new());
         }
         if spec.lays_whole_sheet()
@@ -94,8 +94,8 @@ impl Simulator for WebSimulator<'_> {
             Texture::Band { .. } => None,
         });
         spec.sheet.patches = sides.collect();
-        let mut flown = self.flyer.web(&spec)?;
-        let found = flown.find(self.by)?;
+        let mut simulated = self.flyer.web(&spec)?;
+        let found = simulated.find(self.by)?;
         let errors = |cause: &dyn Fn(&PatchFindings) -> Option<f64>| -> Vec<f64> {
             let of_side = |side: f64| {
                 let far = |patch: &&PatchFindings| (patch.map.patch / side).ln().abs();
@@ -112,7 +112,7 @@ impl Simulator for WebSimulator<'_> {
         // Where a few filaments do not tell the CV of all, the map may be off by all of it.
         let of_map =
             |patch: &PatchFindings| Some((patch.of_map - patch.told().map_or(0.0, |told| told.cv)).abs());
-        let causes = [errors(&|patch| patch.whole_error().flight), errors(&of_map)];
+        let causes = [errors(&|patch| patch.total_error().flight), errors(&of_map)];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }
 }
@@ -124,9 +124,9 @@ impl WebSimulator<'_> {
     /// If it cannot be laid.
     fn web_of(&mut self, spec: &WebSpec, replicate: u64) -> Result<Vec<f64>, Error> {
         let spec = WebSpec { seed: seed_of_web(spec, replicate), ..spec.clone() };
-        let mut flown = self.flyer.web(&spec)?;
-        let inner = inner_columns(&flown.web);
-        let map = flown.map(self.by)?;
+        let mut simulated = self.flyer.web(&spec)?;
+        let inner = inner_columns(&simulated.web);
+        let map = simulated.map(self.by)?;
         self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
             Error::Flight(Fault::new(
                 "the part of the web that is not edge is smaller than what it is compared with, or empty",
@@ -136,12 +136,12 @@ impl WebSimulator<'_> {
     }
 
     /// How far the logarithms of webs of a few filaments are from those of all filaments in the same air: the
-    /// root of the mean square. None if all of them cannot be flown.
+    /// root of the mean square. None if all of them cannot be simulated.
     ///
     /// # Errors
     /// As [`Simulator::web`].
     fn error_of_few(&mut self) -> Result<Option<Vec<f64>>, Error> {
-        let specs = [self.spec.clone(), WebSpec { flown: Flown::All, ..self.spec.clone() }];
+        let specs = [self.spec.clone(), WebSpec { simulated: Flown::All, ..self.spec.clone() }];
         let mut squares = vec![0.0; self.target.textures().len()];
         for replicate in 0..TWINS {
             let [few, all] = specs.each_ref().map(|spec| self.web_of(spec, replicate));

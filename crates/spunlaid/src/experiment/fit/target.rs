@@ -25,7 +25,7 @@ impl MeasuredWeb {
     /// A scanned web.
     pub fn from_scan(findings: &Findings) -> Self {
         let patch = |patch: &PatchFindings| MeasuredPatch {
-            side: patch.unevenness.patch,
+            side: patch.patch_cv.patch,
             noise: patch.noise,
             blur: patch.blur.unwrap_or(0.0),
         };

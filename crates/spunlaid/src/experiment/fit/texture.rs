@@ -1,6 +1,6 @@
 //! The numbers by which two webs are compared: CV over patches, and the spectrum if it counts.
 
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use crate::web::map::uniformity::cv_of_piece;
 use crate::web::scan::flattened;
 use crate::web::{Clouds, Map};
@@ -36,7 +36,7 @@ impl Textures {
         let has_bands = self.all.iter().any(|texture| matches!(texture, Texture::Band { .. }));
         let clouds = if has_bands { Clouds::measure(map) } else { None };
         let spectra = clouds.map(|clouds| [0, 1].map(|direction| clouds.spectrum(direction)));
-        each(threads, self.all.len(), |i| {
+        par_map(threads, self.all.len(), |i| {
             libm::log(match self.all[i] {
                 Texture::Patch(side) => {
                     let side = (side / map.cell).round() as usize;

@@ -46,7 +46,7 @@ pub(super) struct Webs<'a> {
     pub(super) journal: &'a mut Journal,
     pub(super) watch: &'a dyn Fn(WebInProgress<'_>),
     pub(super) trials: Vec<Trial>,
-    /// Trials that could not be laid, and why the last of them could not.
+    /// Sensitivity that could not be laid, and why the last of them could not.
     pub(super) refused: Vec<(Vec<f64>, Error)>,
 }
 

@@ -4,9 +4,9 @@
 use super::{Experiment, Point};
 use crate::fibre::Common;
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Control, Error, WIDTH};
+use crate::ground::{Error, RunContext, WIDTH};
 use crate::simulation::ensemble::{fly_each, in_order};
-use crate::simulation::{Job, Keep, Trajectory};
+use crate::simulation::{Job, Recorded, Trajectory};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -98,7 +98,7 @@ impl Packing {
     }
 }
 
-/// Batches cut into bundles of whole flights, which can be flown apart from each other, on any machine.
+/// Batches cut into bundles of whole flights, which can be simulated apart from each other, on any machine.
 #[derive(Debug)]
 pub struct Bundles {
     packing: Packing,
@@ -148,16 +148,16 @@ fn length(batch: &Batch) -> u64 {
 pub fn fly_batches<E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
     mut take: impl FnMut(usize, Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
-    let flown =
+    let simulated =
         |trajectories: Vec<(usize, Trajectory)>, lost: Vec<LostReplicate>| match lost.into_iter().next() {
             Some((.., error)) => Err(error),
             None => Ok(trajectories),
         };
-    fly_and_land(points, batches, keep, computing, flown, |trajectories| {
+    fly_and_land(points, batches, keep, computing, simulated, |trajectories| {
         trajectories.into_iter().try_for_each(|(point, trajectory)| take(point, trajectory))
     })
 }
@@ -168,8 +168,8 @@ pub fn fly_batches<E: From<Error>>(
 pub(super) fn fly_and_land<T: Send, E: From<Error>>(
     points: &[Point],
     batches: &[Batch],
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
     land: impl Fn(Vec<(usize, Trajectory)>, Vec<LostReplicate>) -> Result<T, Error> + Sync,
     mut take: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -180,8 +180,8 @@ pub(super) fn fly_and_land<T: Send, E: From<Error>>(
             |&(point, replicate): &(usize, u64)| Some(Job::new(points[point].experiment.case()?, replicate));
         let flying: Vec<Job<'_>> = jobs.iter().filter_map(job).collect();
         let (mut trajectories, mut lost) = (Vec::new(), Vec::new());
-        for (&(point, replicate), flown) in jobs.iter().zip(fly_each(&flying, keep, computing)?) {
-            match flown {
+        for (&(point, replicate), simulated) in jobs.iter().zip(fly_each(&flying, keep, computing)?) {
+            match simulated {
                 Ok(trajectory) => trajectories.push((point, trajectory)),
                 Err(error) => lost.push((point, replicate, error)),
             }

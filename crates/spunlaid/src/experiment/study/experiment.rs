@@ -8,7 +8,7 @@ use crate::simulation::{WEB_KEYS, WebSpec};
 #[derive(Clone, Debug, PartialEq)]
 pub enum Experiment {
     /// Each replicate is a fibre of this case, in turbulence of its own. The case has the largest number of replicates
-    /// that may be flown.
+    /// that may be simulated.
     Case(Box<Case>),
     /// Each replicate is such a web, with a seed of its own.
     Web(Box<WebSpec>),

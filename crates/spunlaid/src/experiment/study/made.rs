@@ -3,24 +3,24 @@
 use super::batch::Batch;
 use super::measures::{Record, ReplicateOutcome, measured_of_spinline, measured_of_web};
 use super::{Point, seed_of_point};
-use crate::ground::{Control, Error};
+use crate::ground::{Error, RunContext};
 use crate::simulation::ensemble::in_order;
 use crate::simulation::{Flights, Flyer, WebSpec};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Lays the webs of some batches. The fibres of a point are flown once for all its webs, unless all filaments
-/// of a web fly in one air.
+/// Lays the webs of some batches. The fibres of a point are simulated once for all its webs, unless all filaments
+/// of a web fly in shared turbulence.
 ///
 /// * `sides` – of the patches of the study [m]
 /// * `steps` – the number of steps and pieces to do becomes larger by those of each case and each web
 /// * `take` – receives the record of each web, in their order
 ///
 /// # Errors
-/// If fibres cannot be flown or read, if a web cannot be laid, and every error of `take`.
+/// If fibres cannot be simulated or read, if a web cannot be laid, and every error of `take`.
 pub(super) fn lay_webs(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     steps: &AtomicU64,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -35,10 +35,10 @@ pub(super) fn lay_webs(
         for replicate in replicates.clone() {
             let seed = seed_of_web(spec, replicate);
             let spec = WebSpec { seed, ..spec.clone() };
-            let mut flown = flyer.web(&spec)?;
-            steps.fetch_add(flown.pieces()?, Ordering::Relaxed);
-            let found = flown.find(computing)?;
-            let fabric = spec.fabric(&flown.web, &found, computing.threads);
+            let mut simulated = flyer.web(&spec)?;
+            steps.fetch_add(simulated.pieces()?, Ordering::Relaxed);
+            let found = simulated.find(computing)?;
+            let fabric = spec.fabric(&simulated.web, &found, computing.threads);
             let outcome = ReplicateOutcome::Measured(measured_of_web(sides, &found, &fabric));
             take(Record { point: *point as u64, replicate, outcome })?;
         }
@@ -61,7 +61,7 @@ pub(crate) fn seed_of_web(spec: &WebSpec, replicate: u64) -> u64 {
 pub(super) fn solve_spinlines(
     points: &[Point],
     batches: &[Batch],
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     mut take: impl FnMut(Record) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let of_spinlines = |batch: &&Batch| points[batch.point].experiment.spinline().is_some();

@@ -1,6 +1,6 @@
 //! The numbers that a study keeps of each replicate: of a fibre, of a web, or of a spinline.
 
-use crate::fibre::{OF_SPINLINES, Solution};
+use crate::fibre::{SPINLINE_MEASURES, Solution};
 use crate::ground::units::shortest;
 use crate::ground::{
     ErrorRole, Figure, Formula, KELVIN, Known, Measure, PER_SQUARE_METRE, Unit, Value, measure,
@@ -8,8 +8,8 @@ use crate::ground::{
 use crate::simulation::{MEASURES, Trajectory, WebSpec};
 use crate::web::map::Findings;
 use crate::web::{
-    ABOUT, Fabric, FabricPatch, NONE_FOUND, OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS,
-    PATCHES as FABRIC_PATCHES,
+    ABOUT, FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, FabricPatch, NONE_FOUND, PATCH_MEASURES,
+    PATCHES as FABRIC_PATCHES, STRIP_MEASURES, WEB_MEASURES,
 };
 
 /// A number that a study keeps, as its [`Measure`] declares it. That of patches
@@ -174,14 +174,14 @@ pub(super) fn quantities_of_fibres() -> Vec<Quantity> {
 /// The quantities of a spinline.
 pub(super) fn quantities_of_spinlines() -> Vec<Quantity> {
     let mut all = Vec::new();
-    add(&mut all, OF_SPINLINES, &Part::whole());
+    add(&mut all, SPINLINE_MEASURES, &Part::whole());
     all
 }
 
 /// The numbers of a spinline, in the order of [`quantities_of_spinlines`].
 pub(super) fn measured_of_spinline(found: &Solution) -> Measurements {
     let mut all = Vec::new();
-    enter(&mut all, OF_SPINLINES, Some(found));
+    enter(&mut all, SPINLINE_MEASURES, Some(found));
     all.into()
 }
 
@@ -201,20 +201,20 @@ fn is_same(a: f64, b: f64) -> bool {
 pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) -> Vec<Quantity> {
     let mut all = Vec::new();
     for side in sides(webs) {
-        add(&mut all, OF_PATCHES, &Part::patches(side));
+        add(&mut all, PATCH_MEASURES, &Part::patches(side));
     }
-    add(&mut all, OF_WEBS, &Part::whole());
-    add(&mut all, OF_FABRICS, &Part::whole());
+    add(&mut all, WEB_MEASURES, &Part::whole());
+    add(&mut all, FABRIC_MEASURES, &Part::whole());
     let mut add_part = |is_shown: bool, add: &dyn Fn(&mut Vec<Quantity>)| {
         let first = all.len();
         add(&mut all);
         all[first..].iter_mut().for_each(|quantity| quantity.is_main &= is_shown);
     };
     for side in FABRIC_PATCHES {
-        add_part(is_same(side, SHOWN_PATCH), &|all| add(all, OF_FABRIC_PATCHES, &Part::patches(side)));
+        add_part(is_same(side, SHOWN_PATCH), &|all| add(all, FABRIC_PATCH_MEASURES, &Part::patches(side)));
     }
     for direction in DIRECTIONS {
-        add_part(true, &|all| add(all, OF_STRIPS, &Part::strips(direction)));
+        add_part(true, &|all| add(all, STRIP_MEASURES, &Part::strips(direction)));
     }
     all
 }
@@ -225,17 +225,17 @@ pub(super) fn quantities_of_webs<'a>(webs: impl Iterator<Item = &'a WebSpec>) ->
 pub(super) fn measured_of_web(sides: &[f64], found: &Findings, fabric: &Fabric) -> Measurements {
     let mut all = Vec::new();
     for &side in sides {
-        enter(&mut all, OF_PATCHES, found.patches.iter().find(|patch| is_same(patch.map.patch, side)));
+        enter(&mut all, PATCH_MEASURES, found.patches.iter().find(|patch| is_same(patch.map.patch, side)));
     }
-    enter(&mut all, OF_WEBS, Some(found));
-    enter(&mut all, OF_FABRICS, Some(fabric));
+    enter(&mut all, WEB_MEASURES, Some(found));
+    enter(&mut all, FABRIC_MEASURES, Some(fabric));
     for side in FABRIC_PATCHES {
         // Patches of a fabric are of whole cells.
         let is_it = |patch: &&FabricPatch| (patch.thin.patch / side - 1.0).abs() < ABOUT;
-        enter(&mut all, OF_FABRIC_PATCHES, fabric.patches.iter().find(is_it));
+        enter(&mut all, FABRIC_PATCH_MEASURES, fabric.patches.iter().find(is_it));
     }
     for strips in &fabric.strips {
-        enter(&mut all, OF_STRIPS, strips.as_ref());
+        enter(&mut all, STRIP_MEASURES, strips.as_ref());
     }
     all.into()
 }
@@ -306,8 +306,8 @@ mod tests {
     #[test]
     fn the_errors_of_a_cv_follow_it_and_are_known_to_it() {
         let mut all = Vec::new();
-        add(&mut all, OF_SPINLINES, &Part::whole());
-        add(&mut all, OF_PATCHES, &Part::patches(2.5e-3));
+        add(&mut all, SPINLINE_MEASURES, &Part::whole());
+        add(&mut all, PATCH_MEASURES, &Part::patches(2.5e-3));
         let errors_of = |name: &str| -> Vec<(ErrorRole, &str)> {
             let quantity = all.iter().find(|quantity| quantity.name == name);
             let errors = quantity.into_iter().flat_map(|quantity| &quantity.errors);

@@ -1,5 +1,5 @@
 //! Studies: many experiments that differ in a few keys, each repeated several times, and the statistics of
-//! the results. An experiment is a case whose fibres are flown, a web that is laid, or a spinline that is
+//! the results. An experiment is a case whose fibres are simulated, a web that is laid, or a spinline that is
 //! solved.
 //!
 //! ```text
@@ -85,7 +85,7 @@ pub struct Point {
     pub experiment: Experiment,
 }
 
-/// How many replicates of a point are flown.
+/// How many replicates of a point are simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Replicates {
     /// Smallest number.
@@ -93,7 +93,7 @@ pub struct Replicates {
     /// Largest number.
     pub at_most: u64,
     /// Pairs of a result, as index into [`Study::quantities`], and a fraction of its mean. More replicates
-    /// are flown until the standard error of each result is below this fraction.
+    /// are simulated until the standard error of each result is below this fraction.
     pub until: Vec<(usize, f64)>,
 }
 
@@ -180,7 +180,7 @@ fn stream(seed: u64, purpose: RandomUse, index: u64) -> ChaCha8Rng {
 
 impl Study {
     /// A checksum over all that the records of a study depend on: the keys of every point's experiment, and
-    /// the rule for more replicates. How many are flown at most is left out, so that a finished study can be
+    /// the rule for more replicates. How many are simulated at most is left out, so that a finished study can be
     /// given more.
     pub fn identity(&self) -> u32 {
         let mut sum = crc32fast::Hasher::new();

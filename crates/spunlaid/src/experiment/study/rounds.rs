@@ -58,7 +58,7 @@ impl PointResults {
 
     /// The error of the mean of a quantity by all its causes; None if one of them is not known, or if it has
     /// no other than the standard error.
-    pub fn whole_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
+    pub fn total_error(&self, quantities: &[Quantity], quantity: usize) -> Option<f64> {
         let further = || quantities[quantity].further_errors();
         let whole = further().map(|error| self.mean(error)).fold(self.error(quantity), f64::hypot);
         Some(whole).filter(|whole| further().next().is_some() && whole.is_finite())
@@ -155,10 +155,10 @@ impl Rounds {
     }
 }
 
-/// The number of replicates that a point needs instead of `flown`; `None` if these are enough.
-fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) -> Option<u64> {
+/// The number of replicates that a point needs instead of `simulated`; `None` if these are enough.
+fn more_replicates(replicates: &Replicates, results: &PointResults, simulated: u64) -> Option<u64> {
     // A point that loses its fibres would lose more of them.
-    if flown >= replicates.at_most || results.lost > 0 && results.n < 2 {
+    if simulated >= replicates.at_most || results.lost > 0 && results.n < 2 {
         return None;
     }
     let needed = |&(measure, fraction): &(usize, f64)| {
@@ -169,8 +169,8 @@ fn more_replicates(replicates: &Replicates, results: &PointResults, flown: u64) 
     let needed = replicates.until.iter().map(needed).fold(0.0, f64::max);
     // An estimate from few fibres is rough, so the number at most doubles in a round.
     (needed > 0.0).then(|| {
-        let most = flown.saturating_mul(2).min(replicates.at_most);
-        (needed.ceil() as u64).clamp((flown + 1).min(most), most)
+        let most = simulated.saturating_mul(2).min(replicates.at_most);
+        (needed.ceil() as u64).clamp((simulated + 1).min(most), most)
     })
 }
 

@@ -7,8 +7,8 @@ use super::measures::{Record, ReplicateOutcome, measured};
 use super::rounds::Rounds;
 use super::{Point, Study};
 use crate::ground::threads::{lock, look_while, unlock};
-use crate::ground::{Control, Error};
-use crate::simulation::{Keep, Trajectory};
+use crate::ground::{Error, RunContext};
+use crate::simulation::{Recorded, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
@@ -25,7 +25,7 @@ pub struct Progress {
     pub fibres_done: AtomicU64,
     /// Points with all replicates planned so far.
     pub points_done: AtomicU64,
-    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`Control::done`] counts up
+    /// Total steps of the fibres to fly, and pieces of the webs to lay; [`RunContext::done`] counts up
     /// to this number.
     pub steps: AtomicU64,
 }
@@ -41,7 +41,7 @@ pub struct Progress {
 pub fn run(
     study: &Study,
     journal: &Mutex<Journal>,
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let mut rounds = Rounds::new(study);
@@ -59,11 +59,11 @@ pub fn run(
 /// * `sides` – [`Study::patch_sides`]
 ///
 /// # Errors
-/// When the computation is stopped, and when a case cannot be flown. A lost fibre is a record.
+/// When the computation is stopped, and when a case cannot be simulated. A lost fibre is a record.
 pub fn fly_bundle(
     (points, sides): (&[Point], &[f64]),
     bundle: &[Batch],
-    computing: Control<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Record>, Error> {
     let (all, steps) = (Mutex::new(Vec::new()), AtomicU64::new(0));
     make((points, sides), bundle, computing, &steps, &|records: Vec<Record>| {
@@ -82,23 +82,23 @@ pub fn fly_bundle(
 fn make(
     (points, sides): (&[Point], &[f64]),
     batches: &[Batch],
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     steps: &AtomicU64,
     keep: &(impl Fn(Vec<Record>) -> Result<(), Error> + Sync),
 ) -> Result<(), Error> {
     lay_webs((points, sides), batches, computing, steps, |record| keep(vec![record]))?;
     solve_spinlines(points, batches, computing, |record| keep(vec![record]))?;
     let flies = |batch: &&Batch| points[batch.point].experiment.case().is_some();
-    let flown: Vec<Batch> = batches.iter().filter(flies).cloned().collect();
+    let simulated: Vec<Batch> = batches.iter().filter(flies).cloned().collect();
     let land = |trajectories, lost| keep(records(trajectories, lost));
-    fly_and_land(points, &flown, Keep::NUMBERS, computing, land, Ok)
+    fly_and_land(points, &simulated, Recorded::NUMBERS, computing, land, Ok)
 }
 
 fn fly_missing(
     study: &Study,
     journal: &Mutex<Journal>,
     rounds: &Rounds,
-    computing: Control<'_>,
+    computing: RunContext<'_>,
     progress: &Progress,
 ) -> Result<(), Error> {
     let batches = rounds.missing(&lock(journal));

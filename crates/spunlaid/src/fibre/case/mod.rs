@@ -56,7 +56,7 @@ pub struct Run {
     /// Number of steps at the start that the statistics leave out.
     pub spin_up_steps: u64,
     /// How many times as long as usual it takes from one look at the flow around the fibre to the next. No key
-    /// of a case: a web that is compared with another one is flown with rarer looks.
+    /// of a case: a web that is compared with another one is simulated with rarer looks.
     pub rarer_looks: f64,
     /// Number of steps from one recorded instant to the next.
     pub output_steps: u64,
@@ -72,7 +72,7 @@ pub struct Run {
     pub damping: f64,
     /// Number of shapes of a fibre that are kept for pictures; `None`: as many as fit into their memory.
     pub shapes: Option<u64>,
-    /// How much is flown to find the error of step and mesh.
+    /// How much is simulated to find the error of step and mesh.
     pub checks: Checks,
 }
 

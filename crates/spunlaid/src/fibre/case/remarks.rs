@@ -166,7 +166,7 @@ impl Case {
         (to < LEAST_SLOWING * from).then(|| {
             let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
             Remark::warning(format!(
-                "lays filaments that have flown in air that slows from {from} to {to} and does not widen. A channel \
+                "lays filaments that have simulated in air that slows from {from} to {to} and does not widen. A channel \
                  in which air slows widens, and carries the filaments apart along the machine direction, so that the \
                  web is more even; write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
             ))
@@ -243,7 +243,7 @@ impl Case {
         if [from, to].into_iter().any(|y| speed(y).is_none()) {
             return Some(Remark::warning(format!(
                 "{fed}, some of them outside of the region where the flow is known, where they meet the air of its \
-                 edge; {remedy}, or a smaller line.depth"
+                 edge; {remedy}, or a smaller line.slot_gap"
             )));
         }
         let ((low, high), reach) = (placed.extent(), self.fibre.length);

@@ -103,7 +103,7 @@ impl Case {
                 self.fibre.rest_length() / line.feed_speed / line.fewest_steps() as f64 * (1.0 + 1e-9);
             limits.push(StepLimit { cause: FEEDING, limit });
             if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
-                // The tensions are found where gusts turn an element little in a step. Flights of spunbond.toml at 40 %
+                // The tensions are found where eddies turn an element little in a step. Flights of spunbond.toml at 40 %
                 // of turbulence were seen to fail at 1.7 times this.                                    theory.md (63)
                 let limit = self.fibre.rest_length() / (12.0 * self.air.rms());
                 limits.push(StepLimit { cause: GUSTS, limit });
@@ -211,7 +211,7 @@ impl Case {
     }
 
     /// A suitable time step of a fed fibre [s]: whole steps to an element, as few as [`PART_OF_LIMIT`] and half of the
-    /// other limits allow. With steps as long as that, the statistics of the lay-down stay the same.
+    /// other limits allow. With steps as long as that, the statistics of the laydown stay the same.
     fn suggested_feeding_step(&self, line: &Line) -> (f64, StepChoice) {
         let longest = |limit: &StepLimit| match limit.cause {
             FEEDING => f64::INFINITY,

@@ -29,7 +29,7 @@ pub struct Charge {
     pub walls: Option<f64>,
 }
 
-/// What charge does to a curtain, estimated before it is flown.
+/// What charge does to a curtain, estimated before it is simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChargeEstimate {
     /// Field at the edge of the curtain [V/m].

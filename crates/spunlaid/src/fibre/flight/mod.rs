@@ -260,7 +260,7 @@ impl Flight {
         &self.end_node
     }
 
-    /// Begins the statistics of the end nodes anew.
+    /// Begins the statistics of the end nodes again.
     pub fn forget_statistics(&mut self) {
         self.end_node = EndNodeStatistics::default();
     }

@@ -13,7 +13,7 @@ const KILOWATTS_PER_METRE: Unit = Unit { shown: "kW/m", per_si: 1e-3 };
 const KILOGRAMS_PER_SECOND_AND_METRE: Unit = Unit { shown: "kg/s/m", per_si: 1.0 };
 
 /// The measures of a load, in the order of its table.
-pub const OF_LOADS: &[Measure<Load>] = &[
+pub const LOAD_MEASURES: &[Measure<Load>] = &[
     OfLoad::new("filaments_per_m", "Filaments per metre of width", PER_METRE, Number(|load| {
         load.filaments_per_metre
     }))
@@ -22,7 +22,7 @@ pub const OF_LOADS: &[Measure<Load>] = &[
     OfLoad::new("slot_m", "Size of the slot in machine direction", MILLIMETRES, Known(|load| {
         Some(load.air?.slot)
     }))
-    .meaning("line.depth, through which the filaments and their air come")
+    .meaning("line.slot_gap, through which the filaments and their air come")
     .digits(4),
     OfLoad::new(
         "air_kg_s_m",
@@ -59,7 +59,7 @@ pub const OF_LOADS: &[Measure<Load>] = &[
 ];
 
 /// The measures of a load between the inlet and a place, in the order of its table.
-pub const OF_LOAD_PLACES: &[Measure<LoadPlace>] = &[
+pub const LOAD_POSITION_MEASURES: &[Measure<LoadPlace>] = &[
     OfPlace::new("x_m", "Distance from the inlet", MILLIMETRES, Number(|place| place.distance))
         .meaning("place on the way from the inlet to the belt")
         .digits(4),

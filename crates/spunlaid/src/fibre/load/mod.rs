@@ -1,7 +1,7 @@
 //! The load of a line's filaments on its air: what they change of its momentum, its pressure, its eddies and its heat.
 //!
 //! ```text
-//! force of a flown filament along its way + filaments per metre of width + slot of the air → Load
+//! force of a simulated filament along its way + filaments per metre of width + slot of the air → Load
 //! ```
 //!
 //! The flights are in the air as it is given; a load says by how much the filaments would change it.
@@ -13,12 +13,12 @@ use crate::air::{HEAT_CAPACITY_OF_AIR, Hint};
 use crate::fibre::case::Case;
 use crate::fibre::spinline::Solution;
 use crate::ground::Vec3;
-pub use measures::{OF_LOAD_PLACES, OF_LOADS};
+pub use measures::{LOAD_MEASURES, LOAD_POSITION_MEASURES};
 
 /// Number of places at which a load is told, at equal distances from the inlet to the belt.
 const PLACES: usize = 10;
 
-/// What one flown filament does at a place on its way.
+/// What one simulated filament does at a place on its way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WayPlace {
     /// Distance from the inlet [m].
@@ -42,10 +42,10 @@ pub struct Load {
     pub momentum: f64,
     /// The air of the slot at the inlet; None where the size of the slot is not known.
     pub air: Option<SlotAir>,
-    /// What the filaments do to it from the inlet to the belt; empty where nothing was flown.
+    /// What the filaments do to it from the inlet to the belt; empty where nothing was simulated.
     pub places: Vec<LoadPlace>,
     /// Upper bound of the share of the energy of the eddies, as the exponent of its decay, that the filaments take
-    /// on the way to the belt [-]; None where the slot is not known, nothing was flown, or the air is calm.
+    /// on the way to the belt [-]; None where the slot is not known, nothing was simulated, or the air is calm.
     pub damping: Option<f64>,
     /// Heat that the filaments have given up since the die; None without a spinline.
     pub heat: Option<Heat>,
@@ -92,7 +92,7 @@ impl Load {
     /// The load of filaments on their air; None for a fibre of fixed length.
     ///
     /// * `slot` – size in machine direction of the slot of the air [m], if it is known
-    /// * `way` – of a flown filament, at even distances; empty if none was flown
+    /// * `way` – of a simulated filament, at even distances; empty if none was simulated
     /// * `spun` – the solved spinline from which they come
     pub fn new(
         case: &Case,
@@ -134,7 +134,7 @@ impl Load {
         self.air.map(|air| self.momentum / air.momentum)
     }
 
-    /// At the belt; None where nothing was flown.
+    /// At the belt; None where nothing was simulated.
     pub fn at_belt(&self) -> Option<&LoadPlace> {
         self.places.last()
     }

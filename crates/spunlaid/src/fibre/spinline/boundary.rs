@@ -19,7 +19,7 @@ use std::cell::Cell;
 const STEPS: usize = 8;
 /// By how much a change may grow from one place to the next, `ln`.
 const GROWTH: f64 = 3.0;
-/// Steps between the last place and the freezing point, which moves.
+/// Steps between the last place and the solidification point, which moves.
 const LAST_STEPS: usize = 4;
 /// By how much an unknown is changed to see what depends on it, as a share of its size.
 const CHANGE: f64 = 1e-5;
@@ -32,7 +32,7 @@ const MOST_MOVES: usize = 150;
 /// Most steps of the integration to find a line, some seconds of a processor. Lines that are found take 60,000 at most;
 /// to show that a line has none may take four times as many.
 const MOST_STEPS: usize = 400_000;
-/// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the freezing point by no
+/// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the solidification point by no
 /// more than this share of what others do.
 const LEAST_COOLING: f64 = 0.1;
 /// The first move along the arc, the longest and the shortest.
@@ -156,7 +156,7 @@ impl<'a> Branch<'a> {
             let at = self.unknowns(&here).unwrap_or_default();
             let last = before.as_ref().and_then(|before| self.unknowns(before));
             let direction = self.direction(&at, last.as_ref(), towards);
-            let cooling = here.run.shot.freezing.map_or(f64::INFINITY, |(_, _, cooling)| cooling);
+            let cooling = here.run.shot.solidification.map_or(f64::INFINITY, |(_, _, cooling)| cooling);
             most_cooling = if cooling.is_finite() { cooling.max(most_cooling) } else { most_cooling };
             let Some(next) = self.next(&at, &direction, &mut length, goal) else {
                 let stays_liquid = cooling < LEAST_COOLING * most_cooling;
@@ -322,7 +322,7 @@ impl<'a> Branch<'a> {
         let shot = leg.follow(end);
         self.effort.add(shot.steps.len());
         let is_last = number == self.places.len();
-        (shot.outcome == Outcome::Complete && (is_last || shot.freezing.is_none())).then_some(shot)
+        (shot.outcome == Outcome::Complete && (is_last || shot.solidification.is_none())).then_some(shot)
     }
 
     /// All parts of the thread.
@@ -443,9 +443,14 @@ fn joined(legs: Vec<Shot>) -> Shot {
         }
         add(&mut leg.end, &whole.end);
         whole.steps.append(&mut leg.steps);
-        (whole.end, whole.freezing) = (leg.end, leg.freezing);
+        (whole.end, whole.solidification) = (leg.end, leg.solidification);
     }
-    whole.unwrap_or(Shot { outcome: Outcome::RunsAway, end: [0.0; SIZE], freezing: None, steps: Vec::new() })
+    whole.unwrap_or(Shot {
+        outcome: Outcome::RunsAway,
+        end: [0.0; SIZE],
+        solidification: None,
+        steps: Vec::new(),
+    })
 }
 
 /// The largest tension in a shot [N].

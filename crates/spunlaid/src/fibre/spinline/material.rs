@@ -21,7 +21,7 @@ pub struct Material {
     /// Activation energy `E_a` of the viscosity [J/mol].
     pub activation_energy: f64,
     /// Temperature `T_s` at which the thread is solid [K].
-    pub freezing_temperature: f64,
+    pub solidification_temperature: f64,
     /// Density `ρ_s` of the solid [kg/m³].
     pub solid_density: f64,
     /// Surface tension `σ` [N/m].
@@ -124,8 +124,8 @@ const CHOSEN: Crystals = Crystals {
 impl Polymer {
     /// Its constants.
     ///
-    /// * `crystallises` – whether crystallisation is computed. Polypropylene freezes where crystallisation
-    ///   lets it, so that without it the freezing temperature stands for the crystals.
+    /// * `crystallises` – whether crystallisation is computed. Polypropylene solidifies where crystallisation
+    ///   lets it, so that without it the solidification temperature stands for the crystals.
     pub const fn material(self, crystallises: bool) -> Material {
         match self {
             Self::Pp => Material {
@@ -141,7 +141,7 @@ impl Polymer {
                 viscosity_temperature: 230.0 + ZERO_CELSIUS,
                 // Memory.
                 activation_energy: 44e3,
-                freezing_temperature: (if crystallises { 40.0 } else { 110.0 }) + ZERO_CELSIUS,
+                solidification_temperature: (if crystallises { 40.0 } else { 110.0 }) + ZERO_CELSIUS,
                 solid_density: 905.0,
                 surface_tension: 0.0,
                 // Memory, the order of magnitude.
@@ -179,7 +179,7 @@ impl Polymer {
                 viscosity_temperature: 290.0 + ZERO_CELSIUS,
                 activation_energy: 57e3,
                 // The glass transition is at 75 to 85 °C (Netzsch, application sheet PET).
-                freezing_temperature: 80.0 + ZERO_CELSIUS,
+                solidification_temperature: 80.0 + ZERO_CELSIUS,
                 // Memory.
                 solid_density: 1340.0,
                 surface_tension: 0.0,
@@ -219,7 +219,7 @@ impl Polymer {
                 viscosity: 150.0,
                 viscosity_temperature: 260.0 + ZERO_CELSIUS,
                 activation_energy: 55e3,
-                freezing_temperature: 80.0 + ZERO_CELSIUS,
+                solidification_temperature: 80.0 + ZERO_CELSIUS,
                 solid_density: 1130.0,
                 surface_tension: 0.0,
                 // Memory, the order of magnitude.
@@ -255,7 +255,7 @@ impl Polymer {
                 viscosity_temperature: 230.0 + ZERO_CELSIUS,
                 activation_energy: 95e3,
                 // The glass transition is at 61.5 °C (ACS Omega 2, 2678, 2017, table 5).
-                freezing_temperature: 65.0 + ZERO_CELSIUS,
+                solidification_temperature: 65.0 + ZERO_CELSIUS,
                 // Memory.
                 solid_density: 1250.0,
                 surface_tension: 0.0,
@@ -287,7 +287,7 @@ impl Polymer {
                 // Memory. Copolymers with butene have 33 to 34 (Macromolecules 34, 6281, 2001, abstract).
                 activation_energy: 27e3,
                 // Memory. It stands for the crystals.
-                freezing_temperature: 110.0 + ZERO_CELSIUS,
+                solidification_temperature: 110.0 + ZERO_CELSIUS,
                 solid_density: 950.0,
                 surface_tension: 0.0,
                 // Memory, the order of magnitude.
@@ -321,7 +321,7 @@ impl Material {
         viscosity: f64::NAN,
         viscosity_temperature: f64::NAN,
         activation_energy: f64::NAN,
-        freezing_temperature: f64::NAN,
+        solidification_temperature: f64::NAN,
         solid_density: f64::NAN,
         surface_tension: 0.0,
         modulus: f64::NAN,

@@ -1,12 +1,12 @@
 //! What is measured of a spinline. `summary.json`, the terminal, the report, Python and the studies follow from it.
 
-use super::{FreezingCause, Solution, ZERO_CELSIUS};
+use super::{SolidificationCause, Solution, ZERO_CELSIUS};
 use crate::ground::Formula::Number;
 use crate::ground::measure::figure;
 use crate::ground::{KELVIN, METRES_PER_SECOND, MILLIMETRES, MILLINEWTONS, Measure, RATIO, Unit};
 
 /// The measures of a spinline, in the order of its tables and of studies.
-pub const OF_SPINLINES: &[Measure<Solution>] = &[
+pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     spun("final_diameter_m", "Diameter, cold", MICROMETRES, |found| found.final_diameter)
         .meaning("diameter of the solid filament at the end of the line")
         .named("final_diameter")
@@ -26,53 +26,62 @@ pub const OF_SPINLINES: &[Measure<Solution>] = &[
         .meaning("speed at the end over the speed of the melt at the die")
         .named("draw_ratio")
         .figure(&figure("draw_ratio", "Draw ratio", "draw ratio")),
-    spun("freezing.distance_m", "Freezing point, below the die", MILLIMETRES, |found| {
-        found.freezing.distance
+    spun("solidification.distance_m", "Solidification point, below the die", MILLIMETRES, |found| {
+        found.solidification.distance
     })
     .meaning("from here on the filament is solid and keeps its speed")
     .kept("freezing_distance", "freezing_distance_m")
     .main()
     .figure(&figure(
         "freezing_distance",
-        "Distance of the freezing point from the die",
-        "distance of the freezing point",
+        "Distance of the solidification point from the die",
+        "distance of the solidification point",
     )),
     spun(
-        "freezing.temperature_c",
-        "Temperature at the freezing point",
+        "solidification.temperature_c",
+        "Temperature at the solidification point",
         Unit { shown: "°C", ..KELVIN },
-        |found| found.freezing.temperature,
+        |found| found.solidification.temperature,
     )
     .meaning("temperature of the thread where it becomes solid")
     .zero(ZERO_CELSIUS)
     .remark(|found| {
-        let by = match found.freezing.by {
-            FreezingCause::Temperature => "it freezes by its temperature",
-            FreezingCause::Crystallisation => "it freezes by crystallisation",
+        let by = match found.solidification.by {
+            SolidificationCause::Temperature => "it freezes by its temperature",
+            SolidificationCause::Crystallisation => "it freezes by crystallisation",
         };
         Some(by.to_owned())
     })
-    .kept("freezing_temperature", "freezing_temperature_k")
+    .kept("solidification_temperature", "freezing_temperature_k")
     .figure(&figure(
-        "freezing_temperature",
-        "Temperature of the freezing point",
-        "temperature of the freezing point",
+        "solidification_temperature",
+        "Temperature of the solidification point",
+        "temperature of the solidification point",
     )),
-    spun("freezing.diameter_m", "Diameter at the freezing point", MICROMETRES, |found| {
-        found.freezing.diameter
+    spun("solidification.diameter_m", "Diameter at the solidification point", MICROMETRES, |found| {
+        found.solidification.diameter
     })
     .meaning("diameter of the thread where it becomes solid; it still shrinks"),
-    spun("freezing.stress_pa", "Stress at the freezing point", MEGAPASCALS, |found| found.freezing.stress)
-        .meaning("tensile stress where it becomes solid, which orients the polymer")
-        .kept("freezing_stress", "freezing_stress_pa")
-        .main()
-        .figure(&figure("freezing_stress", "Stress at the freezing point", "stress at the freezing point")),
-    spun("freezing.cooling_rate_k_s", "Cooling rate at the freezing point", KELVIN_PER_SECOND, |found| {
-        found.freezing.cooling_rate
+    spun("solidification.stress_pa", "Stress at the solidification point", MEGAPASCALS, |found| {
+        found.solidification.stress
     })
+    .meaning("tensile stress where it becomes solid, which orients the polymer")
+    .kept("freezing_stress", "freezing_stress_pa")
+    .main()
+    .figure(&figure(
+        "freezing_stress",
+        "Stress at the solidification point",
+        "stress at the solidification point",
+    )),
+    spun(
+        "solidification.cooling_rate_k_s",
+        "Cooling rate at the solidification point",
+        KELVIN_PER_SECOND,
+        |found| found.solidification.cooling_rate,
+    )
     .meaning("how fast the thread cools where it becomes solid")
     .kept("cooling_rate", "cooling_rate_k_s")
-    .figure(&figure("cooling_rate", "Cooling rate at the freezing point", "cooling rate")),
+    .figure(&figure("cooling_rate", "Cooling rate at the solidification point", "cooling rate")),
     spun("largest_strain_rate_per_s", "Largest strain rate", PER_SECOND, |found| found.largest_strain_rate)
         .meaning("strain rate where the thread is stretched the fastest")
         .named("largest_strain_rate")

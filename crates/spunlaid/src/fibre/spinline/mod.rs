@@ -32,8 +32,8 @@ use crate::fibre::drag::{Drag, FrictionLaw};
 use crate::ground::Fault;
 pub(crate) use cooling::{Cooled, SolidFilament};
 pub use material::{Crystals, Material, Polymer, PolymerFile, ZERO_CELSIUS};
-pub use measures::OF_SPINLINES;
-pub use solution::{Freezing, FreezingCause, Solution, Station};
+pub use measures::SPINLINE_MEASURES;
+pub use solution::{Solidification, SolidificationCause, Solution, Station};
 pub use surroundings::{AirChange, AirState, AirTable, Surroundings};
 
 /// What is known of a spinline.
@@ -79,7 +79,7 @@ pub struct Spinline {
     pub break_stress: f64,
     /// The rows of holes, if they share the air that crosses them.
     pub curtain: Option<HoleRows>,
-    /// Whether Young's modulus of the flown fibre is the estimate; a case that writes the modulus does not want it.
+    /// Whether Young's modulus of the simulated fibre is the estimate; a case that writes the modulus does not want it.
     pub gives_modulus: bool,
 }
 
@@ -127,7 +127,7 @@ pub enum Melt {
 pub enum End {
     /// The tension [N]; zero for a free end.
     Tension(f64),
-    /// The mean tension at the root of the flown fibre, as far as flights have told it [N].
+    /// The mean tension at the root of the simulated fibre, as far as flights have told it [N].
     Flown(f64),
     /// The speed of a godet [m/s].
     TakeUp(f64),

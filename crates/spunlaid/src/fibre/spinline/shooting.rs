@@ -72,7 +72,7 @@ impl Shooting<'_, '_> {
     fn miss(&self, x: f64) -> (f64, Option<Miss>) {
         let Some(shot) = self.shot(x) else { return (f64::NEG_INFINITY, Some(Miss::Slack)) };
         let reason = match shot.outcome {
-            Outcome::Complete => shot.freezing.is_none().then(|| Miss::Liquid(shot.end[TEMPERATURE])),
+            Outcome::Complete => shot.solidification.is_none().then(|| Miss::Liquid(shot.end[TEMPERATURE])),
             Outcome::Slack => Some(Miss::Slack),
             Outcome::RunsAway => Some(Miss::NoThread),
             Outcome::ElasticWave => Some(Miss::ElasticWave),
@@ -217,7 +217,7 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
     match found {
         // At a free end a melt is not pulled, and that it is liquid there is the reason.
         Arrival::Met(run) if meets(thread, &run.shot) => match pushed(thread, &run.shot) {
-            _ if run.shot.freezing.is_none() => Err(Miss::Liquid(run.shot.end[TEMPERATURE])),
+            _ if run.shot.solidification.is_none() => Err(Miss::Liquid(run.shot.end[TEMPERATURE])),
             Some(distance) => Err(Miss::Pushed(distance)),
             None => Ok(*run),
         },

@@ -2,7 +2,7 @@
 
 use super::integration::{Step, Stepper};
 use super::thread::{LN_SPEED, Phase, State, TEMPERATURE, TENSION, Thread};
-use super::{FreezingCause, Station};
+use super::{SolidificationCause, Station};
 
 /// A thread that is faster runs away [m/s].
 pub(super) const FASTEST: f64 = 2000.0;
@@ -35,7 +35,7 @@ pub(super) struct Shot {
     /// The state at the end.
     pub(super) end: State,
     /// The point at which it becomes solid: what makes it solid, and the thread there.
-    pub(super) freezing: Option<(FreezingCause, Station, f64)>,
+    pub(super) solidification: Option<(SolidificationCause, Station, f64)>,
     /// Its steps.
     pub(super) steps: Vec<Step>,
 }
@@ -63,7 +63,7 @@ impl<'t, 'a> Leg<'t, 'a> {
     /// * `wanted` – length of the first step [√m]
     /// * `tension` – size of the tensions that occur [N]
     pub(super) fn new(thread: &'t Thread<'a>, s: f64, state: State, wanted: f64, tension: f64) -> Self {
-        let shot = Shot { outcome: Outcome::Complete, end: state, freezing: None, steps: Vec::new() };
+        let shot = Shot { outcome: Outcome::Complete, end: state, solidification: None, steps: Vec::new() };
         Self { stepper: Stepper::new(thread, tension), shot, s, state, wanted }
     }
 
@@ -135,9 +135,13 @@ impl<'t, 'a> Leg<'t, 'a> {
             }
             if thread.until_solid(&self.state) <= 0.0 {
                 let is_cold = thread.is_cold(&self.state);
-                let by = if is_cold { FreezingCause::Temperature } else { FreezingCause::Crystallisation };
+                let by = if is_cold {
+                    SolidificationCause::Temperature
+                } else {
+                    SolidificationCause::Crystallisation
+                };
                 let cooling_rate = -rates.slopes[TEMPERATURE] * rates.station.speed;
-                self.shot.freezing = Some((by, rates.station, cooling_rate));
+                self.shot.solidification = Some((by, rates.station, cooling_rate));
                 let orientation = thread.orientation(rates.station.stress);
                 self.stepper.phase = Phase::Solid { orientation };
             } else if rates.is_elastic_wave {

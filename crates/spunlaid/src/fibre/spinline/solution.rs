@@ -6,7 +6,7 @@ use crate::fibre::drag::FrictionLaw;
 /// A solved spinline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The thread from the die to the end, at rising distances: evenly spaced, and the freezing point.
+    /// The thread from the die to the end, at rising distances: evenly spaced, and the solidification point.
     pub stations: Vec<Station>,
     /// Speed of the hole's melt `v_0` at the die [m/s].
     pub die_speed: f64,
@@ -17,7 +17,7 @@ pub struct Solution {
     /// Mass per length of the cold filament [kg/m].
     pub linear_density: f64,
     /// Where the thread becomes solid.
-    pub freezing: Freezing,
+    pub solidification: Solidification,
     /// Tension at the die `F_0` [N].
     pub force_at_die: f64,
     /// Tension at the end [N].
@@ -73,7 +73,7 @@ pub struct Station {
 
 /// The point at which the thread becomes solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Freezing {
+pub struct Solidification {
     /// Distance from the die [m].
     pub distance: f64,
     /// Temperature [K].
@@ -85,14 +85,14 @@ pub struct Freezing {
     /// How fast the thread cools there [K/s].
     pub cooling_rate: f64,
     /// What makes it solid.
-    pub by: FreezingCause,
+    pub by: SolidificationCause,
 }
 
 named! {
     /// What makes the thread solid.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum FreezingCause {
-        /// It is as cold as the freezing temperature.
+    pub enum SolidificationCause {
+        /// It is as cold as the solidification temperature.
         Temperature = "temperature",
         /// Enough of it has crystallised.
         Crystallisation = "crystallisation",

@@ -3,7 +3,7 @@
 use super::boundary::largest_tension;
 use super::shooting::{Hit, MISSED, Miss, find, follow};
 use super::shot::Shot;
-use super::solution::{Freezing, Solution, Station};
+use super::solution::{Solidification, Solution, Station};
 use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
 use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};
 use crate::fibre::drag::FrictionLaw;
@@ -47,7 +47,7 @@ pub(super) fn final_speed_near(
     let thread = Thread::new(line, friction, air);
     let hit = hit_near(&thread, near)?;
     // Only where a thread breaks decides more than its end does.
-    if hit.shot.freezing.is_none() || line.break_stress.is_finite() {
+    if hit.shot.solidification.is_none() || line.break_stress.is_finite() {
         return Ok(describe(&thread, &hit)?.final_speed);
     }
     Ok(libm::exp(hit.shot.end[LN_SPEED]))
@@ -99,20 +99,20 @@ fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
 fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
     let line = thread.line;
     let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
-    let freezing = line.material.freezing_temperature;
-    if line.die_temperature <= freezing {
-        let message = format!("is not above {}, at which the polymer freezes", celsius(freezing));
-        let remedy = "raise it, or correct spinline.material.freezing_temperature";
+    let solidification = line.material.solidification_temperature;
+    if line.die_temperature <= solidification {
+        let message = format!("is not above {}, at which the polymer freezes", celsius(solidification));
+        let remedy = "raise it, or correct spinline.material.solidification_temperature";
         let value = Some(line.die_temperature);
         return Some(Failure::new("spinline.die_temperature", value, Fault::new(message, remedy)));
     }
     let coldest = thread.coldest_air();
-    if coldest >= freezing && !line.crystallisation {
+    if coldest >= solidification && !line.crystallisation {
         let (key, value) = key_of_air(thread.air, coldest, "spinline.temperature");
         let message = format!(
             "leaves the air nowhere colder than {}, and the polymer freezes at {}",
             celsius(coldest),
-            celsius(freezing)
+            celsius(solidification)
         );
         return Some(Failure::new(key, value, Fault::new(message, "cool the air")));
     }
@@ -229,7 +229,7 @@ fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
 /// The thread is not solid at the end of the line.
 fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
-    let (reached, solid) = (celsius(temperature), celsius(line.material.freezing_temperature));
+    let (reached, solid) = (celsius(temperature), celsius(line.material.solidification_temperature));
     let message = format!(
         "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
     );
@@ -243,10 +243,10 @@ fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
 /// What a shot says.
 fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     let (line, shot) = (thread.line, &hit.shot);
-    let Some((by, at, cooling_rate)) = shot.freezing else {
+    let Some((by, at, cooling_rate)) = shot.solidification else {
         return Err(liquid_end(line, shot.end[TEMPERATURE]));
     };
-    let freezing = Freezing {
+    let solidification = Solidification {
         distance: at.distance,
         temperature: at.temperature,
         diameter: at.diameter,
@@ -278,7 +278,7 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
         final_speed,
         final_diameter: line.final_diameter(final_speed),
         linear_density,
-        freezing,
+        solidification,
         force_at_die: hit.tension,
         force_at_end: shot.end[TENSION],
         largest_strain_rate,
@@ -308,7 +308,7 @@ fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
     let (mut hint, mut steps) = (0, shot.steps.iter().peekable());
     let at = |distance: f64| {
         let s = libm::sqrt(distance);
-        // The freezing point belongs to the melt.
+        // The solidification point belongs to the melt.
         while steps.len() > 1 && steps.peek().is_some_and(|step| step.end() < s) {
             steps.next();
         }

@@ -27,7 +27,7 @@ fn isothermal(density: f64) -> Spinline {
         viscosity: VISCOSITY,
         viscosity_temperature: 473.15,
         activation_energy: 0.0,
-        freezing_temperature: 1.0,
+        solidification_temperature: 1.0,
         solid_density: density,
         modulus: 1000.0,
         ..Material::UNKNOWN
@@ -172,10 +172,10 @@ fn analytic_drawing_of_a_cooling_thread() {
         find(&thread, false).unwrap_or_else(|miss| panic!("{miss:?}"))
     };
     close(drawn(&line).tension, 1.886_176_177e-4, EXACT);
-    line.material.freezing_temperature = 150.0 + ZERO_CELSIUS;
+    line.material.solidification_temperature = 150.0 + ZERO_CELSIUS;
     let hit = drawn(&line);
     close(hit.tension, 2.371_019_557e-4, EXACT);
-    close(hit.shot.freezing.expect("a solid thread").1.distance, 0.054_237_066_74, EXACT);
+    close(hit.shot.solidification.expect("a solid thread").1.distance, 0.054_237_066_74, EXACT);
 }
 
 #[test]
@@ -267,7 +267,7 @@ fn drawn_line(seed: u64, inertia: bool) -> (Spinline, FrictionLaw) {
             material.melt_density(line.die_temperature) * 0.1 * PI * line.hole_diameter.powi(2) / 4.0;
         line.nusselt_factor = between(0.1, 1.0);
         material.activation_energy = between(1e3, 2e4);
-        material.freezing_temperature = line.die_temperature - between(2.0, 30.0);
+        material.solidification_temperature = line.die_temperature - between(2.0, 30.0);
         line.end = End::TakeUp(between(4.0, 20.0));
     }
     (Spinline { material, ..line }, FrictionLaw::Matsui { factor: between(0.2, 0.9) })
@@ -289,7 +289,7 @@ fn invariant_drawn_lines_meet_their_end_or_are_refused() {
                 assert!(missed.abs() < 1e-6, "{number} misses its end by {missed:e}");
                 let balances = [found.momentum_residual, found.energy_residual];
                 assert!(balances.iter().all(|left| left.abs() < 1e-6), "{number}: {balances:?}");
-                let pulled = found.force_at_end > -1e-6 * largest && found.freezing.stress > 0.0;
+                let pulled = found.force_at_end > -1e-6 * largest && found.solidification.stress > 0.0;
                 assert!(pulled, "{number} is pushed");
                 solved += 1;
             }
@@ -312,7 +312,7 @@ fn invariant_cusps_of_the_heat_transfer_are_seen() {
         let coarse = Thread::new(&line, friction, &line.air);
         let fine = Thread { tolerance: 1e-11, ..coarse.clone() };
         let [Ok(found), Ok(exact)] = [&coarse, &fine].map(|thread| find(thread, false)) else { continue };
-        let frozen = |shot: &Shot| shot.freezing.map_or(f64::NAN, |(_, station, _)| station.distance);
+        let frozen = |shot: &Shot| shot.solidification.map_or(f64::NAN, |(_, station, _)| station.distance);
         let [a, b] = [&found, &exact].map(|hit| frozen(&hit.shot));
         if a.is_finite() {
             // A cusp that is stepped over makes 1e-4; some of these lines make thrice 1e-6 of the error of a step.

@@ -42,7 +42,7 @@ const GAS_CONSTANT: f64 = 8.314_462_618;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Phase {
     Melt,
-    /// Solid, with the orientation `f` of the freezing point [-].
+    /// Solid, with the orientation `f` of the solidification point [-].
     Solid {
         orientation: f64,
     },
@@ -211,7 +211,7 @@ impl<'a> Thread<'a> {
     /// How far the state is from being solid: zero or less where it is. A share of the temperature or of the
     /// crystallinity [-].
     pub(super) fn until_solid(&self, state: &State) -> f64 {
-        let cooling = state[TEMPERATURE] / self.material().freezing_temperature - 1.0;
+        let cooling = state[TEMPERATURE] / self.material().solidification_temperature - 1.0;
         match self.crystals() {
             Some(crystals) => cooling.min(1.0 - self.transformed(state) / crystals.freezing_share),
             None => cooling,
@@ -228,7 +228,7 @@ impl<'a> Thread<'a> {
 
     /// Whether the temperature makes the state solid.
     pub(super) fn is_cold(&self, state: &State) -> bool {
-        state[TEMPERATURE] <= self.material().freezing_temperature * (1.0 + 1e-12)
+        state[TEMPERATURE] <= self.material().solidification_temperature * (1.0 + 1e-12)
     }
 
     /// Orientation `f = min(1, C_op N_1/Δn_∞)` [-], by the stress alone: the enhancement was chosen for this

@@ -159,7 +159,7 @@ fn plateau(spots: &[Spot], place: f64) -> (String, Verdict) {
 fn thicker(spots: &[Spot]) -> (String, Verdict) {
     let find = |x: f64| spots.iter().find(|s| (s.x / x - 1.0).abs() < 1e-6);
     let (Some(thin), Some(thick)) = (find(18e-6), find(200e-6)) else {
-        return ("18 and 200 µm were not flown".to_owned(), Verdict::Open);
+        return ("18 and 200 µm were not simulated".to_owned(), Verdict::Open);
     };
     let evidence = format!(
         "{:.2} ± {:.2} mm at 18 µm, {:.2} ± {:.2} mm at 200 µm",

@@ -160,6 +160,6 @@ fn no_flights(at: &Place) -> Vec<Problem> {
         "needs flights, and a study of a spinline flies no fibre",
         "write a tension, or let the study vary the case: case = \"…\" in place of spinline = \"…\"",
     );
-    let (key, value) = ("spinline.end_tension".to_owned(), Some("\"flown\"".to_owned()));
+    let (key, value) = ("spinline.end_tension".to_owned(), Some("\"simulated\"".to_owned()));
     vec![Problem { place: at.clone(), key, value, what }]
 }

@@ -14,8 +14,8 @@ use crate::ground::{ChangedKey, Error, FileKind};
 pub enum Changes {
     /// One setting of the line, on the belt that lays the same weight.
     OfLine,
-    /// Half and twice of each number that the file calls a guess (`web.guessed`).
-    OfGuesses,
+    /// Half and twice of each number that the file calls an assumed value (`web.assumed`).
+    OfAssumedValues,
 }
 
 /// Reads the file of a web and makes changed webs of it.
@@ -32,29 +32,29 @@ pub fn read_changes<'a>(
         let web = WebToChange { base: &base, set: set.values, resources };
         Ok(match changes {
             Changes::OfLine => web.changes_of_line(),
-            Changes::OfGuesses => changes_of_guesses(&web),
+            Changes::OfAssumedValues => changes_of_guesses(&web),
         })
     })
 }
 
-/// The factors on a guess.
+/// The factors on an assumed value.
 const FACTORS: [f64; 2] = [0.5, 2.0];
 /// Largest lateral wave number times the length of the eddies.
 const CUTOFF: &str = "air.lateral_cutoff";
-/// Guesses at the length of the eddies. Half as long ones keep the smallest waves across, because a field of
+/// AssumedValues at the length of the eddies. Half as long ones keep the smallest waves across, because a field of
 /// half as long waves would take four times the memory.
 const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.length_constant"];
 
 fn changes_of_guesses(web: &WebToChange<'_>) -> Vec<Change> {
     let spec = web.base.spec();
-    let named = spec.guessed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
+    let named = spec.assumed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
     named
         .flat_map(|(name, guess)| FACTORS.map(|factor| with_guess(web, name, &guess, factor)))
         .flatten()
         .collect()
 }
 
-/// The web with another value of a guess; None if that is no other value.
+/// The web with another value of an assumed value; None if that is no other value.
 fn with_guess(web: &WebToChange<'_>, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
     let value = factor * guess.value;
     let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
@@ -69,5 +69,5 @@ fn with_guess(web: &WebToChange<'_>, name: &str, guess: &Guess, factor: f64) -> 
     }
     let keys = vec![ChangedKey { key: name.to_owned(), ..key }];
     let new = values.iter().map(|value| web.setting(value)).collect();
-    (to != guess.value).then(|| web.change((setting::GUESS, Vec::new()), keys, new, web.with(&values)))
+    (to != guess.value).then(|| web.change((setting::ASSUMED, Vec::new()), keys, new, web.with(&values)))
 }

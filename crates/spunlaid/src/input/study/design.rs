@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The fault of a design of more points than are flown without a request.
+/// The fault of a design of more points than are simulated without a request.
 fn too_many_points(points: &str, remedy: String) -> Fault {
     let message =
         format!("makes {points} points; more than {MOST_POINTS_UNASKED} must be requested by their number");

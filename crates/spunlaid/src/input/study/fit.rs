@@ -26,7 +26,7 @@ impl std::fmt::Debug for FitFile {
 
 /// Reads the file of a web in which keys are sought.
 ///
-/// * `vary` – the keys, each by its name, or with its range: `line.depth=5 mm..40 mm`
+/// * `vary` – the keys, each by its name, or with its range: `line.slot_gap=5 mm..40 mm`
 /// * `word` – what messages call them, `--vary`
 ///
 /// # Errors

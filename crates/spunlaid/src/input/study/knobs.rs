@@ -191,7 +191,7 @@ impl LineFile {
     /// The text of the file with these keys set.
     fn text_with(&self, set: &[(String, String)]) -> Option<String> {
         let names: Vec<&str> = set.iter().map(|(key, _)| &**key).collect();
-        let displaced = self.base.displaced_by(&names);
+        let displaced = self.base.replaced_by(&names);
         // What the file says by another name stays where it stands.
         let is_layered = self.base.is_layered();
         let other =

@@ -12,7 +12,7 @@ use crate::experiment::plausible::outside;
 use crate::experiment::{Change, ChangedWeb, setting};
 use crate::fibre::case::keys::VariedKey;
 use crate::ground::{ChangedKey, Dimension, Error, Setting};
-use crate::simulation::layers::full_names::{displaced_by, web_key};
+use crate::simulation::layers::full_names::{replaced_by, web_key};
 use crate::simulation::{LayerSpec, WebSpec};
 use crate::web::map::Filaments;
 
@@ -142,7 +142,7 @@ impl WebToChange<'_> {
 
     /// The settings of the spinline and of the air, each with the keys of which one changes it, the best first.
     fn settings_of_air(&self) -> Vec<(Setting, Vec<KeyPowers>)> {
-        // A web that names the factor as a guess has no other number in its place.
+        // A web that names the factor as an assumed value has no other number in its place.
         let turbulence: &[&str] = match self.is_evenly_turbulent() {
             true => &["air.turbulence_intensity", "air.intensity_factor"],
             false => &[],
@@ -174,7 +174,7 @@ impl WebToChange<'_> {
     /// The depth of the slot of a layer, if it has one.
     fn depth(&self, layer: usize) -> KeyPowers {
         match self.spec().layers[layer - 1].filaments {
-            Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.depth"), 1.0)],
+            Filaments::Slot { .. } => vec![(format!("layer.{layer}.line.slot_gap"), 1.0)],
             _ => Vec::new(),
         }
     }
@@ -387,7 +387,7 @@ impl WebToChange<'_> {
         made: Result<WebFile, Error>,
     ) -> Change {
         let names: Vec<&str> = new.iter().map(|(key, _)| &**key).collect();
-        let is_displaced = displaced_by(&names, self.base.is_layered());
+        let is_displaced = replaced_by(&names, self.base.is_layered());
         let stays = |set: &str| !names.contains(&set) && !is_displaced(set);
         let before = self.set.iter().filter(|(key, _)| stays(self.base.short_name(key.trim())));
         let before = before.map(|(key, value)| (key.clone(), Entry::plain_override(value)));

@@ -30,7 +30,7 @@ use plan::Plan;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// Largest number of points that is flown without an explicit request.
+/// Largest number of points that is simulated without an explicit request.
 pub(crate) const MOST_POINTS_UNASKED: u64 = 10_000;
 /// Fewest replicates from which a standard error is a good guide to when to stop.
 const FEWEST_REPLICATES: u64 = 6;

@@ -11,7 +11,7 @@ use crate::experiment::{
 };
 use crate::fibre::case::keys::{self, Kind};
 use crate::ground::{Fault, FileKind, Finding};
-use crate::simulation::layers::full_names::displaced_by;
+use crate::simulation::layers::full_names::replaced_by;
 use toml::de::DeValue;
 
 /// A study before its points are made.
@@ -61,7 +61,7 @@ impl Reader<'_> {
         }
         let is_given = |(_, text): &&(String, String)| text.trim().trim_matches('"') != AUTO;
         let names: Vec<&str> = asked.values.iter().filter(is_given).map(|(key, _)| key.trim()).collect();
-        let is_displaced = displaced_by(&names, false);
+        let is_displaced = replaced_by(&names, false);
         set.retain(|(other, _)| !is_displaced(other));
         for (key, text) in asked.values {
             let key = key.trim().to_owned();
@@ -96,7 +96,7 @@ impl Reader<'_> {
         let varied = factors.iter().map(|factor| &factor.key).chain(links.iter().map(|link| &link.key));
         for key in varied {
             let is_it = |set: &&String| {
-                let displaces = |one: &str, other: &str| displaced_by(&[one], false)(other);
+                let displaces = |one: &str, other: &str| replaced_by(&[one], false)(other);
                 **set == key.name || displaces(set, &key.name) || displaces(&key.name, set)
             };
             if let Some(other) = set.iter().find(is_it) {

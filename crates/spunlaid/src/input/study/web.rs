@@ -9,7 +9,7 @@ use crate::experiment::{Experiment, Point, Quantity, Study};
 use crate::fibre::case::keys::{self, Value, VariedKey};
 use crate::ground::error::{Place, nearest_word};
 use crate::ground::{Error, Problem};
-use crate::simulation::layers::full_names::{displaced_by, full_name, value, web_key, without_numbers};
+use crate::simulation::layers::full_names::{full_name, replaced_by, value, web_key, without_numbers};
 use crate::simulation::{SAME, WEB_KEYS, WebSpec};
 
 /// The web of a study before its keys vary.
@@ -84,8 +84,8 @@ impl WebBase {
     }
 
     /// The keys of its file whose place these take, if they are set.
-    pub(super) fn displaced_by(&self, set: &[&str]) -> Vec<&str> {
-        let is_displaced = displaced_by(set, self.is_layered());
+    pub(super) fn replaced_by(&self, set: &[&str]) -> Vec<&str> {
+        let is_displaced = replaced_by(set, self.is_layered());
         self.written.keys().filter(|name| is_displaced(name)).collect()
     }
 
@@ -94,7 +94,7 @@ impl WebBase {
         full.strip_prefix("layer.1.").filter(|_| !self.is_layered()).unwrap_or(full)
     }
 
-    /// The number of a key of the cases, if all that are flown have the same.
+    /// The number of a key of the cases, if all that are simulated have the same.
     pub(super) fn number_of_cases(&self, name: &str) -> Option<f64> {
         let key = keys::find(name)?;
         let mut numbers = self.spec().cases().filter_map(|case| Some(key.value_in(case)?.number()));

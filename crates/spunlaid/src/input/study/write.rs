@@ -90,18 +90,18 @@ const OF_CASES: &[&str] = &[
     "air.length_scale",
     "fibre.length",
 ];
-const OF_WEBS: &[&str] = &[
+const WEB_MEASURES: &[&str] = &[
     "line.belt_speed",
     "belt.speed",
     "layer.1.line.belt_speed",
     "spinline.throughput",
-    "line.depth",
+    "line.slot_gap",
     "laydown.sigma_md",
     "layer.1.laydown.sigma_md",
     "fibre.diameter",
     "air.length_scale",
 ];
-const OF_SPINLINES: &[&str] = &[
+const SPINLINE_MEASURES: &[&str] = &[
     "spinline.throughput",
     "spinline.velocity",
     "spinline.hole_diameter",
@@ -114,7 +114,7 @@ const FACTORS: usize = 2;
 const LEVELS: [f64; 3] = [0.8, 1.0, 1.25];
 
 /// A commented study of a case, a web or a spinline. It stands in the same folder and varies two keys around
-/// their values; all its points can be flown.
+/// their values; all its points can be simulated.
 ///
 /// # Errors
 /// If the file cannot be read, is wrong, or has no key to begin with.
@@ -132,8 +132,8 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
     let (text, name) = (file::read(path, kind)?, path.display().to_string());
     let base = open_base(kind, text.clone(), &name, [(&[]).into(), (&[]).into()], &Resources::default())?;
     let (word, noun, keys) = match kind {
-        FileKind::Web => ("web", "webs", OF_WEBS),
-        FileKind::Spinline => ("spinline", "", OF_SPINLINES),
+        FileKind::Web => ("web", "webs", WEB_MEASURES),
+        FileKind::Spinline => ("spinline", "", SPINLINE_MEASURES),
         _ => ("case", "fibres", OF_CASES),
     };
     let study = |vary: &[String]| {

@@ -12,7 +12,7 @@ use crate::web::map::{Filaments, holes};
 use crate::web::{Defect, Edges, Row, Sheet};
 
 /// Keys of webs whose filaments fly.
-const OF_FLIGHTS: [&str; 3] = ["web.flown", "web.error", "web.time"];
+const OF_FLIGHTS: [&str; 3] = ["web.simulated", "web.error", "web.time"];
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;
 
@@ -30,7 +30,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses layers that cannot be flown in one air, and what only flights have.
+    /// Refuses layers that cannot be simulated in one air, and what only flights have.
     pub(super) fn check_sources(&mut self, prefixes: &[String], web: &WebSpec) {
         if !web.flies() {
             let has_numbers = prefixes.iter().any(|prefix| self.has_numbers(prefix));
@@ -44,8 +44,8 @@ impl Reading<'_> {
             }
             return;
         }
-        if web.flown == Flown::All && matches!(web.error, WantedError::Of(_)) {
-            let message = "has no effect where every filament is flown (web.flown = \"all\")";
+        if web.simulated == Flown::All && matches!(web.error, WantedError::Of(_)) {
+            let message = "has no effect where every filament is simulated (web.simulated = \"all\")";
             self.key_values
                 .reject("web.error", Fault::new(message, "leave one of the two out, or write \"auto\""));
         }
@@ -201,7 +201,7 @@ impl Reading<'_> {
         self.key_values.reject(key.as_deref().unwrap_or(list), fault);
     }
 
-    /// Checks a row of nozzles together with the sheet.
+    /// Checks a row of holes together with the sheet.
     fn check_row(&mut self, before: &str, row: &Row, sheet: &Sheet) {
         let Row { offset, pitch, filaments, .. } = *row;
         let (width, beam) = (sheet.width, pitch * filaments as f64);

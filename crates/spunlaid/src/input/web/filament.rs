@@ -1,4 +1,4 @@
-//! The filament of a layer that is to be flown: the values of its case. They stand in the file of the web, in
+//! The filament of a layer that is to be simulated: the values of its case. They stand in the file of the web, in
 //! that of a case which the layer names, or in both; what the file of the web says takes the place of what
 //! the other one says.
 
@@ -113,7 +113,7 @@ impl Reading<'_> {
         let Some(full) = places.into_iter().find(|full| self.is_told(full)) else { return };
         let Some(written_value) = self.key_values.get(&full).cloned() else {
             // It is missing because of another problem.
-            key.relations.gives_case.iter().for_each(|name| filament.values.excuse(*name));
+            key.relations.gives_case.iter().for_each(|name| filament.values.suppress_missing(*name));
             return;
         };
         for of_case in key.relations.gives_case {
@@ -138,7 +138,7 @@ impl Reading<'_> {
                 }
             }
             // The belt follows when all layers are known.
-            (None, _) => filament.values.excuse("belt.speed"),
+            (None, _) => filament.values.suppress_missing("belt.speed"),
         }
     }
 
@@ -160,7 +160,7 @@ impl Reading<'_> {
         if matches!(read, Err(Error::Rejected(_))) && self.is_written(&named) && self.is_written(&throughput)
         {
             let message =
-                format!("cannot be flown by {} (the message about that file says why)", path.display());
+                format!("cannot be simulated by {} (the message about that file says why)", path.display());
             let fault = Fault::new(message, "write another throughput, or change the case");
             self.key_values.reject(&throughput, fault);
         }
@@ -185,7 +185,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Notes that a case is flown with another number than its file says, because the file of the web says it, unless
+    /// Notes that a case is simulated with another number than its file says, because the file of the web says it, unless
     /// the two differ by rounding.
     fn note_replaced(&mut self, prefix: &str, (name, own): (&str, f64), case: &Case, path: &Path) {
         let (Some(key), Some(by)) = (keys::find(name), self.says(prefix, name)) else { return };
@@ -265,7 +265,7 @@ impl Reading<'_> {
                     let (place, key) = (self.key_values.whole(), of_air.to_owned());
                     self.note(vec![self.key_values.placed(Note { place, key, value: None, what })]);
                 }
-                // What is flown is what is written and told.
+                // What is simulated is what is written and told.
                 case.air.lateral = case.air.lateral.in_one_air();
                 return Ok(Some(Arc::new(case)));
             }

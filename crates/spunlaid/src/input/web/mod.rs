@@ -6,15 +6,15 @@
 //!                                                    of a web, or for `spunlaid run`, `spin`, `air`
 //! ```
 
+mod assumed;
 mod check;
 mod filament;
-mod guessed;
 mod open;
 mod read;
 mod sheet;
 mod write;
 
-pub(super) use guessed::Guess;
+pub(super) use assumed::Guess;
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 
@@ -156,7 +156,7 @@ impl WrittenWeb {
     }
 }
 
-/// Whether a key is one of the cases. Both have some: where a case is flown, it says them.
+/// Whether a key is one of the cases. Both have some: where a case is simulated, it says them.
 pub(super) fn is_of_case(name: &str, flies: bool) -> bool {
     keys::find(name).is_some() && (flies || WEB.find(name).is_none())
 }
@@ -169,7 +169,7 @@ pub(super) fn flies_none() -> String {
 /// What is written of the filament of a web, as the values of a case.
 ///
 /// # Errors
-/// Every problem with the file before the filament is spun and flown; and if it has none, or several.
+/// Every problem with the file before the filament is spun and simulated; and if it has none, or several.
 pub(super) fn filament(
     text: &str,
     name: &str,

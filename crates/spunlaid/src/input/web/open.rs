@@ -13,7 +13,7 @@ use crate::simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
 use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::map::Filaments;
 
-/// The file of a web, read as far as it goes before its filaments are spun and flown.
+/// The file of a web, read as far as it goes before its filaments are spun and simulated.
 pub(super) struct OpenWeb<'a> {
     reading: Reading<'a>,
     web: WebSpec,
@@ -72,7 +72,7 @@ impl OpenWeb<'_> {
         reading.check_names(&prefixes);
         reading.complete_sheet(&mut web);
         reading.check_sources(&prefixes, &web);
-        reading.check_guessed(&web);
+        reading.check_assumed(&web);
         reading.check_turnable(&web);
         reading.settle_belt(&mut web);
         for (number, (prefix, layer)) in prefixes.iter().zip(&web.layers).enumerate() {
@@ -109,7 +109,7 @@ impl OpenWeb<'_> {
         if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
             let fault = Fault::new(
                 format!(
-                    "have different filaments, and one is flown (the first and the {}. that fly)",
+                    "have different filaments, and one is simulated (the first and the {}. that fly)",
                     number + 1
                 ),
                 "write the filament of one layer in a file of its own, without [[layer]], [line] and [web]",
@@ -156,7 +156,7 @@ impl Reading<'_> {
     /// Excuses that the numbers are missing which a case would give.
     fn excuse_numbers_of_case(&mut self, prefix: &str) {
         for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
-            self.key_values.excuse(format!("{prefix}{}", key.name));
+            self.key_values.suppress_missing(format!("{prefix}{}", key.name));
         }
     }
 }
@@ -164,7 +164,7 @@ impl Reading<'_> {
 /// What tells how the filaments of a layer lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
-    /// A filament is flown.
+    /// A filament is simulated.
     Fly,
     /// The numbers of a surrogate.
     Numbers,
@@ -172,10 +172,10 @@ enum Way {
     Unknown,
 }
 
-/// A layer before its filament is spun and flown.
+/// A layer before its filament is spun and simulated.
 pub(super) struct Layer {
     pub(super) spec: LayerSpec,
-    /// Its filament, if it has to be flown.
+    /// Its filament, if it has to be simulated.
     pub(super) filament: Option<Filament>,
     /// The throughput of its holes, if the filament comes from a die [kg/s].
     pub(super) spun: Option<f64>,

@@ -1,4 +1,4 @@
-//! Makes the web from the written values, from what the flown cases give, and from the defaults.
+//! Makes the web from the written values, from what the simulated cases give, and from the defaults.
 
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues};
@@ -137,7 +137,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The rows of nozzles; it is noted if there are neither rows nor filaments at random.
+    /// The rows of holes; it is noted if there are neither rows nor filaments at random.
     ///
     /// * `before` – what comes before the names of the table's keys: `line.`
     pub(super) fn rows(&mut self, before: &str) -> Vec<Row> {

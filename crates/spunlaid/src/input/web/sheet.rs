@@ -146,7 +146,7 @@ const BASIS_WEIGHT: &str = "line.basis_weight";
 
 impl Reading<'_> {
     /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
-    /// are flown above it.
+    /// are simulated above it.
     pub(super) fn lay_weight(&mut self, web: &mut WebSpec, layers: &mut [Layer]) {
         let Some(key) = self.of_all_layers(BASIS_WEIGHT) else { return };
         self.basis_weight_key.clone_from(&key);
@@ -227,7 +227,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Gives every layer the speed of the belt, which is written in one layer or is that of the flown cases.
+    /// Gives every layer the speed of the belt, which is written in one layer or is that of the simulated cases.
     fn lay_on_common_belt(&mut self, layers: &mut [LayerSpec]) {
         self.of_all_layers(BELT_SPEED);
         let keys: Vec<String> = self.prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();

@@ -14,7 +14,7 @@ pub fn write_web(spec: &WebSpec) -> String {
     write_with(spec, &|number, key| value_to_write(spec.layers.get(number)?.source.case()?, key))
 }
 
-/// [`write_web`] with nothing of the filaments but what is written: what follows from it follows anew where a
+/// [`write_web`] with nothing of the filaments but what is written: what follows from it follows again where a
 /// key varies.
 ///
 /// * `filaments` – what is written of that of each layer
@@ -30,13 +30,13 @@ fn write_with(spec: &WebSpec, value: ValueOfCase<'_>) -> String {
     let layered = spec.layers.len() > 1 || spec.layers.iter().any(|layer| layer.name.is_some());
     let filaments: Vec<Option<Tables>> =
         (0..spec.layers.len()).map(|number| filament(spec, number, value)).collect();
-    let mut flown = filaments.iter().flatten();
-    let first = flown.next().filter(|_| layered);
+    let mut simulated = filaments.iter().flatten();
+    let first = simulated.next().filter(|_| layered);
     let (common, _): (Tables, Tables) = first
         .cloned()
         .unwrap_or_default()
         .into_iter()
-        .partition(|table| flown.clone().all(|other| other.contains(table)));
+        .partition(|table| simulated.clone().all(|other| other.contains(table)));
     text += &written(&common, "");
     for (number, filament) in filaments.iter().enumerate() {
         let before = if layered { "layer." } else { "" };

@@ -11,7 +11,7 @@ mod turbulence;
 pub use crate::fibre::Job;
 use crate::fibre::{Case, LaidPoint};
 use crate::ground::threads::lock;
-use crate::ground::{Control, Error, EvenSample, Vec3, WIDTH};
+use crate::ground::{Error, EvenSample, RunContext, Vec3, WIDTH};
 pub use crate::simulation::observe::Sample;
 pub use finer::{
     Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Statistic,
@@ -26,7 +26,7 @@ use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard};
 pub(crate) use trajectory::fly_each;
-pub use trajectory::{Keep, KeepShapes, Trajectory, fly_together, pace};
+pub use trajectory::{KeepShapes, Recorded, Trajectory, fly_together, pace};
 pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 
 /// Computes the replicates of a case and passes on each trajectory, in the order of the replicates.
@@ -38,15 +38,15 @@ pub use turbulence::{SpectrumPoint, turbulence_spectrum, velocity_record};
 /// A fibre is lost, another thread stops the ensemble, or `take` returns an error.
 pub fn fly<E: From<Error>>(
     case: &Case,
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
     mut take: impl FnMut(Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
     in_order(
         case.flights() as usize,
         computing.threads,
         |index| fly_one(case, index, keep, computing),
-        |flown| flown?.into_iter().try_for_each(|trajectory| take(trajectory?)),
+        |simulated| simulated?.into_iter().try_for_each(|trajectory| take(trajectory?)),
     )
 }
 
@@ -54,7 +54,7 @@ pub fn fly<E: From<Error>>(
 /// the checks of the run compare: [`FinerPlans::check`] flies them.
 ///
 /// * `plans` – those of the case
-/// * `recall` – the trajectories of replicates that fly together, if they have been flown before; it passes
+/// * `recall` – the trajectories of replicates that fly together, if they have been simulated before; it passes
 ///   on what was recorded of them
 ///
 /// # Errors
@@ -63,13 +63,13 @@ pub fn fly<E: From<Error>>(
 pub fn fly_for_checks<E: From<Error>>(
     case: &Case,
     plans: &FinerPlans,
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
     recall: impl Fn(Range<u64>, &dyn Recorder) -> Result<Option<Vec<Trajectory>>, Error> + Sync,
     mut take: impl FnMut(Result<Trajectory, LostFibre>) -> Result<(), E>,
 ) -> Result<RunPaths, E> {
     let paths = finer::Paths::from_run(plans.step.as_ref().ok(), keep.recorder);
-    let watched = Keep { recorder: Some(&paths), ..keep };
+    let watched = Recorded { recorder: Some(&paths), ..keep };
     let (mut replicate, mut left, mut first_lost) = (0, 0, None);
     in_order(
         case.flights() as usize,
@@ -78,9 +78,9 @@ pub fn fly_for_checks<E: From<Error>>(
             let replicates = replicates(case, index);
             let steps = case.run.steps * (replicates.end - replicates.start);
             match recall(replicates, &paths)? {
-                Some(flown) => {
+                Some(simulated) => {
                     computing.done.fetch_add(steps, Ordering::Relaxed);
-                    Ok(flown.into_iter().map(Ok).collect())
+                    Ok(simulated.into_iter().map(Ok).collect())
                 }
                 None => fly_one(case, index, watched, computing),
             }
@@ -119,8 +119,8 @@ fn replicates(case: &Case, index: usize) -> Range<u64> {
 fn fly_one(
     case: &Case,
     index: usize,
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     let jobs: Vec<Job<'_>> = replicates(case, index).map(|replicate| Job::new(case, replicate)).collect();
     fly_each(&jobs, keep, computing)

@@ -4,7 +4,7 @@ use super::{EndPath, Recorder, Shapes};
 use crate::air::Flow;
 use crate::fibre::{Case, Flight, Job, LaidPoint, SurroundingRun};
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Control, Error, Isa, Value, WIDTH};
+use crate::ground::{Error, Isa, RunContext, Value, WIDTH};
 use crate::simulation::observe::{FibreMeasure, Observation, Observers, Sample};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -44,7 +44,7 @@ impl Trajectory {
 
 /// What to store of an ensemble besides the numbers of each fibre.
 #[derive(Clone, Copy, Debug)]
-pub struct Keep<'a> {
+pub struct Recorded<'a> {
     /// Whether curves are measured too: profiles, series, spectra, and the path of a free end.
     pub curves: bool,
     /// Whether the recorded instants are kept in memory.
@@ -55,7 +55,7 @@ pub struct Keep<'a> {
     pub recorder: Option<&'a dyn Recorder>,
 }
 
-impl Keep<'_> {
+impl Recorded<'_> {
     /// Numbers only.
     pub const NUMBERS: Self =
         Self { curves: false, samples: false, shapes: KeepShapes::NONE, recorder: None };
@@ -105,8 +105,8 @@ impl KeepShapes {
 /// The jobs cannot fly together ([`Flight::new`]), a fibre is lost, or another thread stops it.
 pub fn fly_together(
     jobs: &[Job<'_>],
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     let first = jobs.first().ok_or_else(Error::no_fibre)?;
     fly_in_air(jobs, keep, SurroundingRun::run(first.case), computing)
@@ -124,8 +124,8 @@ fn first_counted(case: &Case) -> f64 {
 /// The jobs cannot fly together ([`Flight::new`]), or another thread stops the flight.
 pub(crate) fn fly_each(
     jobs: &[Job<'_>],
-    keep: Keep<'_>,
-    computing: Control<'_>,
+    keep: Recorded<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Result<Trajectory, Error>>, Error> {
     each_or_lost(jobs, |together| {
         let first = together.first().ok_or_else(Error::no_fibre)?;
@@ -146,13 +146,13 @@ pub(super) fn each_or_lost<T>(
         let flying: Vec<usize> =
             (0..jobs.len()).filter(|job| lost.iter().all(|(other, _)| other != job)).collect();
         let together: Vec<Job<'_>> = flying.iter().map(|job| jobs[*job]).collect();
-        let flown = if together.is_empty() && !jobs.is_empty() { Ok(Vec::new()) } else { fly(&together) };
-        match flown {
-            Ok(flown) => {
-                let mut all: Vec<_> = flying.into_iter().zip(flown.into_iter().map(Ok)).collect();
+        let simulated = if together.is_empty() && !jobs.is_empty() { Ok(Vec::new()) } else { fly(&together) };
+        match simulated {
+            Ok(simulated) => {
+                let mut all: Vec<_> = flying.into_iter().zip(simulated.into_iter().map(Ok)).collect();
                 all.extend(lost.into_iter().map(|(job, error)| (job, Err(error))));
                 sort_by_key(&mut all, |(job, _)| *job);
-                return Ok(all.into_iter().map(|(_, flown)| flown).collect());
+                return Ok(all.into_iter().map(|(_, simulated)| simulated).collect());
             }
             // The others fly again without it, with the same bits.
             Err(FlightEnd::Lost { lane, error }) => lost.push((flying[lane], error)),
@@ -164,9 +164,9 @@ pub(super) fn each_or_lost<T>(
 /// [`fly_together`], in the air of another run.
 pub(super) fn fly_in_air(
     jobs: &[Job<'_>],
-    keep: Keep<'_>,
+    keep: Recorded<'_>,
     air: SurroundingRun<'_>,
-    computing: Control<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Trajectory>, Error> {
     fly_until_lost(jobs, keep, air, computing).map_err(|ended| match ended {
         FlightEnd::Lost { error, .. } | FlightEnd::Otherwise(error) => error,
@@ -191,9 +191,9 @@ impl From<Error> for FlightEnd {
 
 fn fly_until_lost(
     jobs: &[Job<'_>],
-    keep: Keep<'_>,
+    keep: Recorded<'_>,
     air: SurroundingRun<'_>,
-    computing: Control<'_>,
+    computing: RunContext<'_>,
 ) -> Result<Vec<Trajectory>, FlightEnd> {
     let mut flight = Flight::in_air(jobs, computing.isa, air)?;
     if let Some(recorder) = keep.recorder {
@@ -322,7 +322,7 @@ fn divergence(
     jobs: &[Job<'_>],
     air: SurroundingRun<'_>,
     good_steps: u64,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<FlightEnd, Error> {
     let mut flight = Flight::in_air(jobs, by.isa, air)?;
     let mut left = good_steps;
@@ -357,7 +357,7 @@ mod tests {
         (case.run.gravity, case.run.damping) = (9.81, 0.0);
         // This fibre is never lost.
         let (stop, done) = (AtomicBool::new(true), AtomicU64::new(0));
-        let by = Control { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
         let found = divergence(&[Job::new(&case, 0)], SurroundingRun::run(&case), 5000, by);
         assert!(matches!(found, Err(Error::Interrupted)), "{:?}", found.is_ok());
     }

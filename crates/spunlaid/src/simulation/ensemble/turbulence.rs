@@ -3,7 +3,7 @@
 use super::Job;
 use crate::air::{Spectrum, Stream, StreamKey, Wind};
 use crate::fibre::Case;
-use crate::ground::{Control, Error, Isa, WIDTH, Welch, Window};
+use crate::ground::{Error, Isa, RunContext, WIDTH, Welch, Window};
 
 /// A point of the spectrum of the turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ const STATIONS: usize = 12;
 ///
 /// # Errors
 /// The wind of the case cannot be made, see [`Wind::along`].
-pub fn turbulence_spectrum(case: &Case, computing: Control<'_>) -> Result<Vec<SpectrumPoint>, Error> {
+pub fn turbulence_spectrum(case: &Case, computing: RunContext<'_>) -> Result<Vec<SpectrumPoint>, Error> {
     if case.air.rms() == 0.0 {
         return Ok(Vec::new());
     }

@@ -11,7 +11,7 @@ impl LayerSpec {
         Some(Charge { per_mass, walls: self.walls })
     }
 
-    /// What its charge does at the edge of the curtain, before it has been flown; None of filaments without
+    /// What its charge does at the edge of the curtain, before it has been simulated; None of filaments without
     /// charge, and of those that no case flies.
     pub fn charge_estimate(&self, sheet: &Sheet) -> Option<ChargeEstimate> {
         let (charge, case) = (self.charged()?, self.source.case()?);

@@ -23,7 +23,7 @@ impl WebSpec {
         });
         let laid_patch = |of: &PatchFindings| LaidPatch {
             patch: of.map.patch,
-            reported: of.told_with_whole_error(),
+            reported: of.with_total_error(),
             off: of.off_of_map(),
         };
         let laid = Laid {

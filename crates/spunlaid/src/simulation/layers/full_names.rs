@@ -18,7 +18,7 @@ pub fn web_key(full: &str) -> Option<&'static WebKey> {
 /// all layers at once. All are keys of a case or a web by their full names.
 ///
 /// * `layered` – whether the file has a list of layers
-pub(crate) fn displaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&str) -> bool + 's {
+pub(crate) fn replaced_by<'s>(set: &'s [&'s str], layered: bool) -> impl Fn(&str) -> bool + 's {
     let names: Vec<(&str, String)> = set.iter().map(|full| layer_and_name(full)).collect();
     let of_all_layers =
         |name: &&str| WEB_FILE.find(name).is_some_and(|key| key.relations.of_all_layers.is_some());

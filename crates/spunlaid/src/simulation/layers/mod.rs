@@ -1,7 +1,7 @@
 //! The layers of a web: what is to be laid, as a file says it.
 //!
 //! ```text
-//! WebSpec (sheet and layers) + the fibres of each layer, flown or known → Web, which `web` lays
+//! WebSpec (sheet and layers) + the fibres of each layer, simulated or known → Web, which `web` lays
 //! ```
 
 mod charge;
@@ -27,7 +27,7 @@ const LEAST_SPREADS: f64 = 8.0;
 /// Relative difference up to which two numbers are the same.
 pub(crate) const SAME: f64 = 1e-9;
 
-/// A web before its fibres have been flown.
+/// A web before its fibres have been simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WebSpec {
     /// The sheet.
@@ -36,27 +36,27 @@ pub struct WebSpec {
     pub layers: Vec<LayerSpec>,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// How many filaments of a web in one air are flown.
-    pub flown: Flown,
-    /// The error that the CV of a web in one air may have.
+    /// How many filaments of a web in shared turbulence are simulated.
+    pub simulated: Flown,
+    /// The error that the CV of a web in shared turbulence may have.
     pub error: WantedError,
     /// Time after which no more sheets are begun for it [s]; None without a limit.
     pub time: Option<f64>,
     /// Side of the square in the middle of the sheet whose single fibres are written out [m].
     pub window: f64,
-    /// Most memory that the air of a web in one air may take [B].
+    /// Most memory that the air of a web in shared turbulence may take [B].
     pub memory_limit: f64,
     /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
     pub basis_weight: Option<f64>,
     /// What is given of the fabric and of its tests.
     pub fabric: FabricKeys,
-    /// Keys of the web and of its cases whose numbers are guesses, as the file names them.
-    pub guessed: Vec<String>,
+    /// Keys of the web and of its cases whose numbers are assumed_values, as the file names them.
+    pub assumed: Vec<String>,
     /// Names of the settings that are turned while the line runs; the usual ones if none are named.
     pub turnable: Option<Vec<String>>,
 }
 
-/// How many filaments of a web in one air are flown for all of them.
+/// How many filaments of a web in shared turbulence are simulated for all of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flown {
     /// As many as the length scale of the air asks for.
@@ -67,11 +67,11 @@ pub enum Flown {
     PerMetre(u64),
 }
 
-/// The standard error of the CV over the patches that the eye judges first which is wanted of a web in one air, as a
+/// The standard error of the CV over the patches that the eye judges first which is wanted of a web in shared turbulence, as a
 /// fraction of the CV.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WantedError {
-    /// That of [`USUAL_ERROR`], and of a web so small that all of it is flown the one of its own clouds.
+    /// That of [`USUAL_ERROR`], and of a web so small that all of it is simulated the one of its own clouds.
     Auto,
     /// That of one sheet.
     OfOneSheet,
@@ -82,7 +82,7 @@ pub enum WantedError {
 /// The error that is wanted if nothing is said.
 pub const USUAL_ERROR: f64 = 0.04;
 
-/// A layer before its fibres have been flown.
+/// A layer before its fibres have been simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerSpec {
     /// Its name, if it has one.
@@ -114,7 +114,7 @@ pub struct LayerSpec {
 /// What tells how a filament lies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LaydownSource {
-    /// A case that is to be flown.
+    /// A case that is to be simulated.
     Case {
         /// Its file.
         path: PathBuf,
@@ -130,7 +130,7 @@ impl LaydownSource {
     pub(crate) const UNKNOWN: Self =
         Self::Surrogate(Surrogate { sigma_md: f64::NAN, sigma_cd: f64::NAN, noise: f64::NAN });
 
-    /// The case of the flown fibres, if there is one.
+    /// The case of the simulated fibres, if there is one.
     pub fn case(&self) -> Option<&Case> {
         match self {
             Self::Case { case, .. } => Some(case),
@@ -167,7 +167,7 @@ impl LayerSpec {
         }
     }
 
-    /// Takes the size and the speeds with which its fibres are flown, if they are.
+    /// Takes the size and the speeds with which its fibres are simulated, if they are.
     pub(crate) fn take_flown(&mut self) {
         let Some(case) = self.source.case() else { return };
         let (fibre, line) = (case.fibre, case.line);
@@ -218,19 +218,19 @@ impl WebSpec {
             sheet: Sheet::new(nan, nan, nan),
             layers: Vec::new(),
             seed: 0,
-            flown: Flown::Auto,
+            simulated: Flown::Auto,
             error: WantedError::Auto,
             time: None,
             window: nan,
             memory_limit: nan,
             basis_weight: None,
             fabric: FabricKeys::USUAL,
-            guessed: Vec::new(),
+            assumed: Vec::new(),
             turnable: None,
         }
     }
 
-    /// Whether its filaments are flown: those of cases hang in one air and lay the web as they come down. Those
+    /// Whether its filaments are simulated: those of cases hang in shared turbulence and lay the web as they come down. Those
     /// of known numbers are independent paths of the surrogate.
     pub fn flies(&self) -> bool {
         self.cases().next().is_some()
@@ -271,7 +271,7 @@ impl WebSpec {
         self.mass_flow() / basis_weight
     }
 
-    /// Puts all layers on a belt of this speed, above which the cases are flown.
+    /// Puts all layers on a belt of this speed, above which the cases are simulated.
     ///
     /// * `belt` – its speed [m/s]
     pub(crate) fn set_belt_speed(&mut self, belt: f64) {

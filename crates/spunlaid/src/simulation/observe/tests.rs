@@ -1,12 +1,13 @@
 //! Every measure has names, a label, a meaning and a unit, and stands in `docs/measures.md`.
 
 use super::*;
-use crate::air::{OF_COMPONENTS, OF_RECORDS};
-use crate::fibre::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
+use crate::air::{COMPONENT_MEASURES, RECORD_MEASURES};
+use crate::fibre::{LOAD_MEASURES, LOAD_POSITION_MEASURES, SPINLINE_MEASURES};
 use crate::ground::{Formula, KELVIN, Unit, measure};
 use crate::web::{
-    OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES,
-    OF_SCANS, OF_STREAK_LIMITS, OF_STREAKS, OF_STRIPS, OF_THINNEST, OF_WEBS,
+    FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, SCAN_MEASURES, SCAN_PERIOD_MEASURES,
+    SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES, STREAK_MEASURES, STRIP_MEASURES,
+    THINNEST_PATCH_MEASURES, WEB_MEASURES,
 };
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -71,21 +72,21 @@ fn every_measure_has_names_a_label_a_meaning_and_a_unit() {
     check(observed());
     assert!(observed().all(|measure| measure.column.starts_with(measure.name) && !measure.label.is_empty()));
     assert!(MEASURES.iter().all(|measure| measure.kind == MeasureKind::Number));
-    check_list(OF_PATCHES);
-    check_list(OF_WEBS);
-    check_list(OF_SCANS);
-    check_list(OF_SCANNED_PATCHES);
-    check_list(OF_SCAN_STREAKS);
-    check_list(OF_SCAN_PERIODS);
-    check_list(OF_STREAK_LIMITS);
-    check_list(OF_RECORDS);
-    check_list(OF_COMPONENTS);
-    check_list(OF_SPINLINES);
-    check_list(OF_LOADS);
-    check_list(OF_LOAD_PLACES);
-    check_list(OF_FABRICS);
-    check_list(OF_FABRIC_PATCHES);
-    check_list(OF_STRIPS);
+    check_list(PATCH_MEASURES);
+    check_list(WEB_MEASURES);
+    check_list(SCAN_MEASURES);
+    check_list(SCANNED_PATCH_MEASURES);
+    check_list(SCAN_STREAK_MEASURES);
+    check_list(SCAN_PERIOD_MEASURES);
+    check_list(STREAK_LIMIT_MEASURES);
+    check_list(RECORD_MEASURES);
+    check_list(COMPONENT_MEASURES);
+    check_list(SPINLINE_MEASURES);
+    check_list(LOAD_MEASURES);
+    check_list(LOAD_POSITION_MEASURES);
+    check_list(FABRIC_MEASURES);
+    check_list(FABRIC_PATCH_MEASURES);
+    check_list(STRIP_MEASURES);
 }
 
 /// A list of measures for `docs/measures.md`.
@@ -142,23 +143,23 @@ fn every_measure_stands_in_the_docs() {
     for group in groups {
         list(&mut text, group.title, observed().filter(|measure| measure.group == group));
     }
-    list(&mut text, "The patches of a web", measure::with_errors(OF_PATCHES));
-    list(&mut text, "A web", measure::with_errors(OF_WEBS));
-    list(&mut text, "The fabric of a web", measure::with_errors(OF_FABRICS));
-    list(&mut text, "The patches of a fabric", measure::with_errors(OF_FABRIC_PATCHES));
-    list(&mut text, "The thinnest places of a fabric", measure::with_errors(OF_THINNEST));
-    list(&mut text, "Strips of a fabric", measure::with_errors(OF_STRIPS));
-    list(&mut text, "Streaks of a fabric, of the defects of its line", measure::with_errors(OF_STREAKS));
-    list(&mut text, "A scan", measure::with_errors(OF_SCANS));
-    list(&mut text, "The patches of a scan", measure::with_errors(OF_SCANNED_PATCHES));
-    list(&mut text, "The streaks of a scan", measure::with_errors(OF_SCAN_STREAKS));
-    list(&mut text, "The periods of a scan", measure::with_errors(OF_SCAN_PERIODS));
-    list(&mut text, "The least streaks that a scan would show", measure::with_errors(OF_STREAK_LIMITS));
-    list(&mut text, "A velocity record", measure::with_errors(OF_RECORDS));
-    list(&mut text, "A component of a velocity record", measure::with_errors(OF_COMPONENTS));
-    list(&mut text, "A spinline", measure::with_errors(OF_SPINLINES));
-    list(&mut text, "The load of the filaments on their air", measure::with_errors(OF_LOADS));
-    list(&mut text, "The load between the inlet and a place", measure::with_errors(OF_LOAD_PLACES));
+    list(&mut text, "The patches of a web", measure::with_errors(PATCH_MEASURES));
+    list(&mut text, "A web", measure::with_errors(WEB_MEASURES));
+    list(&mut text, "The fabric of a web", measure::with_errors(FABRIC_MEASURES));
+    list(&mut text, "The patches of a fabric", measure::with_errors(FABRIC_PATCH_MEASURES));
+    list(&mut text, "The thinnest places of a fabric", measure::with_errors(THINNEST_PATCH_MEASURES));
+    list(&mut text, "Strips of a fabric", measure::with_errors(STRIP_MEASURES));
+    list(&mut text, "Streaks of a fabric, of the defects of its line", measure::with_errors(STREAK_MEASURES));
+    list(&mut text, "A scan", measure::with_errors(SCAN_MEASURES));
+    list(&mut text, "The patches of a scan", measure::with_errors(SCANNED_PATCH_MEASURES));
+    list(&mut text, "The streaks of a scan", measure::with_errors(SCAN_STREAK_MEASURES));
+    list(&mut text, "The periods of a scan", measure::with_errors(SCAN_PERIOD_MEASURES));
+    list(&mut text, "The least streaks that a scan would show", measure::with_errors(STREAK_LIMIT_MEASURES));
+    list(&mut text, "A velocity record", measure::with_errors(RECORD_MEASURES));
+    list(&mut text, "A component of a velocity record", measure::with_errors(COMPONENT_MEASURES));
+    list(&mut text, "A spinline", measure::with_errors(SPINLINE_MEASURES));
+    list(&mut text, "The load of the filaments on their air", measure::with_errors(LOAD_MEASURES));
+    list(&mut text, "The load between the inlet and a place", measure::with_errors(LOAD_POSITION_MEASURES));
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(&path, &text).unwrap();

@@ -1,7 +1,7 @@
-//! What the charge of all filaments of a beam does to each of them, found anew after every block of time.
+//! What the charge of all filaments of a beam does to each of them, found again after every block of time.
 
 use super::Beam;
-use super::sampled::FewPlan;
+use super::sampled::SubsamplePlan;
 use crate::fibre::charge::CurtainScale;
 use crate::fibre::{Charge, ChargedNode, Flight, SheetField, Sheets};
 use crate::ground::place::Inlet;
@@ -20,7 +20,7 @@ const PARTS: f64 = 1e3;
 pub struct BeamCharge {
     /// What they carry, and what is around them.
     pub charge: Charge,
-    /// Number of all filaments per metre of width, the ones that are not flown too [1/m].
+    /// Number of all filaments per metre of width, the ones that are not simulated too [1/m].
     pub per_metre: f64,
     /// Of each filament, for how many of all it stands, in parts that are the same for all.
     pub weights: Vec<u64>,
@@ -97,7 +97,7 @@ impl BeamField {
 }
 
 impl Beam<'_> {
-    /// The longest block of time after which what charge does is found anew [s].
+    /// The longest block of time after which what charge does is found again [s].
     pub(super) fn longest_block(&self) -> f64 {
         let charge = self.charge.map(|of_beam| of_beam.charge).filter(|charge| charge.per_mass != 0.0);
         charge.and_then(|_| memory(self)).map_or(f64::INFINITY, |memory| memory / BLOCKS)
@@ -112,18 +112,18 @@ fn memory(beam: &Beam<'_>) -> Option<f64> {
 impl WebSpec {
     /// The charge of the filaments of a layer that fly.
     ///
-    /// * `flown` – where they are fed, and for which filaments they stand if they are a few
+    /// * `simulated` – where they are fed, and for which filaments they stand if they are a few
     pub(super) fn beam_charge(
         &self,
         layer: usize,
-        flown: (&[Inlet], Option<&FewPlan>),
+        simulated: (&[Inlet], Option<&SubsamplePlan>),
     ) -> Option<BeamCharge> {
-        let (places, few) = flown;
+        let (places, few) = simulated;
         let spec = self.layers.get(layer)?;
         let charge = spec.charged()?;
         let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;
         let weight = |place: &Inlet| match (&spec.filaments, few) {
-            (Filaments::Rows(rows), Some(FewPlan { arrangement: Arrangement::Rows, .. })) => {
+            (Filaments::Rows(rows), Some(SubsamplePlan { arrangement: Arrangement::Rows, .. })) => {
                 let same = || rows.iter().filter(|row| row.md == place.y);
                 let all: u64 = same().map(|row| row.filaments).sum();
                 (PARTS * all as f64 / same().count().max(1) as f64).round() as u64

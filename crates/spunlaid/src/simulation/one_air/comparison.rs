@@ -1,4 +1,4 @@
-//! Webs in the same air, of which a few filaments are flown side by side, to be compared.
+//! Webs in the same air, of which a few filaments are simulated side by side, to be compared.
 //!
 //! ```text
 //! webs → the filaments of a layer of each, on sheets of one width, at the same places
@@ -12,11 +12,11 @@ use super::sampled::Compared;
 use super::shared_air::{fly_abreast, memory_abreast};
 use super::{Beam, BeamFindings};
 use crate::fibre::{Contact, LaidPoint, Line};
-use crate::ground::threads::each;
-use crate::ground::{Control, Dimension, Error, Fault, Isa};
+use crate::ground::threads::par_map;
+use crate::ground::{Dimension, Error, Fault, Isa, RunContext};
 use crate::simulation::WebSpec;
 use crate::web::map::blocks_on;
-use crate::web::{Arrangement, LayerFew, Sheet};
+use crate::web::{Arrangement, Sheet, SubsampleEstimate};
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 
@@ -26,12 +26,12 @@ const LEAST: f64 = 0.25;
 /// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
 const SLOW: f64 = 0.1;
 
-/// What a few filaments say about the layers of a web, or why they cannot be flown.
-pub(crate) type FewOfWeb = Result<Vec<LayerFew>, Error>;
+/// What a few filaments say about the layers of a web, or why they cannot be simulated.
+pub(crate) type FewOfWeb = Result<Vec<SubsampleEstimate>, Error>;
 
 impl Flyer<'_> {
     /// What a few filaments say about webs in the same air, without laying them; None if some of the first
-    /// one are not flown as a few for all.
+    /// one are not simulated as a few for all.
     ///
     /// * `specs` – the web as it is, and changed ones
     /// * `steps` – grows by the steps of all filaments
@@ -62,38 +62,38 @@ impl Flyer<'_> {
         &self,
         layer: &Comparison<'_>,
         steps: &AtomicU64,
-    ) -> Result<Vec<Result<LayerFew, Error>>, Error> {
-        let by = Control { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: steps };
+    ) -> Result<Vec<Result<SubsampleEstimate, Error>>, Error> {
+        let by = RunContext { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: steps };
         layer.check_memory()?;
-        let flown = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
-        let flown: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(flown).collect();
+        let simulated = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
+        let simulated: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(simulated).collect();
         let of_web = |web: usize| {
             let of_beam = layer.beams[web].as_ref().map_err(again)?;
-            let flight = flown.iter().find(|(flight, _)| Some(*flight) == layer.flight_of[web]);
-            let (flight, flown) = flight.ok_or_else(Error::no_fibre)?;
+            let flight = simulated.iter().find(|(flight, _)| Some(*flight) == layer.flight_of[web]);
+            let (flight, simulated) = flight.ok_or_else(Error::no_fibre)?;
             let above = layer.beams[*flight].as_ref().map_err(again)?;
-            Laid::new([&above.beam(), &of_beam.beam()], flown.as_ref().map_err(again)?)
+            Laid::new([&above.beam(), &of_beam.beam()], simulated.as_ref().map_err(again)?)
         };
         let laid: Vec<Result<Laid<'_>, Error>> = (0..layer.beams.len()).map(of_web).collect();
         let during = laid.iter().flatten().fold(f64::NEG_INFINITY..f64::INFINITY, |all, laid| {
             all.start.max(laid.during.start)..all.end.min(laid.during.end)
         });
         let threads = self.threads.div_ceil(laid.len());
-        Ok(each(self.threads, laid.len(), |web| {
+        Ok(par_map(self.threads, laid.len(), |web| {
             let (laid, of_beam) =
                 (laid[web].as_ref().map_err(again)?, layer.beams[web].as_ref().map_err(again)?);
             let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
-            let (sheet, flown) = laid.sheet(&layer.sheet, &during)?;
+            let (sheet, simulated) = laid.sheet(&layer.sheet, &during)?;
             let beam = of_beam.beam();
             let curves = match few.arrangement {
-                Arrangement::Rows => Some(few.curves(&sheet, &beam, &flown)?),
+                Arrangement::Rows => Some(few.curves(&sheet, &beam, &simulated)?),
                 // Alone it is told as the web as it is has been.
                 Arrangement::Slot | Arrangement::AtRandom if layer.beams.len() == 1 => {
-                    Some(few.curves(&sheet, &beam, &flown)?)
+                    Some(few.curves(&sheet, &beam, &simulated)?)
                 }
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
-            few.tell((&sheet, layer.blocks), (&beam, &flown), curves.as_ref(), (threads, self.stop))
+            few.tell((&sheet, layer.blocks), (&beam, &simulated), curves.as_ref(), (threads, self.stop))
         }))
     }
 }
@@ -103,7 +103,7 @@ fn again(error: &Error) -> Error {
     Error::Flight(Fault::plain(error.to_string()))
 }
 
-/// About how many steps all filaments take for webs in the same air; where all filaments are flown, those of
+/// About how many steps all filaments take for webs in the same air; where all filaments are simulated, those of
 /// all webs but the first.
 pub(crate) fn steps_in_same_air(specs: &[&WebSpec], of_each: Compared) -> u64 {
     let Some(layers) = comparisons(specs, of_each) else {
@@ -139,7 +139,7 @@ struct Comparison<'a> {
     flight_of: Vec<Option<usize>>,
 }
 
-/// The layers of webs that are compared; None if some of the first one are not flown as a few for all.
+/// The layers of webs that are compared; None if some of the first one are not simulated as a few for all.
 fn comparisons<'a>(specs: &[&'a WebSpec], of_each: Compared) -> Option<Vec<Comparison<'a>>> {
     (0..specs.first()?.layers.len()).map(|number| Comparison::new(specs, number, of_each)).collect()
 }
@@ -151,7 +151,7 @@ impl<'a> Comparison<'a> {
         first.few(number, &on)?;
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
             Some(_) => Ok(of_beam.with_coarser_mesh()),
-            None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
+            None => Err(Fault::plain("its filaments are so few that all of them are simulated").into()),
         };
         let beams: Vec<Result<LayerBeam<'_>, Error>> =
             specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
@@ -185,7 +185,7 @@ impl<'a> Comparison<'a> {
         self.flights().map(|(_, of_beam)| of_beam.beam()).collect()
     }
 
-    /// The filaments that are flown, with the number of their web.
+    /// The filaments that are simulated, with the number of their web.
     fn flights(&self) -> impl Iterator<Item = (usize, &LayerBeam<'a>)> {
         let all = self.beams.iter().enumerate();
         all.filter_map(|(web, of_beam)| Some((web, of_beam.as_ref().ok()?)))
@@ -211,7 +211,7 @@ pub(super) fn flies_as(of_beam: &LayerBeam<'_>, other: &LayerBeam<'_>) -> bool {
 /// What the filaments of a web have laid.
 pub(super) struct Laid<'a> {
     flight: &'a BeamFindings,
-    /// How much faster the belt is above which they have flown than that of the web [m/s].
+    /// How much faster the belt is above which they have simulated than that of the web [m/s].
     faster: f64,
     /// The times at which the belt has passed on which all filaments lie as after their start, counted in
     /// what passes of the pattern of the air [s].
@@ -221,7 +221,7 @@ pub(super) struct Laid<'a> {
 }
 
 impl<'a> Laid<'a> {
-    /// * `beams` – the one that was flown, and the one of the web, which fly alike: every point comes down at
+    /// * `beams` – the one that was simulated, and the one of the web, which fly alike: every point comes down at
     ///   the same time and place above both belts
     pub(super) fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
@@ -262,12 +262,12 @@ impl<'a> Laid<'a> {
         let mut kept = self.flight.kept.clone();
         let points = kept.iter_mut().flat_map(|(_, points)| points);
         points.for_each(|point| point.md = on_slower_belt(point, self.faster));
-        let flown = BeamFindings { kept, back: front - length, ..BeamFindings::default() };
-        Ok((Sheet { length, ..like.clone() }, flown))
+        let simulated = BeamFindings { kept, back: front - length, ..BeamFindings::default() };
+        Ok((Sheet { length, ..like.clone() }, simulated))
     }
 }
 
-/// Where a point lies on a belt that is slower than the one above which it has flown [m].
+/// Where a point lies on a belt that is slower than the one above which it has simulated [m].
 fn on_slower_belt(point: &LaidPoint, faster: f64) -> f64 {
     point.md + faster * point.time
 }

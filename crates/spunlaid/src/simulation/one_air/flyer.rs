@@ -2,9 +2,9 @@
 
 use super::BeamFindings;
 use super::layer_beam::LayerBeam;
-use crate::ground::{Control, Error, Isa};
+use crate::ground::{Error, Isa, RunContext};
 use crate::simulation::WebSpec;
-use crate::web::Brush;
+use crate::web::Depositor;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -47,15 +47,15 @@ impl<'a> Flyer<'a> {
 
     /// Flies a layer and shows the progress.
     ///
-    /// * `on` – what lays an element of fibre; None if only a few are flown
+    /// * `on` – what lays an element of fibre; None if only a few are simulated
     pub(super) fn fly_layer(
         &self,
         layer: &LayerBeam<'_>,
         spec: &WebSpec,
-        on: Option<&Brush<'_>>,
+        on: Option<&Depositor<'_>>,
     ) -> Result<BeamFindings, Error> {
         let (beam, done) = (layer.beam(), AtomicU64::new(0));
-        let by = Control { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: &done };
+        let by = RunContext { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: &done };
         let flights = Flights {
             path: layer.path,
             fibres: layer.places.len() as u64,
@@ -63,8 +63,8 @@ impl<'a> Flyer<'a> {
             steps: beam.steps(&layer.sheet),
             time_step: beam.case.run.time_step,
         };
-        let mut flown = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || flown = beam.fly((&layer.sheet, spec.window()), on, by));
-        flown
+        let mut simulated = Err(Error::Interrupted);
+        (self.follow)(flights, &mut || simulated = beam.fly((&layer.sheet, spec.window()), on, by));
+        simulated
     }
 }

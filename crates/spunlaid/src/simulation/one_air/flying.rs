@@ -7,9 +7,9 @@ use super::{Beam, BeamFindings};
 use crate::air::EddyField;
 use crate::fibre::{LaidPoint, Line};
 use crate::ground::threads::{lock, unlock};
-use crate::ground::{Control, Error, Fault};
+use crate::ground::{Error, Fault, RunContext};
 use crate::simulation::observe::StretchedBalance;
-use crate::web::{Brush, LayerFlown, Sheet, TimeSpent, Window};
+use crate::web::{Depositor, LayerFlown, Sheet, TimeSpent, Window};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
@@ -22,7 +22,7 @@ pub(super) struct Sink<'a> {
     /// A window of the sheet, whose single fibres are kept.
     pub(super) window: Window,
     /// What draws an element of fibre; None to keep the curves of all filaments in place of it.
-    pub(super) on: Option<&'a Brush<'a>>,
+    pub(super) on: Option<&'a Depositor<'a>>,
     pub(super) neighbours: Option<Neighbours>,
 }
 
@@ -69,7 +69,7 @@ impl<'a> Flying<'a> {
         pack: usize,
         steps: u64,
         field: Option<&Arc<EddyField>>,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<Reach, Error> {
         if by.stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted);
@@ -115,7 +115,7 @@ impl<'a> Flying<'a> {
     }
 
     /// The times at which the belt has passed on which all filaments lie as after their start, as far as they
-    /// have been flown [s].
+    /// have been simulated [s].
     pub(super) fn laid_during(&self) -> Option<Range<f64>> {
         self.stretch.back()?;
         let Reach { ahead, start, fed, .. } = self.reach;
@@ -145,22 +145,22 @@ impl<'a> Flying<'a> {
         let charged = self.field.as_ref().map(BeamField::curtain);
         let layer = LayerFlown { neighbours, charged, spent, ..LayerFlown::default() };
         let back = self.stretch.back().unwrap_or(f64::NAN);
-        let mut flown = BeamFindings { layer, back, pace, ..BeamFindings::default() };
+        let mut simulated = BeamFindings { layer, back, pace, ..BeamFindings::default() };
         let mut balance = StretchedBalance::new(self.beam.case);
         for (_, pack) in self.packs {
-            unlock(pack).into_iter().for_each(|pack| pack.finish(&mut flown, &mut balance));
+            unlock(pack).into_iter().for_each(|pack| pack.finish(&mut simulated, &mut balance));
         }
-        flown.way = balance.way();
-        flown.layer.lost = flown.lost.len() as u64;
-        flown.sort();
-        if has_lost_too_many { Err(too_many_lost(flown, self.beam.places.len())) } else { Ok(flown) }
+        simulated.way = balance.way();
+        simulated.layer.lost = simulated.lost.len() as u64;
+        simulated.sort();
+        if has_lost_too_many { Err(too_many_lost(simulated, self.beam.places.len())) } else { Ok(simulated) }
     }
 }
 
 /// The error that is returned when so many filaments are lost that no usable web remains.
-fn too_many_lost(flown: BeamFindings, filaments: usize) -> Error {
-    let count = flown.lost.len();
-    match flown.lost.into_iter().next() {
+fn too_many_lost(simulated: BeamFindings, filaments: usize) -> Error {
+    let count = simulated.lost.len();
+    match simulated.lost.into_iter().next() {
         Some((_, reason)) => Error::Flight(Fault::plain(format!(
             "{count} of {filaments} filaments were lost, which leaves no web to look at. The first: {reason}"
         ))),

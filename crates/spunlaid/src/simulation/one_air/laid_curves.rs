@@ -1,4 +1,4 @@
-//! The fibres of each layer: flown in one air, or paths of a surrogate whose numbers are known.
+//! The fibres of each layer: simulated in one air, or paths of a surrogate whose numbers are known.
 //!
 //! ```text
 //! case → beam → laid points of each filament → the web, and the surrogate identified in some of the curves
@@ -10,10 +10,10 @@ use super::flyer::Flyer;
 use super::layer_beam::{FilledLayer, LayerBeam, beam_on};
 use super::sampled::FlownSheet;
 use super::two_levels::FineSheet;
-use crate::ground::{Control, Error};
+use crate::ground::{Error, RunContext};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
 use crate::web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
-use crate::web::{Brush, Canvas, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
+use crate::web::{DepositionGrid, Depositor, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
 use std::mem::take;
 use std::sync::Arc;
 
@@ -22,15 +22,15 @@ use std::sync::Arc;
 pub struct FlownWeb {
     /// The web.
     pub web: Web,
-    /// What filaments in one air have laid; None of a web that is still to be laid.
+    /// What filaments in shared turbulence have laid; None of a web that is still to be laid.
     laid: Option<LaidWeb>,
 }
 
 impl Flyer<'_> {
-    /// A web and its fibres. Filaments that fly in one air have laid it then.
+    /// A web and its fibres. Filaments that fly in shared turbulence have laid it then.
     ///
     /// # Errors
-    /// If the fibres cannot be flown, have laid nothing, or spread too far for the sheet; and if it is stopped.
+    /// If the fibres cannot be simulated, have laid nothing, or spread too far for the sheet; and if it is stopped.
     pub fn web(&self, spec: &WebSpec) -> Result<FlownWeb, Error> {
         let (fibres, laid) = if spec.flies() {
             let (fibres, laid) = self.fly_together(spec)?;
@@ -45,7 +45,7 @@ impl Flyer<'_> {
         Ok(FlownWeb { web: spec.web(fibres), laid })
     }
 
-    /// Flies all filaments of each layer, or a few for all of them, in an air of its own, and lays them. A
+    /// Flies all filaments of each layer, or a few for all of them, in independent turbulence, and lays them. A
     /// few curves of each layer are kept, which say what independent filaments would give.
     fn fly_together(&self, spec: &WebSpec) -> Result<(Vec<Fibres>, LaidWeb), Error> {
         if let Some(problem) = spec.air_beyond_memory() {
@@ -54,10 +54,11 @@ impl Flyer<'_> {
         let beams = (0..spec.layers.len()).map(|number| beam_on(spec, number, None));
         let beams = beams.collect::<Result<Vec<_>, _>>()?;
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
-        let canvas = Canvas::new(&spec.sheet, &elements, beams.iter().map(LayerBeam::basis_weight).sum())?;
-        let (mut fibres, mut flown, by) = (Vec::new(), Vec::new(), (self.threads, self.stop));
+        let canvas =
+            DepositionGrid::new(&spec.sheet, &elements, beams.iter().map(LayerBeam::basis_weight).sum())?;
+        let (mut fibres, mut simulated, by) = (Vec::new(), Vec::new(), (self.threads, self.stop));
         for (number, layer) in beams.into_iter().enumerate() {
-            let brush = Brush::new(&canvas, layer.beam().element_mass(), spec.titres(number));
+            let brush = Depositor::new(&canvas, layer.beam().element_mass(), spec.titres(number));
             let (layer, mut found, curves) = self.fly_until_told(spec, (number, layer), &brush)?;
             let (mut of_layer, back) = (take(&mut found.layer), found.back);
             let gathered = layer.gather(found, self.threads)?;
@@ -70,45 +71,45 @@ impl Flyer<'_> {
                 of_layer.strands = layer.fill_in(&filled, (&curves, back), few, &brush, by)?;
             }
             fibres.push(of_fibres);
-            flown.push(of_layer);
+            simulated.push(of_layer);
         }
-        Ok((fibres, LaidWeb { flown, ..canvas.finish()? }))
+        Ok((fibres, LaidWeb { simulated, ..canvas.finish()? }))
     }
 
-    /// Flies a layer. Unless the file says how many filaments are flown, more of them fly where a few do not
+    /// Flies a layer. Unless the file says how many filaments are simulated, more of them fly where a few do not
     /// tell what all do. The curves of a few filaments are returned too.
     fn fly_until_told<'b>(
         &self,
         spec: &'b WebSpec,
         (number, mut layer): (usize, LayerBeam<'b>),
-        on: &Brush<'_>,
+        on: &Depositor<'_>,
     ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
         let mut asked = spec.flown_sheet(number, None);
         loop {
-            let mut flown = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
-            spent.whole += flown.layer.spent.whole;
-            spent.in_parallel += flown.layer.spent.in_parallel;
-            flown.layer.spent = spent;
-            let Some(few) = &layer.few else { return Ok((layer, flown, None)) };
+            let mut simulated = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
+            spent.whole += simulated.layer.spent.whole;
+            spent.in_parallel += simulated.layer.spent.in_parallel;
+            simulated.layer.spent = spent;
+            let Some(few) = &layer.few else { return Ok((layer, simulated, None)) };
             let (beam, on) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
-            let curves = few.curves(&layer.sheet, &beam, &flown)?;
-            let told = few.tell(on, (&beam, &flown), Some(&curves), (self.threads, self.stop))?;
+            let curves = few.curves(&layer.sheet, &beam, &simulated)?;
+            let told = few.tell(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
-            let more = told.doubt().is_some() && spec.flown == Flown::Auto && flights < TRIED.len();
+            let more = told.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
             let more = more.then(|| beam_on(spec, number, finer.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 let told = match &asked {
                     Some(on) if told.doubt().is_none() => {
-                        let first = FineSheet { on, layer: &layer, flown: &flown, few: told };
+                        let first = FineSheet { on, layer: &layer, simulated: &simulated, few: told };
                         self.until_sure(spec, number, first)?
                     }
                     _ => told,
                 };
                 // The strands of all filaments are found when they are drawn.
-                (flown.layer.few, flown.layer.strands) = (Some(told), Vec::new());
-                return Ok((layer, flown, Some(curves)));
+                (simulated.layer.few, simulated.layer.strands) = (Some(told), Vec::new());
+                return Ok((layer, simulated, Some(curves)));
             };
             (layer, asked) = (more, finer);
         }
@@ -133,7 +134,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn map(&mut self, by: Control<'_>) -> Result<Map, Error> {
+    pub fn map(&mut self, by: RunContext<'_>) -> Result<Map, Error> {
         let laid = self.laid.take().map_or_else(|| lay(&self.web, by), Ok)?;
         Ok(laid.map)
     }
@@ -142,7 +143,7 @@ impl FlownWeb {
     ///
     /// # Errors
     /// If the web cannot be laid, or if it is stopped.
-    pub fn find(&mut self, by: Control<'_>) -> Result<Findings, Error> {
+    pub fn find(&mut self, by: RunContext<'_>) -> Result<Findings, Error> {
         let laid = self.laid.take();
         find_laid(&self.web, laid, by)
     }

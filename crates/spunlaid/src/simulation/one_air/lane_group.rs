@@ -9,7 +9,7 @@ use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa, WIDTH};
 use crate::simulation::observe::{NodeStates, StretchedBalance};
-use crate::web::{Brush, Sheet, Strands, Window, WindowOnSheet};
+use crate::web::{Depositor, Sheet, Strands, Window, WindowOnSheet};
 use std::sync::Arc;
 
 /// Neighbours across the web that are shared out to packs by their places in the slot.
@@ -84,7 +84,7 @@ impl Pack {
         steps: u64,
         field: Option<&Arc<EddyField>>,
         stretch: &BeltStretch,
-        on: Option<&Brush<'_>>,
+        on: Option<&Depositor<'_>>,
     ) -> Reach {
         field.iter().for_each(|field| self.flight.give_field(field));
         let mut left = steps;
@@ -159,14 +159,14 @@ impl Pack {
     /// Hands over what its filaments have done.
     ///
     /// * `balance` – to which it adds its own
-    pub(super) fn finish(self, flown: &mut BeamFindings, balance: &mut StretchedBalance) {
+    pub(super) fn finish(self, simulated: &mut BeamFindings, balance: &mut StretchedBalance) {
         balance.add(&self.balance);
         for filament in self.filaments {
             let Filament { number, kept, strands, lost, .. } = filament;
-            flown.layer.strands.extend(strands.into_parts());
+            simulated.layer.strands.extend(strands.into_parts());
             match lost {
-                Some(reason) => flown.lost.push((number, reason)),
-                None => flown.kept.extend(kept.map(|points| (number, points))),
+                Some(reason) => simulated.lost.push((number, reason)),
+                None => simulated.kept.extend(kept.map(|points| (number, points))),
             }
         }
     }
@@ -274,7 +274,7 @@ impl Filament {
         &mut self,
         points: Vec<LaidPoint>,
         stretch: &BeltStretch,
-        on: Option<&Brush<'_>>,
+        on: Option<&Depositor<'_>>,
         reach: &mut Reach,
     ) {
         for point in &points {

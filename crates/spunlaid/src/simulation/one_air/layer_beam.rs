@@ -1,21 +1,21 @@
-//! Webs whose filaments all fly in one air, and lay the sheet as they come down.
+//! Webs whose filaments all fly in shared turbulence, and lay the sheet as they come down.
 
-use super::sampled::{FewPlan, FlownSheet};
+use super::sampled::{FlownSheet, SubsamplePlan};
 use super::{Beam, BeamCharge, BeamFindings};
 use crate::fibre::{Case, LaidPoint};
 use crate::ground::error::Place;
 use crate::ground::place::Inlet;
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use crate::ground::{Dimension, Error, Estimate, Fault, Problem};
 use crate::simulation::{LaydownSource, LayerSpec, WebSpec};
 use crate::web::curtain::drawing::draw;
 use crate::web::curtain::lay_with;
 use crate::web::map::inlets;
-use crate::web::map::uniformity::unevenness;
+use crate::web::map::uniformity::patch_cv;
 use crate::web::surrogate::identify;
 use crate::web::{
-    Belt, Brush, Curves, Edges, FewFilamentsCv, FlownCurves, FlownFibres, LayerFew, Library, OneAir, Sheet,
-    Strand, Titres, Trace, TraceSettings, Window,
+    Belt, Curves, Depositor, Edges, FlownCurves, FlownFibres, Library, OneAir, Sheet, Strand, SubsampleCv,
+    SubsampleEstimate, Titres, Trace, TraceSettings, Window,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -42,7 +42,7 @@ const LONGEST_ELEMENT: f64 = 0.5;
 /// Width of filaments beside each other of which those beside them hardly know, in parts of the distance
 /// after which the air repeats itself at least, which is ten length scales.
 const APART: f64 = 0.5;
-/// Length of fed fibre after which gusts are forgotten, in lengths of the fibre that hangs between inlet and belt.
+/// Length of fed fibre after which eddies are forgotten, in lengths of the fibre that hangs between inlet and belt.
 const MEMORY: f64 = 2.0;
 
 /// A layer of a web that is filled in from few of its filaments.
@@ -55,7 +55,7 @@ pub(super) struct FilledLayer<'a> {
 
 /// The library of a flight, from which sheets around a belt are made.
 struct Pieces<'a> {
-    flown: &'a Library,
+    simulated: &'a Library,
     /// Width after which the sheet repeats itself [m].
     around: f64,
 }
@@ -66,7 +66,7 @@ pub(super) struct LayerBeam<'a> {
     case: Case,
     /// The sheet on which they are laid, and whether they are a few of all.
     pub(super) sheet: Sheet,
-    pub(super) few: Option<FewPlan>,
+    pub(super) few: Option<SubsamplePlan>,
     pub(super) places: Vec<Inlet>,
     /// Size of the slot in machine direction [m].
     depth: f64,
@@ -103,7 +103,7 @@ impl LayerBeam<'_> {
     /// The same filaments in elements as long as the eddies allow, in the longest steps that are stable, with rarer
     /// looks and half the start.
     pub(super) fn with_coarsest_mesh(mut self) -> Self {
-        self.few.iter_mut().for_each(FewPlan::filled_sparsely);
+        self.few.iter_mut().for_each(SubsamplePlan::filled_sparsely);
         let Some(line) = self.case.line else { return self };
         let longest = LONGEST_ELEMENT * self.case.smallest_length_scale();
         let coarse = |longer: f64| {
@@ -129,7 +129,7 @@ impl LayerBeam<'_> {
         self
     }
 
-    /// Mass of all filaments, the ones that are not flown too, over the area on which they are laid [kg/m²].
+    /// Mass of all filaments, the ones that are not simulated too, over the area on which they are laid [kg/m²].
     pub(super) fn basis_weight(&self) -> f64 {
         let beam = self.beam();
         let all = self.few.as_ref().map_or(1.0, |few| few.all / self.places.len() as f64);
@@ -137,21 +137,22 @@ impl LayerBeam<'_> {
     }
 
     /// What some of its filaments have laid, each for itself, and the surrogate of it.
-    pub(super) fn gather(&self, flown: BeamFindings, threads: usize) -> Result<FlownFibres, Error> {
+    pub(super) fn gather(&self, simulated: BeamFindings, threads: usize) -> Result<FlownFibres, Error> {
         let line = self
             .case
             .line
             .ok_or_else(|| Error::folder(self.path, Fault::plain("its fibre is not fed on to a belt")))?;
         // Where it swings and folds, more of it hangs there than the way is long.
-        let slack = flown.way.iter().map(|place| place.fibre).sum::<f64>() / flown.way.len().max(1) as f64;
+        let slack =
+            simulated.way.iter().map(|place| place.fibre).sum::<f64>() / simulated.way.len().max(1) as f64;
         let hanging = line.distance * slack.max(1.0);
-        let kept = flown.kept.into_iter().filter(|(filament, _)| self.beam().keeps(*filament));
+        let kept = simulated.kept.into_iter().filter(|(filament, _)| self.beam().keeps(*filament));
         let (filaments, laid): (Vec<usize>, Vec<Vec<LaidPoint>>) = kept.unzip();
         let (spacing, belt_ratio) = (self.case.fibre.rest_length(), line.belt_ratio());
         // As the measures of a run do, to the same bits.
         let skip = (line.feed_speed * self.case.run.spin_up() / spacing).round() as u64;
         let tracing = TraceSettings { spacing, belt_ratio, skip, reach: line.distance };
-        let traced = each(threads, laid.len(), |filament| {
+        let traced = par_map(threads, laid.len(), |filament| {
             let mut trace = Trace::new(tracing);
             laid[filament].iter().for_each(|point| trace.add(point.md, point.cd));
             let statistics = trace.finish();
@@ -170,7 +171,7 @@ impl LayerBeam<'_> {
         };
         let places = laid.into_iter().map(after_start).collect();
         let curves = Curves::new((spacing, belt_ratio), places, self.one_air(filaments, hanging))?;
-        let found = FlownFibres { curves, numbers, residual: None, way: flown.way };
+        let found = FlownFibres { curves, numbers, residual: None, way: simulated.way };
         let correlations: Vec<[&[f64]; 2]> =
             traced.iter().map(|(of, _)| [&*of.correlation_md, &*of.correlation_cd]).collect();
         let step = traced.first().map_or(f64::NAN, |(statistics, _)| statistics.lag_step);
@@ -178,41 +179,42 @@ impl LayerBeam<'_> {
         Ok(FlownFibres { residual, ..found })
     }
 
-    /// Draws all filaments of which these are a few: those between the flown ones on the sheet that these have
+    /// Draws all filaments of which these are a few: those between the simulated ones on the sheet that these have
     /// laid, and pieces of it on any other sheet. Returns their parts in the window.
     ///
-    /// * `back` – where the sheet that was flown begins on the belt [m]
+    /// * `back` – where the sheet that was simulated begins on the belt [m]
     /// * `few` – what these say, which takes the part of the variance that is not known from them, and on a sheet of
     ///   pieces what places and defects of its filaments do to its CV
     pub(super) fn fill_in(
         &self,
         layer: &FilledLayer<'_>,
         (curves, back): (&FlownCurves, f64),
-        few: &mut LayerFew,
-        brush: &Brush<'_>,
+        few: &mut SubsampleEstimate,
+        brush: &Depositor<'_>,
         by: (usize, &AtomicBool),
     ) -> Result<Vec<Strand>, Error> {
         let FilledLayer { spec, number, .. } = *layer;
-        let (sheet, window, flown) = (&spec.sheet, spec.window(), &self.sheet);
+        let (sheet, window, simulated) = (&spec.sheet, spec.window(), &self.sheet);
         let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);
-        if [sheet.width, sheet.length] == [flown.width, flown.length] {
+        if [sheet.width, sheet.length] == [simulated.width, simulated.length] {
             let all = curves.fill(places, by.0);
             few.missing = all.missing();
             return draw(&all, Belt { sheet, window, back }, brush, by);
         }
         let library = Library::new(curves, by.0)?;
         let around = match sheet.edges {
-            // A web that is narrower than the flown sheet is a strip of it.
-            Edges::Periodic => sheet.width.max(flown.width),
+            // A web that is narrower than the simulated sheet is a strip of it.
+            Edges::Periodic => sheet.width.max(simulated.width),
             // Filaments at the two edges know nothing of each other.
-            Edges::Cut => sheet.width + flown.width,
+            Edges::Cut => sheet.width + simulated.width,
         };
         few.missing = library.missing();
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
         let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
         if filaments.are_at_random() || !defects.is_empty() {
-            few.by_places = self.changes_by_places(layer, &Pieces { flown: &library, around }, few, by)?;
+            few.by_places =
+                self.changes_by_places(layer, &Pieces { simulated: &library, around }, few, by)?;
         }
         Ok(kept)
     }
@@ -223,7 +225,7 @@ impl LayerBeam<'_> {
         &self,
         layer: &FilledLayer<'_>,
         pieces: &Pieces<'_>,
-        few: &LayerFew,
+        few: &SubsampleEstimate,
         by: (usize, &AtomicBool),
     ) -> Result<Vec<f64>, Error> {
         let FilledLayer { spec, number, .. } = *layer;
@@ -236,12 +238,12 @@ impl LayerBeam<'_> {
         let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
         let squares = |places: Vec<Inlet>, titres: Titres| {
             let tiles =
-                pieces.flown.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
+                pieces.simulated.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
             let belt = Belt::within(&tiles, &sheet, window)?;
             let (laid, _) = lay_with(&tiles, belt, self.beam().element_mass(), titres, by)?;
             let map = laid.map.between(layer.inner.clone());
-            let square = |few: &FewFilamentsCv| {
-                unevenness(&map, (few.patch / sheet.cell).round() as usize).map(|found| found.cv * found.cv)
+            let square = |few: &SubsampleCv| {
+                patch_cv(&map, (few.patch / sheet.cell).round() as usize).map(|found| found.cv * found.cv)
             };
             Ok::<Vec<Option<f64>>, Error>(few.cvs.iter().map(square).collect())
         };
@@ -252,8 +254,8 @@ impl LayerBeam<'_> {
         let without = squares(without, Titres::default())?;
         let with = squares(places, spec.titres(number))?;
         // What places do on average gives way to what these do.
-        let expected = |cv: &FewFilamentsCv| if filaments.are_at_random() { cv.own } else { 0.0 };
-        let more = |((cv, with), without): ((&FewFilamentsCv, Option<f64>), Option<f64>)| {
+        let expected = |cv: &SubsampleCv| if filaments.are_at_random() { cv.own } else { 0.0 };
+        let more = |((cv, with), without): ((&SubsampleCv, Option<f64>), Option<f64>)| {
             with.zip(without).map_or(0.0, |(with, without)| with - without - expected(cv))
         };
         Ok(few.cvs.iter().zip(with).zip(without).map(more).collect())
@@ -274,13 +276,13 @@ impl LayerBeam<'_> {
 
 impl WebSpec {
     /// Largest lateral wave number of the air that all filaments of a layer share, times its length scale;
-    /// None of filaments in airs of their own.
+    /// None of filaments in independent turbulence.
     pub fn lateral_cutoff(&self, layer: usize) -> Option<f64> {
         let case = self.layers.get(layer)?.source.case()?;
         case.air.lateral.in_one_air().cutoff()
     }
 
-    /// The problem of a web in one air whose field of eddies does not fit into the memory that it may take.
+    /// The problem of a web in shared turbulence whose field of eddies does not fit into the memory that it may take.
     pub(crate) fn air_beyond_memory(&self) -> Option<Problem> {
         let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
@@ -319,7 +321,7 @@ impl WebSpec {
 
 /// The filaments of a layer at their places. Air that a case leaves the same across the flow becomes a field
 /// in space. The seed of the web and the number of the layer are in the key of the air, so that layers and
-/// webs have airs of their own.
+/// webs have independent turbulence.
 ///
 /// * `sheet` – that a few of them lay; None for the one whose clouds tell the CV
 pub(super) fn beam_on<'a>(
@@ -354,12 +356,12 @@ pub(super) fn key(case: u64, web: u64, layer: u64) -> u64 {
         .fold(0, |sum: u64, part| SplitMix64::seed_from_u64(sum.wrapping_add(part)).next_u64())
 }
 
-/// The flight of a layer of a web in one air.
+/// The flight of a layer of a web in shared turbulence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlannedFlight {
-    /// Number of filaments that are flown.
+    /// Number of filaments that are simulated.
     pub filaments: u64,
-    /// Whether they stand for others that are not flown.
+    /// Whether they stand for others that are not simulated.
     pub is_few: bool,
     /// Steps of all of them, about.
     pub steps: u64,
@@ -374,7 +376,7 @@ pub struct PlannedFlight {
 }
 
 impl WebSpec {
-    /// What a web in one air will fly, layer by layer; nothing of any other web, and of layers that name no case.
+    /// What a web in shared turbulence will fly, layer by layer; nothing of any other web, and of layers that name no case.
     pub fn planned_flights(&self) -> Vec<PlannedFlight> {
         let layers =
             (0..self.layers.len()).filter_map(|number| Some((number, beam_on(self, number, None).ok()?)));

@@ -1,4 +1,4 @@
-//! All filaments of a layer in one air: a beam, flown together and laid on a sheet as they come down.
+//! All filaments of a layer in one air: a beam, simulated together and laid on a sheet as they come down.
 //!
 //! ```text
 //! places → packs of eight neighbours → flights, which advance together by a block of time
@@ -33,8 +33,8 @@ mod two_levels;
 use crate::fibre::{Case, LaidPoint, WayPlace};
 use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Control, Error};
-use crate::web::{Brush, Canvas, LaidWeb, LayerFlown, Sheet, Titres, Window};
+use crate::ground::{Error, RunContext};
+use crate::web::{DepositionGrid, Depositor, LaidWeb, LayerFlown, Sheet, Titres, Window};
 pub use charge::BeamCharge;
 pub(crate) use comparison::{FewOfWeb, fits_memory, steps_in_same_air};
 pub use flyer::{Flights, Flyer};
@@ -116,13 +116,13 @@ impl Beam<'_> {
         &self,
         sheet: &Sheet,
         window: Window,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<(LaidWeb, BeamFindings), Error> {
         let element = self.element_mass();
-        let canvas = Canvas::new(sheet, &[element], self.basis_weight(sheet))?;
-        let brush = Brush::new(&canvas, element, Titres::default());
-        let flown = self.fly((sheet, window), Some(&brush), by)?;
-        Ok((LaidWeb { flown: vec![flown.layer.clone()], ..canvas.finish()? }, flown))
+        let canvas = DepositionGrid::new(sheet, &[element], self.basis_weight(sheet))?;
+        let brush = Depositor::new(&canvas, element, Titres::default());
+        let simulated = self.fly((sheet, window), Some(&brush), by)?;
+        Ok((LaidWeb { simulated: vec![simulated.layer.clone()], ..canvas.finish()? }, simulated))
     }
 
     /// Mass of an element of a filament [kg].
@@ -148,17 +148,17 @@ impl Beam<'_> {
     /// * `on` – what draws an element of fibre; None to keep the curves of all filaments in place of it
     ///
     /// # Errors
-    /// If the case cannot be flown or its fibre is not laid on a moving belt, if more than 2 % of the
+    /// If the case cannot be simulated or its fibre is not laid on a moving belt, if more than 2 % of the
     /// filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
         (sheet, window): (&Sheet, Window),
-        on: Option<&Brush<'_>>,
-        by: Control<'_>,
+        on: Option<&Depositor<'_>>,
+        by: RunContext<'_>,
     ) -> Result<BeamFindings, Error> {
         let sink = Sink { window, on, neighbours: Some(Neighbours::new(self, sheet)) };
-        let flown = SharedAir::of_one(self, sheet, f64::INFINITY).fly(vec![sink], by)?;
-        flown.into_iter().next().ok_or_else(Error::no_fibre)?
+        let simulated = SharedAir::of_one(self, sheet, f64::INFINITY).fly(vec![sink], by)?;
+        simulated.into_iter().next().ok_or_else(Error::no_fibre)?
     }
 
     /// Whether the curve of a filament is kept.

@@ -1,4 +1,4 @@
-//! A layer that was flown coarsely, beside which changed ones fly in the same turbulence, one after another.
+//! A layer that was simulated coarsely, beside which changed ones fly in the same turbulence, one after another.
 //!
 //! ```text
 //! layer → a room with some space to spare → its flight, block by block → looks at the sheet so far
@@ -15,23 +15,23 @@ use super::{Beam, BeamFindings};
 use crate::air::{Extent, Room};
 use crate::fibre::LaidPoint;
 use crate::ground::sort::sort_by_key;
-use crate::ground::{Control, Error, Fault};
+use crate::ground::{Error, Fault, RunContext};
 use crate::simulation::WebSpec;
 use crate::web::map::blocks_on;
-use crate::web::{Arrangement, FewDoubt, LayerFew, Sheet, Window};
+use crate::web::{Arrangement, Sheet, SubsampleEstimate, SubsampleWarning, Window};
 use std::ops::{ControlFlow, Range};
 
 /// Size of the room, in what the layer needs: changed layers need up to so much more.
 const SPARE: f64 = 1.25;
 /// Distance of the filaments, in the usual one: what a larger pitch does to one web it does to the other.
 pub(crate) const PITCHES: f64 = 2.0;
-/// How much farther the layer is flown than its sheet is long, in ways from inlet to belt: another one may begin to lay
+/// How much farther the layer is simulated than its sheet is long, in ways from inlet to belt: another one may begin to lay
 /// later.
 const FARTHER: f64 = 0.25;
 /// Longest sheet that a changed layer lays, over that of the pinned one: its air may pass more slowly.
 const MOST: f64 = 20.0;
 
-/// What the flown filaments of a layer have laid in a short time.
+/// What the simulated filaments of a layer have laid in a short time.
 #[derive(Clone, Debug, Default)]
 pub struct LaidStretch {
     /// Number of the layer, from 0.
@@ -56,14 +56,14 @@ pub(crate) struct LookOfLayer {
     /// Number of the look.
     pub(crate) number: usize,
     /// What the pinned layer has laid meanwhile; None of itself.
-    pub(crate) pinned: Option<LayerFew>,
-    pub(crate) few: LayerFew,
+    pub(crate) pinned: Option<SubsampleEstimate>,
+    pub(crate) few: SubsampleEstimate,
 }
 
 /// Makes the look of a number from what has been laid during a time.
 type Look<'l> = &'l mut dyn FnMut(usize, &BeamFindings, Range<f64>) -> Result<LookOfLayer, Error>;
 
-/// A layer that was flown coarsely.
+/// A layer that was simulated coarsely.
 #[derive(Debug)]
 pub(crate) struct PinnedLayer {
     number: usize,
@@ -96,22 +96,23 @@ impl PinnedLayer {
     /// * `areas` – at which it is looked at [m²], in order
     ///
     /// # Errors
-    /// If it cannot be flown, if all of its filaments have to be flown, or if it is stopped.
+    /// If it cannot be simulated, if all of its filaments have to be simulated, or if it is stopped.
     pub(crate) fn fly(
         spec: &WebSpec,
         number: usize,
         areas: &[f64],
         see: &mut dyn FnMut(SeenOfLayer),
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<Self, Error> {
         let mut suffices = true;
-        let mut is_enough = |few: &LayerFew| {
-            suffices = !matches!(few.doubt(), Some(FewDoubt::Own(_) | FewDoubt::Neighbours(_)));
+        let mut is_enough = |few: &SubsampleEstimate| {
+            suffices =
+                !matches!(few.doubt(), Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)));
             suffices
         };
         match Self::fly_at(PITCHES, spec, number, areas, &mut is_enough, see, by) {
             Err(_) if !suffices => Self::fly_at(1.0, spec, number, areas, &mut |_| true, see, by),
-            flown => flown,
+            simulated => simulated,
         }
     }
 
@@ -122,9 +123,9 @@ impl PinnedLayer {
         spec: &WebSpec,
         number: usize,
         areas: &[f64],
-        is_enough: &mut dyn FnMut(&LayerFew) -> bool,
+        is_enough: &mut dyn FnMut(&SubsampleEstimate) -> bool,
         see: &mut dyn FnMut(SeenOfLayer),
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<Self, Error> {
         let area = areas.last().copied().unwrap_or_default();
         let on = spec.flown_sheet(number, Some(Compared { area, pitches }));
@@ -170,7 +171,7 @@ impl PinnedLayer {
         changed: &WebSpec,
         areas: &[f64],
         see: &mut dyn FnMut(SeenOfLayer),
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<bool, Error> {
         let (pinned, other) = (coarse(own, self.number, &self.on)?, coarse(changed, self.number, &self.on)?);
         let (own_beam, beam) = (pinned.beam(), other.beam());
@@ -223,7 +224,7 @@ impl Watched<'_> {
         areas: &[f64],
         see: &mut dyn FnMut(SeenOfLayer),
         look: Look<'_>,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<BeamFindings, Error> {
         let (mut next, mut shown) = (0, vec![0; self.of_beam.places.len()]);
         let mut watch = |flying: &[Result<Flying<'_>, Error>]| {
@@ -246,8 +247,8 @@ impl Watched<'_> {
         };
         let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
         let sink = Sink { window, on: None, neighbours: None };
-        let flown = air.fly_watched(vec![sink], &mut watch, by)?;
-        let laid = flown.into_iter().next().ok_or_else(Error::no_fibre)??;
+        let simulated = air.fly_watched(vec![sink], &mut watch, by)?;
+        let laid = simulated.into_iter().next().ok_or_else(Error::no_fibre)??;
         match next {
             0 => Err(Fault::plain("what has been laid while the same air passed is too short").into()),
             _ => Ok(BeamFindings { pace: self.pace, ..laid }),
@@ -281,15 +282,15 @@ fn curves(flying: &Flying<'_>) -> Vec<(usize, Vec<LaidPoint>)> {
     curves
 }
 
-/// The filaments of a layer that are flown, in a coarse mesh.
+/// The filaments of a layer that are simulated, in a coarse mesh.
 ///
 /// # Errors
-/// If all of them have to be flown.
+/// If all of them have to be simulated.
 fn coarse<'a>(spec: &'a WebSpec, number: usize, on: &FlownSheet) -> Result<LayerBeam<'a>, Error> {
     let of_beam = beam_on(spec, number, Some(on))?;
     match of_beam.few {
         Some(_) => Ok(of_beam.with_coarser_mesh()),
-        None => Err(Fault::plain("its filaments are so few that all of them are flown").into()),
+        None => Err(Fault::plain("its filaments are so few that all of them are simulated").into()),
     }
 }
 
@@ -304,14 +305,14 @@ fn look_at(
     during: &Range<f64>,
     on: &FlownSheet,
     is_filled: bool,
-    by: Control<'_>,
-) -> Result<LayerFew, Error> {
+    by: RunContext<'_>,
+) -> Result<SubsampleEstimate, Error> {
     let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
-    let (sheet, flown) = laid.sheet(&with_larger_cells(&on.sheet), during)?;
+    let (sheet, simulated) = laid.sheet(&with_larger_cells(&on.sheet), during)?;
     let beam = of_beam.beam();
     let is_filled = is_filled || few.arrangement == Arrangement::Rows;
-    let curves = is_filled.then(|| few.curves(&sheet, &beam, &flown)).transpose()?;
-    few.tell((&sheet, blocks_on(&on.sheet)), (&beam, &flown), curves.as_ref(), (by.threads, by.stop))
+    let curves = is_filled.then(|| few.curves(&sheet, &beam, &simulated)).transpose()?;
+    few.tell((&sheet, blocks_on(&on.sheet)), (&beam, &simulated), curves.as_ref(), (by.threads, by.stop))
 }
 
 /// A room that is larger than the air of a beam needs.

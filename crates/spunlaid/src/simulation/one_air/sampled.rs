@@ -1,4 +1,4 @@
-//! Which few filaments of a layer are flown for all of them, and on which sheet.
+//! Which few filaments of a layer are simulated for all of them, and on which sheet.
 
 use super::{Beam, BeamFindings};
 use crate::fibre::LaidPoint;
@@ -8,14 +8,14 @@ use crate::simulation::{Flown, WantedError, WebSpec};
 use crate::web::curtain::lay;
 use crate::web::map::{Filaments, inlets, small_patch};
 use crate::web::{
-    Arrangement, Belt, Covariances, Edges, FEWEST_OF_FEW, FewFilaments, FilledMaps, Filling, FlownCurves,
-    LEAST_SAVING, LayerFew, Row, Sheet, Window,
+    Arrangement, Belt, Covariances, Edges, FEWEST_OF_FEW, FilledMaps, Filling, FlownCurves, LEAST_SAVING,
+    Row, Sheet, Subsample, SubsampleEstimate, Window,
 };
 use std::sync::atomic::AtomicBool;
 
-/// Distance of the filaments that are flown, in smallest length scales of the air on the way.
+/// Distance of the filaments that are simulated, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
-/// Area whose clouds give the CV over patches of 10 mm within some 4 % [m²], and the one that is flown where coarse
+/// Area whose clouds give the CV over patches of 10 mm within some 4 % [m²], and the one that is simulated where coarse
 /// flights add the rest.
 const AREA: f64 = 0.2;
 pub(super) const FINE: f64 = 0.1;
@@ -24,16 +24,16 @@ pub(super) const FINE: f64 = 0.1;
 const PAIRS: usize = 64;
 const PAIRS_OF_COMPARED: usize = 12;
 const PAIRS_OF_COARSE: usize = 4;
-/// Width of the sheet that is flown, in ways from inlet to belt at least: eight spreads of a usual filament.
+/// Width of the sheet that is simulated, in ways from inlet to belt at least: eight spreads of a usual filament.
 const WIDTH: f64 = 0.4;
-/// Filaments that are filled in for each flown one on a coarse sheet.
+/// Filaments that are filled in for each simulated one on a coarse sheet.
 const SPARSELY: usize = 4;
-/// Filaments that are filled in for each flown one where a row is looked at over small patches.
+/// Filaments that are filled in for each simulated one where a row is looked at over small patches.
 const FINER: usize = 8;
-/// A sheet whose area is larger by no more than this is flown as it is.
+/// A sheet whose area is larger by no more than this is simulated as it is.
 const NEARLY: f64 = 1.3;
 
-/// How much of webs is flown where they are compared in the same air.
+/// How much of webs is simulated where they are compared in the same air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
     /// Area of the sheets [m²].
@@ -75,12 +75,12 @@ impl FlownSheet {
 
 /// For which filaments a few stand.
 #[derive(Clone, Debug)]
-pub(super) struct FewPlan {
+pub(super) struct SubsamplePlan {
     /// The filaments of each row, by their numbers across the web.
     pub(super) rows: Vec<Vec<usize>>,
     /// How all filaments hang.
     pub(super) arrangement: Arrangement,
-    /// Number of all filaments over the width of the sheet that is flown.
+    /// Number of all filaments over the width of the sheet that is simulated.
     pub(super) all: f64,
     /// Where all filaments of a slot hang.
     slot: Vec<Inlet>,
@@ -89,14 +89,14 @@ pub(super) struct FewPlan {
 }
 
 impl WebSpec {
-    /// Where the few filaments of a layer are fed that are flown for all, in order across the web, and those for
-    /// which they stand; None if all are flown.
+    /// Where the few filaments of a layer are fed that are simulated for all, in order across the web, and those for
+    /// which they stand; None if all are simulated.
     ///
     /// * `on` – the sheet that they lay
-    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<(Vec<Inlet>, FewPlan)> {
+    pub(super) fn few(&self, layer: usize, on: &FlownSheet) -> Option<(Vec<Inlet>, SubsamplePlan)> {
         let spec = self.layers.get(layer)?;
         let case = spec.source.case()?;
-        let pitch = match self.flown {
+        let pitch = match self.simulated {
             Flown::All => return None,
             Flown::PerMetre(number) => 1.0 / number as f64,
             Flown::Auto => PITCH * case.smallest_length_scale(),
@@ -139,7 +139,7 @@ impl WebSpec {
             }
             Filaments::Rows(_) | Filaments::AtRandom { .. } => Vec::new(),
         };
-        Some((places, FewPlan { rows, arrangement, all, slot, pairs: on.pairs }))
+        Some((places, SubsamplePlan { rows, arrangement, all, slot, pairs: on.pairs }))
     }
 
     /// Whether a few filaments of each layer lay the whole sheet of the web, as all of them would, in the same air.
@@ -150,10 +150,10 @@ impl WebSpec {
     }
 
     /// The sheet that the filaments of a case lay: that of the web unless a smaller one says as much. Long
-    /// and narrow ones take the least time, because filaments are flown for a while before they lay the
+    /// and narrow ones take the least time, because filaments are simulated for a while before they lay the
     /// sheet. None of a layer that flies no case.
     ///
-    /// * `compared` – how much of it is flown where the web is compared with others
+    /// * `compared` – how much of it is simulated where the web is compared with others
     pub(super) fn flown_sheet(&self, layer: usize, compared: Option<Compared>) -> Option<FlownSheet> {
         let area = if self.error == WantedError::OfOneSheet { AREA } else { FINE };
         let Compared { area, pitches } = compared.unwrap_or(Compared { area, pitches: 1.0 });
@@ -176,11 +176,11 @@ impl WebSpec {
     }
 }
 
-impl FewPlan {
+impl SubsamplePlan {
     /// With fewer filaments that are filled in: what that does to a coarse sheet it does to the one of the pair.
     pub(super) fn filled_sparsely(&mut self) {
-        let flown: usize = self.rows.iter().map(Vec::len).sum();
-        let step = (self.slot.len() / (SPARSELY * flown).max(1)).max(1);
+        let simulated: usize = self.rows.iter().map(Vec::len).sum();
+        let step = (self.slot.len() / (SPARSELY * simulated).max(1)).max(1);
         self.slot = self.slot.iter().copied().step_by(step).collect();
     }
 
@@ -192,17 +192,17 @@ impl FewPlan {
         &self,
         sheet: &Sheet,
         beam: &Beam<'_>,
-        flown: &BeamFindings,
+        simulated: &BeamFindings,
     ) -> Result<FlownCurves, Error> {
         let (case, belt_ratio) = (beam.case, beam.case.line.map_or(f64::NAN, |line| line.belt_ratio()));
-        let places = flown.kept.iter().map(|(filament, _)| beam.places[*filament]).collect();
+        let places = simulated.kept.iter().map(|(filament, _)| beam.places[*filament]).collect();
         let spacing = case.fibre.rest_length();
         let start = case.line.map_or(0.0, |line| line.feed_speed * case.run.spin_up());
         let curve = |(_, points): &(usize, Vec<LaidPoint>)| {
             let laid = points.iter().filter(|point| point.fed >= start).enumerate();
             laid.map(|(i, point)| [point.md + belt_ratio * spacing * i as f64, point.cd]).collect()
         };
-        let curves: Vec<Vec<[f64; 2]>> = flown.kept.iter().map(curve).collect();
+        let curves: Vec<Vec<[f64; 2]>> = simulated.kept.iter().map(curve).collect();
         Ok(FlownCurves::new(places, Some(sheet.width), (spacing, belt_ratio), &curves)?)
     }
 
@@ -216,30 +216,30 @@ impl FewPlan {
     pub(super) fn tell(
         &self,
         (sheet, blocks): (&Sheet, [usize; 2]),
-        (beam, flown): (&Beam<'_>, &BeamFindings),
+        (beam, simulated): (&Beam<'_>, &BeamFindings),
         curves: Option<&FlownCurves>,
         by: (usize, &AtomicBool),
-    ) -> Result<LayerFew, Error> {
-        let filaments = self.filaments((sheet, blocks), beam, flown);
+    ) -> Result<SubsampleEstimate, Error> {
+        let filaments = self.filaments((sheet, blocks), beam, simulated);
         let usual_pitch = PITCH * beam.case.smallest_length_scale();
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
-        let with_pitches = |told: LayerFew| LayerFew { usual_pitch, pitch_of_all, ..told };
+        let with_pitches = |told: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..told };
         let Some(curves) = curves else {
             let told = filaments.tell(None, by.0)?;
-            return Ok(with_pitches(LayerFew { correlation: f64::NAN, ..told }));
+            return Ok(with_pitches(SubsampleEstimate { correlation: f64::NAN, ..told }));
         };
         let covariances = Covariances::fit(curves, by.0);
         let filled =
-            self.filled((sheet, flown.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
+            self.filled((sheet, simulated.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
         let told = filaments.tell(Some(&filled), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
-        Ok(with_pitches(LayerFew { correlation: correlation[0].min(correlation[1]), ..told }))
+        Ok(with_pitches(SubsampleEstimate { correlation: correlation[0].min(correlation[1]), ..told }))
     }
 
-    /// Maps in which the filaments between the flown ones have been filled in.
+    /// Maps in which the filaments between the simulated ones have been filled in.
     ///
     /// * `back` – where the sheet begins on the belt [m]
-    /// * `pitch` – of the flown ones in a row [m]
+    /// * `pitch` – of the simulated ones in a row [m]
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
@@ -272,7 +272,7 @@ impl FewPlan {
         Ok(FilledMaps { of_all, of_every_second, patches })
     }
 
-    /// Rows that have up to [`FINER`] times as many filaments as were flown.
+    /// Rows that have up to [`FINER`] times as many filaments as were simulated.
     fn finer_rows(&self, most: usize, sheet: &Sheet, beam: &Beam<'_>) -> Vec<Inlet> {
         let row = |row: &Vec<usize>| {
             let y = row.first().map_or(0.0, |first| beam.places[*first].y);
@@ -288,17 +288,22 @@ impl FewPlan {
         &self,
         (sheet, blocks): (&'a Sheet, [usize; 2]),
         beam: &Beam<'_>,
-        flown: &BeamFindings,
-    ) -> FewFilaments<'a> {
+        simulated: &BeamFindings,
+    ) -> Subsample<'a> {
         let curve = |number: &usize| {
-            let (_, points) = flown.kept.iter().find(|(filament, _)| filament == number)?;
+            let (_, points) = simulated.kept.iter().find(|(filament, _)| filament == number)?;
             let place = beam.places[*number];
-            Some(points.iter().map(|point| [place.z + point.cd, place.y + point.md - flown.back]).collect())
+            Some(
+                points
+                    .iter()
+                    .map(|point| [place.z + point.cd, place.y + point.md - simulated.back])
+                    .collect(),
+            )
         };
         let rows = self.rows.iter().map(|row| row.iter().map(curve).collect()).collect();
         let Self { arrangement, all, pairs, .. } = *self;
         let (piece, longest) = (beam.element_mass(), beam.longest_piece());
-        FewFilaments { sheet, blocks, rows, piece, longest, arrangement, all, pairs }
+        Subsample { sheet, blocks, rows, piece, longest, arrangement, all, pairs }
     }
 }
 

@@ -10,8 +10,8 @@ use super::flying::{Flying, Sink};
 use super::lane_group::Reach;
 use super::{BLOCK, Beam, BeamFindings};
 use crate::air::{Air, EddyField, Extent, Flow, Hint, Room, StreamKey};
-use crate::ground::threads::{each, lock, try_each};
-use crate::ground::{Control, Error, Vec3};
+use crate::ground::threads::{lock, par_map, try_par_map};
+use crate::ground::{Error, RunContext, Vec3};
 use crate::web::{Edges, Sheet, TimeSpent, Window};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -57,7 +57,7 @@ impl BeamAir {
 /// Looks at beams after each block, and says whether they fly on.
 pub(super) type Watch<'w> = &'w mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> Result<ControlFlow<()>, Error>;
 
-/// Flies beams on a sheet, or on the belt that passes for them in the same time. All are flown for as long as
+/// Flies beams on a sheet, or on the belt that passes for them in the same time. All are simulated for as long as
 /// the first ones take; a beam may lay a little less than the sheet.
 ///
 /// * `memory` – that the airs which pass side by side take at most, unless a single one takes more [B]
@@ -67,7 +67,7 @@ pub(super) type Watch<'w> = &'w mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> R
 pub(super) fn fly_abreast(
     beams: &[Beam<'_>],
     (sheet, memory): (&Sheet, f64),
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
@@ -84,7 +84,7 @@ fn flies(of_beam: &Result<Flying<'_>, Error>) -> bool {
 fn make(groups: &mut [Group], threads: usize) {
     let of_each = threads.div_ceil(groups.len());
     let groups: Vec<_> = groups.iter_mut().map(Mutex::new).collect();
-    each(threads, groups.len(), |group| {
+    par_map(threads, groups.len(), |group| {
         let mut group = lock(&groups[group]);
         let from = group.time;
         group.time += group.block;
@@ -159,7 +159,7 @@ impl<'a> SharedAir<'a> {
     pub(super) fn fly(
         &self,
         sinks: Vec<Sink<'_>>,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
         self.fly_watched(sinks, &mut |_| Ok(ControlFlow::Continue(())), by)
     }
@@ -169,7 +169,7 @@ impl<'a> SharedAir<'a> {
         &self,
         sinks: Vec<Sink<'_>>,
         watch: Watch<'_>,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
         let (started, mut spent) = (Instant::now(), TimeSpent::default());
         let beside = self.beams.iter().zip(sinks);
@@ -271,7 +271,7 @@ impl SharedAir<'_> {
         &self,
         groups: &[Group],
         flying: &mut [Result<Flying<'_>, Error>],
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<(), Error> {
         let members = groups.iter().flat_map(|group| {
             group.members.iter().zip(&group.steps).map(move |(beam, step)| (group, *beam, *step))
@@ -289,7 +289,7 @@ impl SharedAir<'_> {
             advancing.push((beam, field, steps));
         }
         // A beam that cannot fly does not end the others.
-        let reaches = try_each(by.threads, packs.len(), |i| {
+        let reaches = try_par_map(by.threads, packs.len(), |i| {
             let (number, of_beam, pack) = packs[i];
             let (_, field, steps) = &advancing[number];
             match of_beam.advance(pack, *steps, field.as_ref(), by) {
@@ -401,7 +401,7 @@ mod tests {
         let (lost, good, sheet) = (line(0.0), line(2e9), Sheet::new(24e-3, 32e-3, 1e-3));
         let places: Vec<Inlet> = (0..4).map(|i| Inlet { y: 0.0, z: 6e-3 * f64::from(i) }).collect();
         let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
-        let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
+        let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
         let beams = [Beam::new(&lost, &places), Beam::new(&good, &places)];
         // One after the other: there is no memory for two airs.
         let found = fly_abreast(&beams, (&sheet, -1.0), by).unwrap();

@@ -1,7 +1,7 @@
 //! Coarse flights in other airs, until the CV of a layer is known to the error that is wanted.
 //!
 //! ```text
-//! fine sheet → the same sheet and air, flown coarsely → a pair
+//! fine sheet → the same sheet and air, simulated coarsely → a pair
 //!            → coarse sheets in other airs → CV of all and its error → more sheets until it is small enough
 //! ```
 
@@ -12,40 +12,40 @@ use super::flying::Sink;
 use super::layer_beam::{LayerBeam, beam_on, key};
 use super::sampled::{FINE, FlownSheet};
 use super::shared_air::{LARGER_WAVES, SharedAir};
-use crate::ground::threads::try_each;
-use crate::ground::{Control, Error, Isa};
+use crate::ground::threads::try_par_map;
+use crate::ground::{Error, Isa, RunContext};
 use crate::simulation::layers::USUAL_ERROR;
 use crate::simulation::{WantedError, WebSpec};
 use crate::web::map::blocks_on;
 use crate::web::map::levels::{Levels, Pair};
-use crate::web::{LayerFew, Sheet, Window};
+use crate::web::{Sheet, SubsampleEstimate, Window};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
 /// Area of a coarse sheet [m²]: long enough that the start of its filaments takes little of the time.
 const AREA: f64 = 0.2;
-/// Largest area that is flown for an error [m²].
+/// Largest area that is simulated for an error [m²].
 const MOST_AREA: f64 = 30.0;
 /// How much farther the coarse filaments of a pair lay, in ways from inlet to belt, so that the fine sheet lies within.
 const FARTHER: f64 = 0.15;
 /// Most coarse sheets that fly before their error is looked at.
 const MOST_AT_FIRST: u64 = 8;
-/// Part of the wanted variance that may come from the pairs before another pair is flown.
+/// Part of the wanted variance that may come from the pairs before another pair is simulated.
 const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
-/// What is expected before anything is flown: relative variance of a CV that an area of 1 m² leaves open, and the part
+/// What is expected before anything is simulated: relative variance of a CV that an area of 1 m² leaves open, and the part
 /// of it that coarse filaments do not give.
 const EXPECTED: f64 = 6e-4;
 const NOT_TOLD: f64 = 0.08;
 
-/// A sheet that was flown finely.
+/// A sheet that was simulated finely.
 pub(super) struct FineSheet<'a> {
     /// The sheet as it was asked for.
     pub(super) on: &'a FlownSheet,
     pub(super) layer: &'a LayerBeam<'a>,
-    pub(super) flown: &'a BeamFindings,
-    pub(super) few: LayerFew,
+    pub(super) simulated: &'a BeamFindings,
+    pub(super) few: SubsampleEstimate,
 }
 
 impl WebSpec {
@@ -110,13 +110,13 @@ impl Flyer<'_> {
         spec: &WebSpec,
         number: usize,
         first: FineSheet<'_>,
-    ) -> Result<LayerFew, Error> {
+    ) -> Result<SubsampleEstimate, Error> {
         let begun = Instant::now();
         let Some(wanted) = spec.wanted_error(number) else { return Ok(first.few) };
         let on = first.on;
         let of_pairs = on.with_area(first.few.fine_area.max(FINE));
         // If nothing can be combined, the fine sheet stands alone, and its error may be larger than the wanted one.
-        let alone = LayerFew { wanted: Some(wanted), ..first.few.clone() };
+        let alone = SubsampleEstimate { wanted: Some(wanted), ..first.few.clone() };
         let Some(pair) = self.pair(spec, number, first)? else { return Ok(alone) };
         let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
         // Numbers of the airs in which coarse sheets and pairs fly.
@@ -133,7 +133,7 @@ impl Flyer<'_> {
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             if variances.whole() <= limit || area >= MOST_AREA || is_late {
                 let combined = levels.combine().unwrap_or(alone);
-                return Ok(LayerFew { wanted: Some(wanted), ..combined });
+                return Ok(SubsampleEstimate { wanted: Some(wanted), ..combined });
             }
             let mut by_pairs = variances.by_pairs;
             if by_pairs > BY_PAIRS * limit {
@@ -141,7 +141,7 @@ impl Flyer<'_> {
                 pairs += 1;
                 let pair = self.fine_sheet(&other, number, &of_pairs)?;
                 levels.pairs.extend(pair);
-                // The sheets that it spares are not flown.
+                // The sheets that it spares are not simulated.
                 by_pairs *= (pairs - 1) as f64 / pairs as f64;
             }
             let left = (limit - by_pairs).max(0.5 * BY_PAIRS * limit);
@@ -158,16 +158,16 @@ impl Flyer<'_> {
     /// Flies another sheet both ways.
     fn fine_sheet(&self, spec: &WebSpec, number: usize, on: &FlownSheet) -> Result<Option<Pair>, Error> {
         let layer = beam_on(spec, number, Some(on))?;
-        let flown = self.fly_layer(&layer, spec, None)?;
-        let Some(few) = look_at(&layer, &layer.sheet, &flown, (self.threads, self.stop))? else {
+        let simulated = self.fly_layer(&layer, spec, None)?;
+        let Some(few) = look_at(&layer, &layer.sheet, &simulated, (self.threads, self.stop))? else {
             return Ok(None);
         };
-        self.pair(spec, number, FineSheet { on, layer: &layer, flown: &flown, few })
+        self.pair(spec, number, FineSheet { on, layer: &layer, simulated: &simulated, few })
     }
 
     /// Flies a fine sheet coarsely too; None if the coarse filaments have not laid all of it.
     fn pair(&self, spec: &WebSpec, number: usize, first: FineSheet<'_>) -> Result<Option<Pair>, Error> {
-        let FineSheet { on, layer, flown, few } = first;
+        let FineSheet { on, layer, simulated, few } = first;
         let Some(line) = layer.beam().case.line else { return Ok(None) };
         let coarse = beam_on(spec, number, Some(&on.coarse()))?.with_coarsest_mesh();
         // It begins to lay earlier, because its start is shorter.
@@ -176,15 +176,16 @@ impl Flyer<'_> {
         let coarse = [coarse.longer_by(longer)];
         let (threads, stop) = (self.threads, self.stop);
         let laid = self.watched(&coarse, |done| {
-            coarsely(&coarse[0], Control { threads, isa: Isa::detect(), stop, done })
+            coarsely(&coarse[0], RunContext { threads, isa: Isa::detect(), stop, done })
         })?;
         let beam = coarse[0].beam();
-        let [from, to] = [flown.back + layer.sheet.length, flown.back].map(|place| -place / line.belt_speed);
+        let [from, to] =
+            [simulated.back + layer.sheet.length, simulated.back].map(|place| -place / line.belt_speed);
         let within = Laid::new([&beam, &beam], &laid)?.during;
         if from < within.start || to > within.end {
             return Ok(None);
         }
-        let laid = BeamFindings { back: flown.back, ..laid };
+        let laid = BeamFindings { back: simulated.back, ..laid };
         let coarse = look_at(&coarse[0], &with_larger_cells(&layer.sheet), &laid, (threads, stop))?;
         Ok(coarse.map(|coarse| Pair { fine: few, coarse }))
     }
@@ -196,7 +197,7 @@ impl Flyer<'_> {
         number: usize,
         on: &FlownSheet,
         airs: std::ops::Range<u64>,
-    ) -> Result<Vec<LayerFew>, Error> {
+    ) -> Result<Vec<SubsampleEstimate>, Error> {
         let specs: Vec<WebSpec> = airs.map(|air| spec.in_air(air)).collect();
         let on = on.coarse().with_area(AREA);
         let beams = specs.iter().map(|spec| Ok(beam_on(spec, number, Some(&on))?.with_coarsest_mesh()));
@@ -207,8 +208,8 @@ impl Flyer<'_> {
         let abreast = beams.len().min(self.threads).min(fits).max(1);
         let (threads, stop) = (self.threads.div_ceil(abreast), self.stop);
         let found = self.watched(&beams, |done| {
-            try_each(abreast, beams.len(), |i| {
-                let by = Control { threads, isa: Isa::detect(), stop, done };
+            try_par_map(abreast, beams.len(), |i| {
+                let by = RunContext { threads, isa: Isa::detect(), stop, done };
                 let laid = coarsely(&beams[i], by)?;
                 let beam = beams[i].beam();
                 let of_sheet = Laid::new([&beam, &beam], &laid)?;
@@ -243,21 +244,21 @@ impl Flyer<'_> {
 const PAIRS: u64 = 1 << 32;
 
 /// Flies filaments in the larger eddies of their air.
-fn coarsely(of_beam: &LayerBeam<'_>, by: Control<'_>) -> Result<BeamFindings, Error> {
+fn coarsely(of_beam: &LayerBeam<'_>, by: RunContext<'_>) -> Result<BeamFindings, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sink = Sink { window, on: None, neighbours: None };
     let beam = of_beam.beam();
-    let flown = SharedAir::of_one(&beam, &of_beam.sheet, LARGER_WAVES).fly(vec![sink], by)?;
-    flown.into_iter().next().ok_or_else(Error::no_fibre)?
+    let simulated = SharedAir::of_one(&beam, &of_beam.sheet, LARGER_WAVES).fly(vec![sink], by)?;
+    simulated.into_iter().next().ok_or_else(Error::no_fibre)?
 }
 
-/// The CV of a sheet from its few filaments; None if all of its filaments are flown.
+/// The CV of a sheet from its few filaments; None if all of its filaments are simulated.
 fn look_at(
     of_beam: &LayerBeam<'_>,
     sheet: &Sheet,
     laid: &BeamFindings,
     by: (usize, &AtomicBool),
-) -> Result<Option<LayerFew>, Error> {
+) -> Result<Option<SubsampleEstimate>, Error> {
     let Some(few) = &of_beam.few else { return Ok(None) };
     let beam = of_beam.beam();
     let curves = few.curves(sheet, &beam, laid)?;

@@ -2,7 +2,7 @@
 
 use super::{Curtain, FlownCurves};
 use crate::ground::statistics::{dot, solve_positive};
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use std::collections::BTreeMap;
 
 /// Points of a curve at which products are taken, at most: points near each other tell the same.
@@ -100,23 +100,23 @@ struct Class {
 }
 
 impl Covariance {
-    /// In machine and in cross direction, fitted to the differences of all pairs of flown filaments.
+    /// In machine and in cross direction, fitted to the differences of all pairs of simulated filaments.
     ///
     /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest
     ///   neighbours alone would tell. Between neighbours the flight does not tell the covariance: what
     ///   shorter scales explain passes for what each filament does for itself
-    pub(crate) fn fit(flown: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
-        let places = flown.places();
-        let deviations = samples(flown);
-        let [width, pitch] = flown.width_and_pitch();
-        let depth = flown.depth();
-        let shortest = shortest_scale(flown, &deviations, shortest);
+    pub(crate) fn fit(simulated: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
+        let places = simulated.places();
+        let deviations = samples(simulated);
+        let [width, pitch] = simulated.width_and_pitch();
+        let depth = simulated.depth();
+        let shortest = shortest_scale(simulated, &deviations, shortest);
         let scales = |axis: usize, size: f64| -> Vec<f64> {
             let all = (0..).map(move |n: i32| shortest * RATIOS[axis].powi(n));
             let all = all.take_while(move |scale| *scale > 0.0 && *scale < LONGEST[axis] * size);
             all.chain([f64::INFINITY]).collect()
         };
-        let across = scales(0, width).into_iter().map(|scale| Across::new(scale, flown.turn()));
+        let across = scales(0, width).into_iter().map(|scale| Across::new(scale, simulated.turn()));
         let across: Vec<Across> = across.collect();
         let along: Vec<Scale> = scales(1, depth).into_iter().map(Scale::new).collect();
         let class = |[z, y]: [f64; 2]| {
@@ -126,10 +126,10 @@ impl Covariance {
             };
             (number(z.abs(), pitch), number(y.abs(), NEAREST * depth))
         };
-        let sums = each(threads, places.len(), |one| {
+        let sums = par_map(threads, places.len(), |one| {
             let mut classes: BTreeMap<(i32, i32), Class> = BTreeMap::new();
             for other in one + 1..places.len() {
-                let apart = flown.apart(places[one], places[other]);
+                let apart = simulated.apart(places[one], places[other]);
                 let class = classes.entry(class(apart)).or_default();
                 class.curves.resize(across.len() * along.len(), 0.0);
                 class.pairs += 1.0;
@@ -238,12 +238,12 @@ fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f
 }
 
 /// The shortest scale that is looked for [m].
-fn shortest_scale(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]], shortest: [f64; 2]) -> f64 {
-    let places = flown.places();
+fn shortest_scale(simulated: &FlownCurves, deviations: &[[Vec<f64>; 2]], shortest: [f64; 2]) -> f64 {
+    let places = simulated.places();
     let (mut distances, mut products, mut squares) = (0.0, [0.0; 2], [0.0; 2]);
     for (one, place) in places.iter().enumerate() {
         let distance = |other: usize| {
-            let [z, y] = flown.apart(*place, places[other]);
+            let [z, y] = simulated.apart(*place, places[other]);
             libm::hypot(z, y)
         };
         let others = (0..places.len()).filter(|other| *other != one).map(|other| (distance(other), other));
@@ -257,19 +257,19 @@ fn shortest_scale(flown: &FlownCurves, deviations: &[[Vec<f64>; 2]], shortest: [
     }
     let correlation = [0, 1].map(|d| products[d] / squares[d]).into_iter().fold(1.0, f64::min);
     let of_nearest = distances / (-2.0 * libm::log(correlation.max(LEAST))).sqrt();
-    (shortest[0] * flown.mean_distance()).min(shortest[1] * of_nearest)
+    (shortest[0] * simulated.mean_distance()).min(shortest[1] * of_nearest)
 }
 
 /// Deviations from the mean of each filament, at points evenly spread along the curves.
-fn samples(flown: &FlownCurves) -> Vec<[Vec<f64>; 2]> {
-    let count = flown.points().min(POINTS);
+fn samples(simulated: &FlownCurves) -> Vec<[Vec<f64>; 2]> {
+    let count = simulated.points().min(POINTS);
     let of = |(filament, y): (usize, f64)| {
         [0, 1].map(|d| {
-            let (values, mean) = (flown.deviations(filament, d), flown.mean(d, y));
+            let (values, mean) = (simulated.deviations(filament, d), simulated.mean(d, y));
             (0..count).map(|i| f64::from(values[i * values.len() / count]) - mean).collect()
         })
     };
-    flown.places().iter().map(|place| place.y).enumerate().map(of).collect()
+    simulated.places().iter().map(|place| place.y).enumerate().map(of).collect()
 }
 
 /// The numbers x that are not negative with the least `|A x − b|²`, by the way of Lawson and Hanson on the

@@ -1,11 +1,11 @@
 //! Curves of a curtain on the sheet.
 
 use super::Curtain;
-use crate::ground::threads::try_each;
+use crate::ground::threads::try_par_map;
 use crate::ground::{Error, Fault, Lanes, WIDTH};
 use crate::web::map::{
-    Brush, Canvas, CanvasPart, LaidWeb, NO_CORNERS, Sheet, Strand, Strands, Titres, Window, WindowOnSheet,
-    widen,
+    CanvasPart, DepositionGrid, Depositor, LaidWeb, NO_CORNERS, Sheet, Strand, Strands, Titres, Window,
+    WindowOnSheet, widen,
 };
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -61,14 +61,14 @@ impl<'a> Belt<'a> {
 pub(crate) fn draw(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
-    brush: &Brush<'_>,
+    brush: &Depositor<'_>,
     (threads, stop): (usize, &AtomicBool),
 ) -> Result<Vec<Strand>, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).next_multiple_of(WIDTH).clamp(WIDTH, MOST_TOGETHER);
     let points = points_on(curtain, belt);
-    let groups = try_each(threads, count.div_ceil(together), |group| {
+    let groups = try_par_map(threads, count.div_ceil(together), |group| {
         let filaments = group * together..count.min((group + 1) * together);
         draw_neighbours(&Neighbours { curtain, belt, filaments }, points.clone(), brush, stop)
     })?;
@@ -145,7 +145,7 @@ impl Neighbours<'_> {
         &self,
         (eight, first): (usize, usize),
         points: &[[Lanes; 2]],
-        brush: &Brush<'_>,
+        brush: &Depositor<'_>,
         part: &mut CanvasPart<'_>,
     ) {
         let count = WIDTH.min(self.filaments.len() - eight * WIDTH);
@@ -169,7 +169,7 @@ impl Neighbours<'_> {
 fn draw_neighbours(
     of: &Neighbours<'_>,
     points_on: Range<usize>,
-    brush: &Brush<'_>,
+    brush: &Depositor<'_>,
     stop: &AtomicBool,
 ) -> Result<Vec<Strand>, Error> {
     let window = WindowOnSheet::new(of.belt.window, of.belt.sheet);
@@ -232,8 +232,8 @@ pub(crate) fn lay_with(
 ) -> Result<(LaidWeb, Vec<Strand>), Error> {
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
-    let canvas = Canvas::new(belt.sheet, &[element], basis_weight)?;
-    let strands = draw(curtain, belt, &Brush::new(&canvas, element, titres), by)?;
+    let canvas = DepositionGrid::new(belt.sheet, &[element], basis_weight)?;
+    let strands = draw(curtain, belt, &Depositor::new(&canvas, element, titres), by)?;
     Ok((canvas.finish()?, strands))
 }
 
@@ -260,11 +260,11 @@ mod tests {
         // The last one is laid beyond the edge and comes in at the other side.
         let curve = |i: usize| vec![[0.0, if i == 3 { 3e-3 } else { 0.0 }]; points];
         let curves: Vec<_> = (0..4).map(curve).collect();
-        let flown = FlownCurves::new(places, Some(width), (SPACING, BELT_RATIO), &curves).unwrap();
+        let simulated = FlownCurves::new(places, Some(width), (SPACING, BELT_RATIO), &curves).unwrap();
         let sheet = Sheet::new(width, 0.1, CELL);
         let window = Window { corner: [2e-3, 50e-3], sides: [6e-3, 4e-3] };
-        let belt = Belt::within(&flown, &sheet, window).unwrap();
-        let (laid, strands) = laid(&flown, belt, 2);
+        let belt = Belt::within(&simulated, &sheet, window).unwrap();
+        let (laid, strands) = laid(&simulated, belt, 2);
         let of_cell = ELEMENT * CELL / (SPACING * BELT_RATIO) / (CELL * CELL);
         for row in 0..laid.map.rows {
             for (column, quanta) in laid.map.row(row).iter().enumerate() {
@@ -293,8 +293,8 @@ mod tests {
     #[test]
     fn invariant_all_fibre_that_passes_lies_on_a_periodic_sheet() {
         let field = Field { memory: 0.98, ..Field::default() };
-        let flown = field.flown(row(field.turn, 16));
-        let filling = flown.fill(row(field.turn, 100), 2);
+        let simulated = field.simulated(row(field.turn, 16));
+        let filling = simulated.fill(row(field.turn, 100), 2);
         let sheet = Sheet::new(field.turn, 0.5, CELL);
         let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
         let belt = Belt::within(&filling, &sheet, window).unwrap();
@@ -312,13 +312,13 @@ mod tests {
     #[test]
     fn rejects_curves_that_are_too_short_and_stops() {
         let field = Field { points: 100, ..Field::default() };
-        let flown = field.flown(row(field.turn, 4));
+        let simulated = field.simulated(row(field.turn, 4));
         let sheet = Sheet::new(field.turn, 0.5, CELL);
         let window = Window { corner: [0.0; 2], sides: [20e-3; 2] };
-        let fault = Belt::within(&flown, &sheet, window).unwrap_err().to_string();
+        let fault = Belt::within(&simulated, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
         let belt = Belt { sheet: &sheet, window, back: 0.0 };
-        let stopped = lay(&flown, belt, ELEMENT, (1, &AtomicBool::new(true)));
+        let stopped = lay(&simulated, belt, ELEMENT, (1, &AtomicBool::new(true)));
         assert!(matches!(stopped, Err(Error::Interrupted)));
     }
 }

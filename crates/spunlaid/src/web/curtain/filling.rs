@@ -1,20 +1,20 @@
-//! The curves of all filaments of a curtain, from those that were flown.
+//! The curves of all filaments of a curtain, from those that were simulated.
 
 use super::covariance::Covariance;
 use super::{Curtain, FlownCurves};
 use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::statistics::solve_positive;
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 
 /// Flown filaments from which a curve follows.
 const NEAREST: usize = 16;
-/// Variance that a flown filament has for itself, in parts of its variance: keeps the equations solvable
-/// where filaments are flown at nearly one place.
+/// Variance that a simulated filament has for itself, in parts of its variance: keeps the equations solvable
+/// where filaments are simulated at nearly one place.
 const OWN: f64 = 0.002;
 
 /// Shortest scales of the covariance by which the curves are filled in, and of that which tells what they
-/// miss. A filling with the smoother one misses no more, is nearer to the web as it would be flown, and knows
+/// miss. A filling with the smoother one misses no more, is nearer to the web as it would be simulated, and knows
 /// less of what it misses.
 const SMOOTH: [f64; 2] = [1.0, 0.5];
 const ROUGH: [f64; 2] = [0.4, 1.0 / 3.0];
@@ -31,30 +31,30 @@ pub(crate) struct Covariances {
 }
 
 impl Covariances {
-    /// As flown filaments tell them.
-    pub(crate) fn fit(flown: &FlownCurves, threads: usize) -> Self {
-        let [smooth, rough] = [SMOOTH, ROUGH].map(|shortest| Covariance::fit(flown, shortest, threads));
+    /// As simulated filaments tell them.
+    pub(crate) fn fit(simulated: &FlownCurves, threads: usize) -> Self {
+        let [smooth, rough] = [SMOOTH, ROUGH].map(|shortest| Covariance::fit(simulated, shortest, threads));
         Self { smooth, rough }
     }
 }
 
-/// Filaments at any places, each the best linear estimate from the flown ones near it (simple kriging).
+/// Filaments at any places, each the best linear estimate from the simulated ones near it (simple kriging).
 ///                                                                                            theory.md (83f)
 #[derive(Clone, Debug)]
 pub struct Filling<'a> {
-    flown: &'a FlownCurves,
+    simulated: &'a FlownCurves,
     places: Vec<Inlet>,
     /// Of each filament, in machine and in cross direction.
     curves: Vec<[Estimate; 2]>,
     missing: [f64; 2],
 }
 
-/// How a curve follows from the flown ones.
+/// How a curve follows from the simulated ones.
 #[derive(Clone, Debug)]
 struct Estimate {
-    /// What is added to the sum of the flown curves [m].
+    /// What is added to the sum of the simulated curves [m].
     constant: f32,
-    /// Of flown filaments.
+    /// Of simulated filaments.
     weights: Vec<(u32, f32)>,
 }
 
@@ -69,14 +69,14 @@ impl FlownCurves {
     /// As [`FlownCurves::fill`], with known covariances.
     pub(crate) fn fill_by(&self, by: &Covariances, wanted: Vec<Inlet>, threads: usize) -> Filling<'_> {
         let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &by.smooth[d], wanted[i]));
-        let curves = each(threads, wanted.len(), curve);
+        let curves = par_map(threads, wanted.len(), curve);
         let step = wanted.len().div_ceil(TOLD).max(1);
         let some: Vec<usize> = (0..wanted.len()).step_by(step).collect();
-        let missing = each(threads, some.len(), |i| {
+        let missing = par_map(threads, some.len(), |i| {
             [0, 1].map(|d| self.missing(&by.rough[d], wanted[some[i]], &curves[some[i]][d]))
         });
         let missing = [0, 1].map(|d| missing.iter().map(|of| of[d]).sum::<f64>() / some.len().max(1) as f64);
-        Filling { flown: self, places: wanted, curves, missing }
+        Filling { simulated: self, places: wanted, curves, missing }
     }
 
     fn estimate(&self, direction: usize, covariance: &Covariance, wanted: Inlet) -> Estimate {
@@ -123,15 +123,15 @@ impl FlownCurves {
 }
 
 impl Filling<'_> {
-    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction: mean
+    /// The part of the variance that the simulated filaments do not tell, in machine and in cross direction: mean
     /// over the filaments.
     pub fn missing(&self) -> [f64; 2] {
         self.missing
     }
 
-    /// Computes all curves, as if they had been flown.
+    /// Computes all curves, as if they had been simulated.
     pub(super) fn compute(&self, threads: usize) -> Vec<[Vec<f32>; 2]> {
-        each(threads, self.places.len(), |filament| {
+        par_map(threads, self.places.len(), |filament| {
             let mut curve = [0, 1].map(|_| vec![0.0; self.points()]);
             self.curve(filament, 0, curve.each_mut().map(Vec::as_mut_slice));
             curve
@@ -145,32 +145,32 @@ impl Curtain for Filling<'_> {
     }
 
     fn points(&self) -> usize {
-        self.flown.points()
+        self.simulated.points()
     }
 
     fn spacing(&self) -> f64 {
-        self.flown.spacing()
+        self.simulated.spacing()
     }
 
     fn belt_ratio(&self) -> f64 {
-        self.flown.belt_ratio()
+        self.simulated.belt_ratio()
     }
 
     fn curve(&self, filament: usize, first: usize, into: [&mut [f32]; 2]) {
         for (direction, (into, estimate)) in into.into_iter().zip(&self.curves[filament]).enumerate() {
             into.fill(estimate.constant);
-            for (flown, weight) in &estimate.weights {
-                add(into, *weight, &self.flown.deviations(*flown as usize, direction)[first..]);
+            for (simulated, weight) in &estimate.weights {
+                add(into, *weight, &self.simulated.deviations(*simulated as usize, direction)[first..]);
             }
         }
     }
 
     fn reach(&self) -> [f64; 2] {
-        self.flown.reach()
+        self.simulated.reach()
     }
 
     fn farthest(&self) -> f64 {
-        let of_flown = self.flown.farthest();
+        let of_flown = self.simulated.farthest();
         let farthest = |[md, _]: &[Estimate; 2]| {
             let weights: f64 = md.weights.iter().map(|(_, weight)| f64::from(weight.abs())).sum();
             f64::from(md.constant.abs()) + weights * of_flown
@@ -234,21 +234,21 @@ mod tests {
     #[test]
     fn analytic_the_error_of_a_normal_field_of_known_covariance() {
         for (field, places) in fields() {
-            let [flown, truth] = parts(&field, &places);
-            let flown = field.with_noise(&flown, OWN);
-            let filling = flown.fill_by(&known(&field), truth.places().to_vec(), 2);
+            let [simulated, truth] = parts(&field, &places);
+            let simulated = field.with_noise(&simulated, OWN);
+            let filling = simulated.fill_by(&known(&field), truth.places().to_vec(), 2);
             let (told, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
             assert!((found / told - 1.0).abs() < 0.03, "{field:?}: {found} {told}");
         }
     }
 
-    /// With the covariance from the flown curves alone, hardly more is missed.
+    /// With the covariance from the simulated curves alone, hardly more is missed.
     #[test]
     fn stat_a_fitted_covariance_fills_nearly_as_well_as_the_known_one() {
         for (field, places) in &fields()[1..] {
-            let [flown, truth] = parts(field, places);
-            let best = flown.fill_by(&known(field), truth.places().to_vec(), 2);
-            let filling = flown.fill(truth.places().to_vec(), 2);
+            let [simulated, truth] = parts(field, places);
+            let best = simulated.fill_by(&known(field), truth.places().to_vec(), 2);
+            let filling = simulated.fill(truth.places().to_vec(), 2);
             let [best, found] = [&best, &filling].map(|filling| error(filling, &truth, field.sigma));
             let told = mean(filling.missing());
             assert!(found < 1.1 * best, "{found} {best}");
@@ -259,9 +259,9 @@ mod tests {
     #[test]
     fn analytic_a_flown_filament_is_filled_in_as_it_was_flown() {
         for (field, places) in fields() {
-            let flown = field.flown(places);
-            let filling = flown.fill(flown.places().to_vec(), 2);
-            let found = error(&filling, &flown, field.sigma);
+            let simulated = field.simulated(places);
+            let filling = simulated.fill(simulated.places().to_vec(), 2);
+            let found = error(&filling, &simulated, field.sigma);
             assert!(found < 1e-4 && mean(filling.missing()) < 0.004, "{found} {:?}", filling.missing());
         }
     }
@@ -271,28 +271,29 @@ mod tests {
     fn limit_filaments_between_equal_ones_are_equal_too() {
         let field = Field { points: 300, ..Field::default() };
         let one = field.curves(&row(field.turn, 1)).remove(0);
-        let flown = field.flown_of(row(field.turn, 24), &vec![one; 24]);
-        let filling = flown.fill(row(field.turn, 7), 2);
+        let simulated = field.flown_of(row(field.turn, 24), &vec![one; 24]);
+        let filling = simulated.fill(row(field.turn, 7), 2);
         let missing = mean(filling.missing());
         assert!(missing < 1e-3, "{missing}");
         for curve in filling.compute(1) {
             for (d, values) in curve.iter().enumerate() {
-                let off = values.iter().zip(flown.deviations(0, d)).map(|(a, b)| (a - b).abs());
+                let off = values.iter().zip(simulated.deviations(0, d)).map(|(a, b)| (a - b).abs());
                 assert!(off.fold(0.0, f32::max) < 1e-3 * field.sigma as f32);
             }
         }
     }
 
-    /// In airs of their own, nothing is known of a filament but the mean.
+    /// In independent turbulence, nothing is known of a filament but the mean.
     #[test]
     fn limit_nothing_is_known_between_independent_filaments() {
         let field = Field { points: 2000, ..Field::default() };
         let curve = |seed: u64| Field { seed, ..field }.curves(&row(field.turn, 1)).remove(0);
         let curves: Vec<_> = (1..=32).map(curve).collect();
-        let flown = field.flown_of(row(field.turn, 32), &curves);
-        // In the middle between two flown ones.
-        let between = flown.places().iter().map(|place| Inlet { z: place.z + field.turn / 64.0, ..*place });
-        let filling = flown.fill(between.collect(), 2);
+        let simulated = field.flown_of(row(field.turn, 32), &curves);
+        // In the middle between two simulated ones.
+        let between =
+            simulated.places().iter().map(|place| Inlet { z: place.z + field.turn / 64.0, ..*place });
+        let filling = simulated.fill(between.collect(), 2);
         assert!(mean(filling.missing()) > 0.95, "{:?}", filling.missing());
         let squares = filling.compute(2).concat().concat().iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
         let variance = squares / (2 * 32 * 2000) as f64 / field.sigma.powi(2);
@@ -308,11 +309,11 @@ mod tests {
         for (curve, place) in curves.iter_mut().zip(&places) {
             curve.iter_mut().for_each(|point| point[0] += 0.01 + 1.5 * place.y);
         }
-        let flown = field.flown_of(places, &curves);
+        let simulated = field.flown_of(places, &curves);
         let wanted = slot(field.turn, 9, 18e-3);
-        for (curve, place) in flown.fill(wanted.clone(), 2).compute(2).iter().zip(&wanted) {
+        for (curve, place) in simulated.fill(wanted.clone(), 2).compute(2).iter().zip(&wanted) {
             for (value, first) in curve[0].iter().zip(&curves[0]) {
-                let expected = first[0] + 1.5 * (place.y - flown.places()[0].y);
+                let expected = first[0] + 1.5 * (place.y - simulated.places()[0].y);
                 assert!((f64::from(*value) - expected).abs() < 1e-4, "{value} {expected}");
             }
         }
@@ -321,9 +322,9 @@ mod tests {
     #[test]
     fn identical_bits_for_any_number_of_threads() {
         let field = Field { points: 200, memory: 0.9, ..Field::default() };
-        let flown = field.flown(slot(field.turn, 40, 20e-3));
+        let simulated = field.simulated(slot(field.turn, 40, 20e-3));
         let filled = |threads: usize| {
-            let filling = flown.fill(slot(field.turn, 100, 20e-3), threads);
+            let filling = simulated.fill(slot(field.turn, 100, 20e-3), threads);
             (filling.missing(), filling.compute(threads))
         };
         let one = filled(1);

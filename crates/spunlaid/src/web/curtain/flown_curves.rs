@@ -1,10 +1,10 @@
-//! The curves that were flown.
+//! The curves that were simulated.
 
 use super::Curtain;
 use crate::ground::Fault;
 use crate::ground::place::{Inlet, rows};
 
-/// Curves that some filaments of a curtain have laid in one air.
+/// Curves that some filaments of a curtain have laid in shared turbulence.
 #[derive(Clone, Debug)]
 pub struct FlownCurves {
     places: Vec<Inlet>,
@@ -75,14 +75,14 @@ impl FlownCurves {
         if points == 0 || curves.len() != places.len() {
             let (places, curves) = (places.len(), curves.len());
             return Err(Fault::plain(format!(
-                "{curves} flown curves, the shortest of {points} points, for {places} places say nothing of \
+                "{curves} simulated curves, the shortest of {points} points, for {places} places say nothing of \
                 the filaments between them"
             )));
         }
         let finite = curves.iter().flatten().flatten().all(|value| value.is_finite());
         let above_zero = |number: f64| number.is_finite() && number > 0.0;
         if !(finite && [Some(spacing), Some(belt_ratio), turn].into_iter().flatten().all(above_zero)) {
-            return Err(Fault::plain("flown curves have a number that is not finite or not above zero"));
+            return Err(Fault::plain("simulated curves have a number that is not finite or not above zero"));
         }
         let mean = |curve: &[Vec<f32>; 2]| {
             curve

@@ -9,11 +9,11 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Most places along the machine direction that are rows; more are a slot.
 const ROWS: usize = 8;
-/// Fewest levels on which a slot is filled. They are at most a mean distance of flown filaments apart, which is the
+/// Fewest levels on which a slot is filled. They are at most a mean distance of simulated filaments apart, which is the
 /// shortest scale of a filling: between levels farther apart a cubic would lose what distinguishes filaments of
 /// different depth, and lay them more alike.
 const LEVELS: usize = 6;
-/// Distance of the lattice across, in mean distances of flown filaments: between those the curves are smooth.
+/// Distance of the lattice across, in mean distances of simulated filaments: between those the curves are smooth.
 const COLUMN: f64 = 0.5;
 /// Half lags in a piece, in a fade from piece to piece, and in the shortest library.
 const PIECE: f64 = 20.0;
@@ -56,21 +56,21 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    fn of(flown: &FlownCurves) -> Self {
-        let mut y: Vec<f64> = flown.places().iter().map(|place| place.y).collect();
+    fn of(simulated: &FlownCurves) -> Self {
+        let mut y: Vec<f64> = simulated.places().iter().map(|place| place.y).collect();
         y.sort_by(f64::total_cmp);
         y.dedup();
         let is_slot = y.len() > ROWS;
         if is_slot {
-            let (first, depth) = (y[0], flown.depth());
-            let steps = ((depth / flown.mean_distance()).ceil() as usize).max(LEVELS - 1);
+            let (first, depth) = (y[0], simulated.depth());
+            let steps = ((depth / simulated.mean_distance()).ceil() as usize).max(LEVELS - 1);
             y = (0..=steps).map(|i| first + depth * i as f64 / steps as f64).collect();
         }
-        let means = y.iter().map(|y| [0, 1].map(|d| flown.mean(d, *y))).collect();
+        let means = y.iter().map(|y| [0, 1].map(|d| simulated.mean(d, *y))).collect();
         Self { y, means, is_slot }
     }
 
-    /// The levels that a filament follows from, with their weights; None where a row was not flown.
+    /// The levels that a filament follows from, with their weights; None where a row was not simulated.
     pub(super) fn around(&self, y: f64) -> Option<Vec<(usize, f64)>> {
         if self.is_slot {
             let last = self.y.len() - 1;
@@ -91,22 +91,22 @@ impl Levels {
 
 impl Library {
     /// # Errors
-    /// If the edges of the flown curtain are not periodic, or if it is too narrow or too short for pieces
+    /// If the edges of the simulated curtain are not periodic, or if it is too narrow or too short for pieces
     /// that know nothing of each other.
-    pub(crate) fn new(flown: &FlownCurves, threads: usize) -> Result<Self, Fault> {
-        let Some(turn) = flown.turn() else {
+    pub(crate) fn new(simulated: &FlownCurves, threads: usize) -> Result<Self, Fault> {
+        let Some(turn) = simulated.turn() else {
             return Err(Fault::new(
                 "a sheet of tiles is made from filaments with periodic edges, and these end at edges that cut",
                 "fly the filaments with web.edges = \"periodic\"",
             ));
         };
-        let half_lag = half_lag(flown);
-        let points = flown.points();
+        let half_lag = half_lag(simulated);
+        let points = simulated.points();
         if (points as f64) < SHORTEST * half_lag {
-            let spacing = flown.spacing();
+            let spacing = simulated.spacing();
             return Err(Fault::new(
                 format!(
-                    "the flown curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
+                    "the simulated curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
                     them would resemble each other",
                     points as f64 * spacing,
                     half_lag * spacing
@@ -114,13 +114,13 @@ impl Library {
                 format!("fly {:.2} m of fibre or more", SHORTEST * half_lag * spacing),
             ));
         }
-        let covariances = Covariances::fit(flown, threads);
+        let covariances = Covariances::fit(simulated, threads);
         let half = covariances.smooth.each_ref().map(|covariance| covariance.half_distance(0.5 * turn));
         let fade_across = FADE_ACROSS * half[0].max(half[1]);
         if turn < NARROWEST * fade_across {
             return Err(Fault::new(
                 format!(
-                    "the flown curtain is {:.0} mm wide, and filaments are correlated by half over {:.0} mm; \
+                    "the simulated curtain is {:.0} mm wide, and filaments are correlated by half over {:.0} mm; \
                     tiles of it would resemble each other",
                     turn * 1e3,
                     half[0].max(half[1]) * 1e3
@@ -128,11 +128,11 @@ impl Library {
                 format!("fly a width of {:.0} mm or more", NARROWEST * fade_across * 1e3),
             ));
         }
-        let columns = (turn / (COLUMN * flown.mean_distance())).ceil() as usize;
-        let levels = Levels::of(flown);
+        let columns = (turn / (COLUMN * simulated.mean_distance())).ceil() as usize;
+        let levels = Levels::of(simulated);
         let place = |y: f64, column: usize| Inlet { y, z: column as f64 * turn / columns as f64 };
         let lattice = levels.y.iter().flat_map(|y| (0..columns).map(|column| place(*y, column)));
-        let filling = flown.fill_by(&covariances, lattice.collect(), threads);
+        let filling = simulated.fill_by(&covariances, lattice.collect(), threads);
         let mut curves = filling.compute(threads);
         for (number, curve) in curves.iter_mut().enumerate() {
             for (values, mean) in curve.iter_mut().zip(levels.means[number / columns]) {
@@ -148,19 +148,19 @@ impl Library {
             columns,
             levels,
             turn,
-            spacing: flown.spacing(),
-            belt_ratio: flown.belt_ratio(),
+            spacing: simulated.spacing(),
+            belt_ratio: simulated.belt_ratio(),
             points,
             piece: (longest as usize).min(points / 2),
             fade,
             fade_across,
             missing: filling.missing(),
-            reach: flown.reach(),
+            reach: simulated.reach(),
             farthest,
         })
     }
 
-    /// The part of the variance that the flown filaments do not tell, in machine and in cross direction.
+    /// The part of the variance that the simulated filaments do not tell, in machine and in cross direction.
     pub(crate) fn missing(&self) -> [f64; 2] {
         self.missing
     }
@@ -221,25 +221,25 @@ fn cubic(at: f64) -> [f64; 4] {
 
 /// Points after which half of the correlation along the curves is left, in the direction that remembers
 /// longer; at most as many as the curves have.
-fn half_lag(flown: &FlownCurves) -> f64 {
+fn half_lag(simulated: &FlownCurves) -> f64 {
     let [md, cd] = [0, 1].map(|d| {
         let product = |lag: usize| {
             let of = |(filament, place): (usize, &Inlet)| {
-                let (values, mean) = (flown.deviations(filament, d), flown.mean(d, place.y));
+                let (values, mean) = (simulated.deviations(filament, d), simulated.mean(d, place.y));
                 let pairs = values.iter().zip(&values[lag..]);
                 pairs.map(|(a, b)| (f64::from(*a) - mean) * (f64::from(*b) - mean)).sum::<f64>()
             };
-            flown.places().iter().enumerate().map(of).sum::<f64>() / (flown.points() - lag) as f64
+            simulated.places().iter().enumerate().map(of).sum::<f64>() / (simulated.points() - lag) as f64
         };
         let (whole, mut before) = (product(0), 1.0);
-        for lag in 1..flown.points() {
+        for lag in 1..simulated.points() {
             let now = product(lag) / whole;
             if now <= 0.5 {
                 return lag as f64 - (0.5 - now) / (before - now);
             }
             before = now;
         }
-        flown.points() as f64
+        simulated.points() as f64
     });
     md.max(cd)
 }

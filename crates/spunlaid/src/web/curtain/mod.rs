@@ -1,7 +1,7 @@
-//! A curtain of filaments that hang in one air, of which a few were flown and all others follow from these.
+//! A curtain of filaments that hang in shared turbulence, of which a few were simulated and all others follow from these.
 //!
 //! ```text
-//! flown curves → covariance over the distance of inlets → filling: the curve of any place → drawing on a canvas
+//! simulated curves → covariance over the distance of inlets → filling: the curve of any place → drawing on a canvas
 //!                                                             └ library on a lattice → tiles: a sheet of any size ┘
 //! ```
 //!

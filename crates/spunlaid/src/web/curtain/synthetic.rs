@@ -80,21 +80,21 @@ impl Field {
         curves
     }
 
-    pub(super) fn flown(&self, places: Vec<Inlet>) -> FlownCurves {
+    pub(super) fn simulated(&self, places: Vec<Inlet>) -> FlownCurves {
         let curves = self.curves(&places);
         self.flown_of(places, &curves)
     }
 
     /// Adds what each filament has for itself, a part of the variance.
-    pub(super) fn with_noise(&self, flown: &FlownCurves, part: f64) -> FlownCurves {
+    pub(super) fn with_noise(&self, simulated: &FlownCurves, part: f64) -> FlownCurves {
         let mut random = ChaCha8Rng::seed_from_u64(!self.seed);
         let mut noisy = |value: f32| f64::from(value) + self.sigma * part.sqrt() * normal(&mut random);
         let curve = |filament: usize| {
-            let [md, cd] = [0, 1].map(|d| flown.deviations(filament, d));
+            let [md, cd] = [0, 1].map(|d| simulated.deviations(filament, d));
             md.iter().zip(cd).map(|(md, cd)| [noisy(*md), noisy(*cd)]).collect()
         };
-        let curves: Vec<Vec<[f64; 2]>> = (0..flown.places().len()).map(curve).collect();
-        self.flown_of(flown.places().to_vec(), &curves)
+        let curves: Vec<Vec<[f64; 2]>> = (0..simulated.places().len()).map(curve).collect();
+        self.flown_of(simulated.places().to_vec(), &curves)
     }
 
     pub(super) fn flown_of(&self, places: Vec<Inlet>, curves: &[Vec<[f64; 2]>]) -> FlownCurves {

@@ -64,7 +64,7 @@ impl Library {
     /// * `key` – of its random numbers: the seed of the sheet and the number of the layer
     ///
     /// # Errors
-    /// If a filament hangs in a row that was not flown.
+    /// If a filament hangs in a row that was not simulated.
     pub(crate) fn tiles(
         &self,
         places: Vec<Inlet>,
@@ -75,7 +75,7 @@ impl Library {
         let level = |place: &Inlet| {
             self.levels.around(place.y).ok_or_else(|| {
                 Fault::plain(format!(
-                    "a filament hangs {:.3} mm from the middle of the slot, where no row was flown",
+                    "a filament hangs {:.3} mm from the middle of the slot, where no row was simulated",
                     place.y * 1e3
                 ))
             })
@@ -244,14 +244,15 @@ mod tests {
     #[test]
     fn stat_a_sheet_of_tiles_has_the_moments_of_its_library() {
         let field = field();
-        let (flown, around) = (field.flown(row(field.turn, 64)), 0.41);
-        let library = Library::new(&flown, 2).unwrap();
+        let (simulated, around) = (field.simulated(row(field.turn, 64)), 0.41);
+        let library = Library::new(&simulated, 2).unwrap();
         let places = row(around, 82);
         let length = 6.0 * field.points as f64 * SPACING * BELT_RATIO;
         let tiles = library.tiles(places, around, length, [3, 0]).unwrap();
         let curves: Vec<_> = (0..82).map(|filament| whole(&tiles, filament)).collect();
         let of_flown = |d: usize| {
-            (0..64).map(|i| product(flown.deviations(i, d), flown.deviations(i, d), 0)).sum::<f64>() / 64.0
+            (0..64).map(|i| product(simulated.deviations(i, d), simulated.deviations(i, d), 0)).sum::<f64>()
+                / 64.0
         };
         for d in 0..2 {
             let all: Vec<f64> = curves.iter().flat_map(|curve| &curve[d]).map(|x| f64::from(*x)).collect();
@@ -261,7 +262,7 @@ mod tests {
             let kurtosis = moment(4) / (variance * variance);
             // All of the library is shown, with its own chance; fades make its values more normal.
             let fourth =
-                (0..64).flat_map(|i| flown.deviations(i, d)).map(|x| f64::from(*x).powi(4)).sum::<f64>();
+                (0..64).flat_map(|i| simulated.deviations(i, d)).map(|x| f64::from(*x).powi(4)).sum::<f64>();
             let of_library = fourth / (64 * field.points) as f64 / of_flown(d).powi(2);
             assert!((kurtosis - of_library).abs() < 0.1, "{kurtosis} {of_library}");
             // Of a normal distribution 15.87 % lie beyond the standard deviation.
@@ -287,8 +288,8 @@ mod tests {
     #[test]
     fn stat_a_fade_keeps_the_variance() {
         let field = field();
-        let flown = field.flown(row(field.turn, 64));
-        let library = Library::new(&flown, 2).unwrap();
+        let simulated = field.simulated(row(field.turn, 64));
+        let library = Library::new(&simulated, 2).unwrap();
         let length = 12.0 * field.points as f64 * SPACING * BELT_RATIO;
         let tiles = library.tiles(row(0.3, 50), 0.3, length, [1, 0]).unwrap();
         let mut squares = [[0.0, 0.0]; 2];
@@ -313,13 +314,13 @@ mod tests {
         let mut curves = field.curves(&places);
         let stronger = curves.iter_mut().flat_map(|curve| curve.iter_mut().take(75));
         stronger.for_each(|point| *point = point.map(|x| 3.0 * x));
-        let flown = field.flown_of(places, &curves);
-        let library = Library::new(&flown, 1).unwrap();
+        let simulated = field.flown_of(places, &curves);
+        let library = Library::new(&simulated, 1).unwrap();
         let length = 12.0 * field.points as f64 * SPACING * BELT_RATIO;
         let tiles = library.tiles(row(0.41, 41), 0.41, length, [3, 0]).unwrap();
         let square = |curve: &[f32]| product(curve, curve, 0);
         let found = (0..41).map(|i| square(&whole(&tiles, i)[0])).sum::<f64>() / 41.0;
-        let expected = (0..64).map(|i| square(flown.deviations(i, 0))).sum::<f64>() / 64.0;
+        let expected = (0..64).map(|i| square(simulated.deviations(i, 0))).sum::<f64>() / 64.0;
         // The fade from the end to the begin takes a fifth of what is stronger from 14 of its 75 points.
         assert!((found / expected - 1.0).abs() < 0.08, "{found} {expected}");
     }
@@ -356,8 +357,8 @@ mod tests {
     #[test]
     fn identical_bits_in_blocks_of_any_size_and_after_a_turn() {
         let field = field();
-        let flown = field.flown(slot(field.turn, 64, 10e-3));
-        let library = Library::new(&flown, 3).unwrap();
+        let simulated = field.simulated(slot(field.turn, 64, 10e-3));
+        let library = Library::new(&simulated, 3).unwrap();
         let around = 0.5;
         let place = Inlet { y: 1.3e-3, z: 0.25 };
         let places = vec![place, Inlet { z: place.z + around, ..place }];
@@ -381,10 +382,10 @@ mod tests {
     }
 
     fn lattice_is_filling(field: Field, depth: f64) {
-        let flown = field.flown(slot(field.turn, 300, depth));
-        let library = Library::new(&flown, 2).unwrap();
+        let simulated = field.simulated(slot(field.turn, 300, depth));
+        let library = Library::new(&simulated, 2).unwrap();
         let wanted = slot(field.turn, 31, 0.9 * depth);
-        let filled = flown.fill(wanted.clone(), 2).compute(2);
+        let filled = simulated.fill(wanted.clone(), 2).compute(2);
         let (mut off, mut squares) = (0.0, 0.0);
         for (place, curve) in wanted.iter().zip(&filled) {
             let around = library.levels.around(place.y).unwrap();
@@ -407,16 +408,16 @@ mod tests {
     #[test]
     fn rejects_libraries_whose_pieces_would_know_each_other() {
         let field = field();
-        let message = |flown: &FlownCurves| Library::new(flown, 1).unwrap_err().to_string();
+        let message = |simulated: &FlownCurves| Library::new(simulated, 1).unwrap_err().to_string();
         let curves = field.curves(&row(field.turn, 32));
         let cut = FlownCurves::new(row(field.turn, 32), None, (SPACING, BELT_RATIO), &curves).unwrap();
         assert!(message(&cut).contains("web.edges = \"periodic\""), "{}", message(&cut));
-        let short = Field { points: 60, ..field }.flown(row(field.turn, 32));
+        let short = Field { points: 60, ..field }.simulated(row(field.turn, 32));
         assert!(message(&short).contains("of fibre or more"), "{}", message(&short));
-        let narrow = Field { turn: 0.04, ..field }.flown(row(0.04, 20));
+        let narrow = Field { turn: 0.04, ..field }.simulated(row(0.04, 20));
         assert!(message(&narrow).contains("fly a width of"), "{}", message(&narrow));
-        let flown = field.flown(row(field.turn, 32));
-        let library = Library::new(&flown, 1).unwrap();
+        let simulated = field.simulated(row(field.turn, 32));
+        let library = Library::new(&simulated, 1).unwrap();
         let elsewhere = vec![Inlet { y: 5e-3, z: 0.0 }];
         let fault = library.tiles(elsewhere, 0.3, 0.5, [0, 0]).unwrap_err().to_string();
         assert!(fault.contains("5.000 mm"), "{fault}");

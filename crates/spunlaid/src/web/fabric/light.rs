@@ -2,7 +2,7 @@
 
 use super::patches::weights;
 use crate::ground::Known;
-use crate::web::map::uniformity::Unevenness;
+use crate::web::map::uniformity::PatchCv;
 use crate::web::map::{Map, straight_fibres};
 
 /// Reflectance of the white behind the sheet when its opacity is measured.
@@ -42,8 +42,8 @@ pub(super) const LOCAL: f64 = 2e-3;
 /// as much as the web varies more than straight fibres do.                                    theory.md (111)
 ///
 /// * `length` – of fibre per area of the sheet [1/m]
-/// * `found` – the unevenness over patches of 2 mm
-pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f64> {
+/// * `found` – the CV over patches of 2 mm
+pub(crate) fn local_weights(map: &Map, length: f64, found: &PatchCv) -> Vec<f64> {
     let (_, weights) = weights(map, found.patch);
     let variance = weights.iter().map(|weight| (weight - 1.0).powi(2)).sum::<f64>() / weights.len() as f64;
     let of_clouds = (found.cv * found.cv - straight_fibres(length, found.patch).powi(2)).max(0.0);
@@ -59,8 +59,8 @@ pub(crate) fn local_weights(map: &Map, length: f64, found: &Unevenness) -> Vec<f
 /// * `length` – of fibre per area of the sheet [1/m]
 /// * `error` – of this length, as a fraction of it
 /// * `diameter` – of the fibres, the mean over their length [m]
-/// * `found` – the unevenness over patches of 2 mm; its error becomes that of the share
-pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &Unevenness) -> Known {
+/// * `found` – the CV over patches of 2 mm; its error becomes that of the share
+pub fn bare_area(local: &[f64], length: f64, error: f64, diameter: f64, found: &PatchCv) -> Known {
     let covered = length * diameter;
     let share = local.iter().map(|weight| libm::exp(-covered * weight)).sum::<f64>() / local.len() as f64;
     // It grows with the clouds, whose chance is that of the CV, and all of it falls with τd.           theory.md (113)
@@ -83,7 +83,7 @@ fn growth_with_clouds(covered: f64, square: f64) -> f64 {
 ///
 /// Source: C. T. J. Dodson, J. R. Stat. Soc. B 33 (1971) 88–94, as W. W. Sampson, Modelling Stochastic
 /// Fibrous Materials (2009), uses it for paper.
-pub fn formation(found: &Unevenness, straight_fibres: f64) -> Known {
+pub fn formation(found: &PatchCv, straight_fibres: f64) -> Known {
     let number = (found.cv / straight_fibres).powi(2);
     Known::Value(number, found.standard_error.map(|error| 2.0 * number * error / found.cv))
 }

@@ -20,7 +20,7 @@ const WEAKEST: Figure =
 const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 
 /// The numbers of a whole fabric.
-pub const OF_FABRICS: &[Measure<Fabric>] = &[
+pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
     OfFabric::new("width_m", "Width", MILLIMETRES, Told(|fabric| Some(Exact(fabric.width))))
         .meaning("width of the part of the web whose numbers these are"),
     OfFabric::new("trim_m", "Trim", MILLIMETRES, Told(|fabric| fabric.trim.map(Exact)))
@@ -109,7 +109,7 @@ pub const OF_FABRICS: &[Measure<Fabric>] = &[
 ];
 
 /// The numbers of the patches of one size.
-pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
+pub const FABRIC_PATCH_MEASURES: &[Measure<FabricPatch>] = &[
     OfPatch::new("patch_m", "Patch", MILLIMETRES, Told(|patch| Some(Exact(patch.thin.patch))))
         .meaning("side of the square patches"),
     OfPatch::new("formation", "Formation number", RATIO, Told(|patch| patch.formation))
@@ -174,7 +174,7 @@ pub const OF_FABRIC_PATCHES: &[Measure<FabricPatch>] = &[
 ];
 
 /// The numbers of the strips in one direction.
-pub const OF_STRIPS: &[Measure<Strips>] = &[
+pub const STRIP_MEASURES: &[Measure<Strips>] = &[
     OfStrips::new("strips", "Strips", RATIO, Told(|strips| Some(Exact(strips.count as f64))))
         .meaning("number of strips on the sheet"),
     OfStrips::new("section_m", "Section", MILLIMETRES, Told(|strips| Some(Exact(strips.size.section))))
@@ -207,7 +207,7 @@ pub const OF_STRIPS: &[Measure<Strips>] = &[
 ];
 
 /// The numbers of one of the thinnest places.
-pub const OF_THINNEST: &[Measure<Marked>] = &[
+pub const THINNEST_PATCH_MEASURES: &[Measure<Marked>] = &[
     OfPlace::new("across_m", "Across", MILLIMETRES, Told(|place| Some(Exact(place.middle()[0]))))
         .meaning("middle of the patch across the sheet, from the edge of the map")
         .digits(5),
@@ -221,7 +221,7 @@ pub const OF_THINNEST: &[Measure<Marked>] = &[
 ];
 
 /// The numbers of the streak that a defect of the line leaves.
-pub const OF_STREAKS: &[Measure<Streak>] = &[
+pub const STREAK_MEASURES: &[Measure<Streak>] = &[
     OfStreak::new("place_m", "Place", MILLIMETRES, Told(|streak| Some(Exact(streak.place))))
         .meaning("middle of the streak across the sheet"),
     OfStreak::new("holes", "Holes", RATIO, Told(|streak| Some(Exact(streak.holes as f64))))

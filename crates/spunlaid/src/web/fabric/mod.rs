@@ -4,7 +4,7 @@
 //! given numbers. Bonds and finishes of the fabric are not known here.
 //!
 //! ```text
-//! map ─────────────────→ formation, thin places, strips, bare area ┐
+//! map ─────────────────→ formation, thin spots, strips, bare area ┐
 //! directions ──────────→ ratio of stiffness                        ├→ Fabric
 //! map, thickness ──────→ air permeability                          │
 //! map, measured opacity → opacity                                  ┘
@@ -25,7 +25,9 @@ mod usable;
 pub use air_through::{Filaments, air_speed};
 pub use light::{bare_area, formation, opacity, scattering};
 pub use marks::Marks;
-pub use measures::{OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+pub use measures::{
+    FABRIC_MEASURES, FABRIC_PATCH_MEASURES, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
+};
 pub(crate) use patches::NONE_FOUND;
 pub use patches::{ThinPlaces, thin_places};
 pub use streaks::{Streak, StreakSource, streaks};

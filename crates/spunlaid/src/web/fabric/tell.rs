@@ -9,16 +9,16 @@ use super::strips::{Strips, strips};
 use super::usable::{Usable, usable};
 use super::{Deviations, FabricKeys, MapUncertainty, light};
 use crate::fibre::body::{diameter_of, linear_density};
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use crate::ground::{Dimension, Known};
 use crate::web::map::lattice::{Chance, Lattice};
-use crate::web::map::uniformity::{Unevenness, unevenness};
+use crate::web::map::uniformity::{PatchCv, patch_cv};
 use crate::web::map::{Map, Orientation, straight_fibres};
 use crate::web::scan::{Findings, PatchFindings};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Sides of the patches of which thin places are told [m].
+/// Sides of the patches of which thin spots are told [m].
 pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
 /// Area of a test of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity
 /// varies [m].
@@ -42,7 +42,7 @@ pub struct Laid<'a> {
     pub filaments: Vec<Filaments>,
     /// Directions of the fibres, if they are known.
     pub orientation: Option<&'a Orientation>,
-    /// Its unevenness over patches of some sides.
+    /// Its CV over patches of some sides.
     pub patches: Vec<LaidPatch>,
     /// Whether its streaks are chance.
     pub streaks: bool,
@@ -52,13 +52,13 @@ pub struct Laid<'a> {
     pub defects: Vec<StreakSource>,
 }
 
-/// The unevenness over patches of one side.
+/// The CV over patches of one side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaidPatch {
     /// Their side [m].
     pub patch: f64,
     /// The CV of the web; None if it is not known.
-    pub reported: Option<Unevenness>,
+    pub reported: Option<PatchCv>,
     /// The share by which the deviations of the map would have to be larger; None if it is not known.
     pub off: Option<f64>,
 }
@@ -167,7 +167,7 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     // The formation number is of the part of the sheet of which the CV beside it is, whatever is sold.
     let of_cv =
         of_this_weight(&laid.filaments, laid.map.between(columns(laid.map, laid.margins)).basis_weight());
-    let patches = each(threads, sides.len(), |i| {
+    let patches = par_map(threads, sides.len(), |i| {
         let deviations = deviations(sides[i] as f64 * map.cell);
         let thin = thin_places(map, sides[i], MapUncertainty { chance, deviations })?;
         let found = told(sides[i]).filter(|_| length > 0.0);
@@ -177,9 +177,9 @@ pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let uneven = |side: usize| match (keys.saleable_width, told(side)) {
         (None, Some(told)) => Some(told),
         (_, reported) => {
-            let found = with_error_of(unevenness(map, side)?, reported);
+            let found = with_error_of(patch_cv(map, side)?, reported);
             let is_known = deviations(found.patch).is_some();
-            Some(Unevenness { standard_error: found.standard_error.filter(|_| is_known), ..found })
+            Some(PatchCv { standard_error: found.standard_error.filter(|_| is_known), ..found })
         }
     };
     let local = laid.orientation.filter(|_| length > 0.0).and_then(|_| {
@@ -302,13 +302,13 @@ fn at_random(filaments: &[Filaments], patch: f64) -> f64 {
     filaments.iter().map(square).sum::<f64>().sqrt()
 }
 
-/// The unevenness of the part that is sold with at least the relative error of that of the web, which knows how few
-/// filaments were flown.
-fn with_error_of(part: Unevenness, told: Option<Unevenness>) -> Unevenness {
+/// The CV of the part that is sold with at least the relative error of that of the web, which knows how few
+/// filaments were simulated.
+fn with_error_of(part: PatchCv, told: Option<PatchCv>) -> PatchCv {
     let Some(told) = told else { return part };
     let of_web = told.standard_error.map(|error| error / told.cv * part.cv);
     let standard_error = part.standard_error.zip(of_web).map(|(own, of_web)| own.max(of_web));
-    Unevenness { standard_error, ..part }
+    PatchCv { standard_error, ..part }
 }
 
 /// Length of fibre per area [1/m], and the mean of the diameter over it [m].
@@ -370,7 +370,7 @@ fn unknown(laid: &Laid<'_>) -> Vec<String> {
         sides.map(|of| Dimension::Length.pretty_to(of.patch, 2)).collect::<Vec<String>>().join(", ")
     };
     let unknown = of_sides(&|of| of.off.is_none());
-    let has_no_error = |of: &Unevenness| of.standard_error.is_none();
+    let has_no_error = |of: &PatchCv| of.standard_error.is_none();
     let small = of_sides(&|of| of.off.is_some() && of.reported.as_ref().is_some_and(has_no_error));
     let reasons = [
         (unknown, "the CV of the web over these is not known, and the map may have another one"),
@@ -388,7 +388,7 @@ fn unknown(laid: &Laid<'_>) -> Vec<String> {
 /// Any density, of which only the length of fibre is made, which depends on the titre alone.
 const DENSITY: f64 = 1000.0;
 
-/// What a scan tells of the fabric: thin places, weights and strips, and the formation number where basis
+/// What a scan tells of the fabric: thin spots, weights and strips, and the formation number where basis
 /// weight and titre are known.
 pub fn of_scan(findings: &Findings) -> Fabric {
     let titre = findings.titre.filter(|_| findings.mean_known);
@@ -401,11 +401,11 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     // nothing of larger ones.
     let is_of_fabric = |side: f64| PATCHES.iter().any(|patch| (side / patch - 1.0).abs() < ABOUT);
     let counts = |of: &&PatchFindings| {
-        findings.guess.is_some() || of.interval.is_ok() || is_of_fabric(of.unevenness.patch)
+        findings.guess.is_some() || of.interval.is_ok() || is_of_fabric(of.patch_cv.patch)
     };
     let patch = |of: &PatchFindings| LaidPatch {
-        patch: of.unevenness.patch,
-        reported: Some(of.unevenness),
+        patch: of.patch_cv.patch,
+        reported: Some(of.patch_cv),
         off: (findings.guess.is_none() && of.interval.is_ok()).then_some(0.0),
     };
     let laid = Laid {

@@ -5,8 +5,8 @@
 use super::light::local_weights;
 use super::*;
 use crate::ground::{Estimate, Formula, Known, Measure, NORMAL_95};
-use crate::web::map::uniformity::{Unevenness, unevenness};
-use crate::web::map::{Canvas, Edges, Map, Sheet, straight_fibres};
+use crate::web::map::uniformity::{PatchCv, patch_cv};
+use crate::web::map::{DepositionGrid, Edges, Map, Sheet, straight_fibres};
 use crate::web::scan::{Format, Light, Picture, Settings, analyse};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -72,7 +72,7 @@ fn map(sides: [usize; 2], cell: f64, weight: impl FnMut(usize) -> f64) -> Map {
 fn random_fibres(seed: u64, bundle: u32) -> (Map, f64) {
     let (side, length) = (0.15, 20e3);
     let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(side, side, 0.5e-3) };
-    let canvas = Canvas::new(&sheet, &[1e-6], 1e-2).unwrap();
+    let canvas = DepositionGrid::new(&sheet, &[1e-6], 1e-2).unwrap();
     let quanta = canvas.quanta(1e-6);
     // A piece has its quanta whatever its length, so each line is cut into pieces of one length.
     let step = 1e-3;
@@ -98,7 +98,7 @@ fn stat_straight_fibres_at_random_have_a_formation_number_of_one() {
     for bundle in [1, 4] {
         let (map, length) = random_fibres(3, bundle);
         for side in [2, 4, 10, 20] {
-            let found = unevenness(&map, side).unwrap();
+            let found = patch_cv(&map, side).unwrap();
             let number = formation(&found, straight_fibres(length, found.patch));
             assert!(off(number, f64::from(bundle)) < 3.0, "{bundle} of {side}: {number:?}");
         }
@@ -122,7 +122,7 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
         density: 910.0,
         basis_weight: share * map.basis_weight(),
     });
-    let known = Unevenness { patch: 10e-3, cv: 0.2, standard_error: Some(0.013) };
+    let known = PatchCv { patch: 10e-3, cv: 0.2, standard_error: Some(0.013) };
     let laid = Laid {
         map: &map,
         margins: [30e-3; 2],
@@ -219,7 +219,7 @@ fn stat_the_bare_area_of_straight_fibres_at_random() {
     let drawn = Known::of(&Estimate::new(drawn));
     assert!(off(drawn, expected) < 3.0, "{drawn:?} {expected}");
     let (map, length) = random_fibres(3, 1);
-    let uneven = unevenness(&map, 4).unwrap();
+    let uneven = patch_cv(&map, 4).unwrap();
     let found = bare_area(&local_weights(&map, length, &uneven), length, 0.0, DIAMETER, &uneven);
     assert!(
         off(found, expected) < 3.0 && (found.value() / expected - 1.0).abs() < 0.01,
@@ -241,7 +241,7 @@ fn analytic_the_bare_area_of_a_cloudy_fabric() {
     let sheet = map([300, 300], 2e-3, |_| random.gamma(shape));
     let squared = 1.0 / shape as f64;
     let by_chance = straight_fibres(length, 2e-3).powi(2);
-    let found = Unevenness { patch: 2e-3, cv: (squared + by_chance).sqrt(), standard_error: Some(0.001) };
+    let found = PatchCv { patch: 2e-3, cv: (squared + by_chance).sqrt(), standard_error: Some(0.001) };
     let expected = libm::pow(1.0 + length * DIAMETER * squared, -(shape as f64));
     let found = bare_area(&local_weights(&sheet, length, &found), length, 0.0, DIAMETER, &found);
     // 90,000 patches, whose shares scatter by 0.4 of their mean.
@@ -415,10 +415,10 @@ fn streaky_fabric(seed: u64, off: Option<f64>) -> Fabric {
 }
 
 /// * `reported` – the CV of the web from that of the map
-fn streaky_fabric_of(seed: u64, off: Option<f64>, reported: impl Fn(Unevenness) -> Unevenness) -> Fabric {
+fn streaky_fabric_of(seed: u64, off: Option<f64>, reported: impl Fn(PatchCv) -> PatchCv) -> Fabric {
     let sheet = streaky(&mut Random::new(seed));
     let patch = |side| {
-        let found = unevenness(&sheet, side).unwrap();
+        let found = patch_cv(&sheet, side).unwrap();
         LaidPatch { patch: found.patch, reported: off.map(|_| reported(found)), off }
     };
     let laid = Laid {
@@ -439,8 +439,8 @@ fn streaky_fabric_of(seed: u64, off: Option<f64>, reported: impl Fn(Unevenness) 
 /// on a narrow sheet of streaks the weights scattered by eight of the errors that were reported.
 #[test]
 fn what_follows_from_a_cv_without_an_error_has_none() {
-    let fabric = streaky_fabric_of(1, Some(0.0), |found| Unevenness { standard_error: None, ..found });
-    let numbers = fabric.patches.iter().flat_map(|patch| numbers_of(OF_FABRIC_PATCHES, patch, ""));
+    let fabric = streaky_fabric_of(1, Some(0.0), |found| PatchCv { standard_error: None, ..found });
+    let numbers = fabric.patches.iter().flat_map(|patch| numbers_of(FABRIC_PATCH_MEASURES, patch, ""));
     let errors = numbers.filter(|(_, number)| matches!(number, Some(Known::Value(_, Some(_)))));
     assert_eq!(errors.map(|(name, _)| name).collect::<Vec<_>>(), Vec::<String>::new());
     assert!(fabric.notes.iter().any(|note| note.contains("too few clouds or streaks")), "{:?}", fabric.notes);
@@ -455,13 +455,13 @@ fn stat_the_errors_of_a_fabric_with_random_streaks() {
     let mut found: std::collections::BTreeMap<String, Vec<(f64, f64)>> = std::collections::BTreeMap::new();
     for seed in 0..SEEDS {
         let fabric = streaky_fabric(1000 + seed, Some(0.0));
-        let mut numbers: Vec<(String, Option<Known>)> = numbers_of(OF_FABRICS, &fabric, "");
+        let mut numbers: Vec<(String, Option<Known>)> = numbers_of(FABRIC_MEASURES, &fabric, "");
         for patch in &fabric.patches {
             let side = format!(" of {} mm", (1e3 * patch.thin.patch).round());
-            numbers.extend(numbers_of(OF_FABRIC_PATCHES, patch, &side));
+            numbers.extend(numbers_of(FABRIC_PATCH_MEASURES, patch, &side));
         }
         for (strips, direction) in fabric.strips.iter().flatten().zip([" along MD", " along CD"]) {
-            numbers.extend(numbers_of(OF_STRIPS, strips, direction));
+            numbers.extend(numbers_of(STRIP_MEASURES, strips, direction));
         }
         for (name, number) in numbers {
             if let Some(Known::Value(value, Some(error))) = number {

@@ -1,4 +1,4 @@
-//! A laid fibre as a curve on the belt: what its points say about the lay-down.
+//! A laid fibre as a curve on the belt: what its points say about the laydown.
 //!
 //! A [`Trace`] takes the points of one fibre in the order of feed and keeps sums only, so its memory does not grow
 //! with the length of the fibre.

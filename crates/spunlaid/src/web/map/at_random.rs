@@ -1,6 +1,6 @@
 //! What chance alone makes of a web: straight fibres of the same mass, thrown at random.
 
-use super::{Canvas, Edges, Map, Sheet, Web};
+use super::{DepositionGrid, Edges, Map, Sheet, Web};
 use crate::ground::random::{stream, uniform};
 use crate::ground::{Fault, Isa};
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ impl Web {
         let [width, length] = sides;
         let sheet = Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic };
         let pieces: Vec<f64> = self.layers.iter().map(|layer| layer.linear_density * LENGTH).collect();
-        let mut canvas = Canvas::new(&sheet, &pieces, self.basis_weight())?.ring(Isa::detect());
+        let mut canvas = DepositionGrid::new(&sheet, &pieces, self.basis_weight())?.ring(Isa::detect());
         for (number, (layer, piece)) in (0..).zip(self.layers.iter().zip(pieces)) {
             let mut random = stream([self.seed, STRAIGHT, number, 0]);
             let quanta = canvas.quanta(piece);

@@ -5,7 +5,7 @@ use super::uniformity::DEGREES;
 use super::waves::{Parts, Places, Powers};
 use crate::ground::Estimate;
 use crate::ground::fft::lagged_products;
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -157,7 +157,7 @@ impl Clouds {
         };
         // As many at a time as there are threads, because a tile takes megabytes.
         for some in tiles.chunks(threads.max(1)) {
-            for (number, tile) in some.iter().zip(each(threads, some.len(), |i| tile(some[i]))) {
+            for (number, tile) in some.iter().zip(par_map(threads, some.len(), |i| tile(some[i]))) {
                 clouds.add([number / across, number % across], tile);
             }
         }
@@ -305,7 +305,7 @@ impl Sheet {
             row_sums
         };
         for first in (0..map.rows).step_by(AT_ONCE) {
-            let rows_sums = each(threads, AT_ONCE.min(map.rows - first), |i| of_row(first + i));
+            let rows_sums = par_map(threads, AT_ONCE.min(map.rows - first), |i| of_row(first + i));
             for (row, row_sums) in (first..).zip(rows_sums) {
                 along.give(row, 1.0, |part, share| {
                     let into = &mut sums[part * columns..][..columns];
@@ -395,7 +395,7 @@ pub fn autocorrelation(map: &Map, lags: usize, threads: usize) -> [Vec<f64>; 2] 
             let values: Vec<f64> = (0..length).map(|i| f64::from(cell(line * stride, i))).collect();
             lagged_products(&values, mean, std::slice::from_ref(&(0..length)), lags).concat()
         };
-        let lines = each(threads, lines.div_ceil(stride), of_line);
+        let lines = par_map(threads, lines.div_ceil(stride), of_line);
         let product =
             |lag: usize| lines.iter().map(|products| products[lag]).sum::<f64>() / (length - lag) as f64;
         let variance = product(0);

@@ -1,6 +1,6 @@
 //! Defects of a line: holes that are blocked or feed more or less than the others, dead rows, filaments that broke.
 
-use super::canvas::Canvas;
+use super::canvas::DepositionGrid;
 use super::{Filaments, Row, Sheet};
 use crate::ground::place::Inlet;
 use crate::ground::random::{stream, uniform};
@@ -17,7 +17,7 @@ pub struct Defect {
     pub from: Option<f64>,
     /// Where they end [m]. If only `from` is given, it is the one hole that is nearest to it.
     pub to: Option<f64>,
-    /// Number of their row of nozzles, from 1; all rows if it is not given.
+    /// Number of their row of holes, from 1; all rows if it is not given.
     pub row: Option<u64>,
     /// Share of these holes that have the defect, chosen at random.
     pub share: f64,
@@ -114,16 +114,16 @@ impl Titres {
 
 /// What draws the filaments of a layer on a canvas.
 #[derive(Clone, Debug)]
-pub(crate) struct Brush<'a> {
-    pub(crate) canvas: &'a Canvas,
+pub(crate) struct Depositor<'a> {
+    pub(crate) canvas: &'a DepositionGrid,
     /// Of a piece of a filament without a defect.
     pub(crate) quanta: u32,
     pub(crate) titres: Titres,
 }
 
-impl<'a> Brush<'a> {
+impl<'a> Depositor<'a> {
     /// * `piece` – mass of a piece [kg]
-    pub(crate) fn new(canvas: &'a Canvas, piece: f64, titres: Titres) -> Self {
+    pub(crate) fn new(canvas: &'a DepositionGrid, piece: f64, titres: Titres) -> Self {
         Self { canvas, quanta: canvas.quanta(piece), titres }
     }
 
@@ -158,7 +158,7 @@ pub(super) struct Nozzle {
     pub(super) row: u64,
 }
 
-/// The nozzles of a layer, in order across the web. See [`inlets`].
+/// The holes of a layer, in order across the web. See [`inlets`].
 pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Nozzle> {
     let random = |kind| stream([seed, (number as u64) << 48 | 1 << 47, 0, kind]);
     let count = filaments.count(sheet);

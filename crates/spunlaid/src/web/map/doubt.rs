@@ -1,6 +1,6 @@
 //! What must be known of the numbers of a web before they are believed, and how it is said.
 
-use super::few_findings::FewDoubt;
+use super::few_findings::SubsampleWarning;
 use crate::fibre::BREAKDOWN;
 use crate::ground::Dimension;
 use std::fmt::{Display, Formatter, Result};
@@ -13,16 +13,16 @@ pub enum Doubt {
     Lost {
         /// Number of lost ones.
         filaments: u64,
-        /// Number of all that were flown.
+        /// Number of all that were simulated.
         of: u64,
     },
-    /// Too few filaments were flown to tell what all do.
-    FewFilaments {
+    /// Too few filaments were simulated to tell what all do.
+    Subsample {
         /// Sides of the patches whose CV they do not tell [m].
         sides: Vec<f64>,
         /// The strongest reason.
-        why: FewDoubt,
-        /// Distance of the flown ones [m].
+        why: SubsampleWarning,
+        /// Distance of the simulated ones [m].
         pitch: f64,
         /// Least number for each metre of a row that flies where the file leaves it open; None if all have to fly.
         enough: Option<f64>,
@@ -32,7 +32,7 @@ pub enum Doubt {
         /// The strongest field [V/m].
         field: f64,
     },
-    /// The map is not as uneven as the CV that is told, because filaments between the flown ones are not known well.
+    /// The map is not as uneven as the CV that is told, because filaments between the simulated ones are not known well.
     FilledIn {
         /// Part of their variance that is not known.
         missing: f64,
@@ -48,7 +48,7 @@ pub enum Doubt {
         /// The CV of the map over the reported one, less one, where they differ most.
         apart: f64,
     },
-    /// The sheet that was flown is too small for these patches, or all filaments of another layer were flown.
+    /// The sheet that was simulated is too small for these patches, or all filaments of another layer were simulated.
     SmallSheet {
         /// Sides of the patches [m].
         sides: Vec<f64>,
@@ -59,10 +59,10 @@ pub enum Doubt {
         wanted: f64,
         /// The one that was reached.
         reached: f64,
-        /// Area that was flown [m²].
+        /// Area that was simulated [m²].
         area: f64,
     },
-    /// No fibre was flown beside the surrogate.
+    /// No fibre was simulated beside the surrogate.
     NothingFlown,
     /// Fibre lies beyond the edges of the sheet.
     CutOff {
@@ -90,17 +90,17 @@ impl Display for Doubt {
                 is lighter by that, and a little more uneven",
                 if *filaments == 1 { "was" } else { "were" }
             ),
-            Self::FewFilaments { sides, why, pitch, enough } => write!(
+            Self::Subsample { sides, why, pitch, enough } => write!(
                 f,
-                "the CV over patches of {} is not known, because {}: too few filaments were flown to know \
+                "the CV over patches of {} is not known, because {}: too few filaments were simulated to know \
                 what all do. The map, the picture and all that follows from them are no better. Fly {}",
                 millimetres(sides),
                 reason(*why, *pitch),
                 match enough {
                     Some(enough) => format!(
-                        "as many as it takes: leave web.flown out, which flies {enough} or more for each metre"
+                        "as many as it takes: leave web.simulated out, which flies {enough} or more for each metre"
                     ),
-                    None => "all of them, web.flown = \"all\"".to_owned(),
+                    None => "all of them, web.simulated = \"all\"".to_owned(),
                 }
             ),
             Self::StrongField { field } => write!(
@@ -121,9 +121,9 @@ impl Display for Doubt {
             ),
             Self::FilledIn { missing, sides, apart } => write!(
                 f,
-                "{} % of the variance of the filaments between the flown ones is not known, so the map, and what \
+                "{} % of the variance of the filaments between the simulated ones is not known, so the map, and what \
                 follows from it (picture, thin places, strips, light), {}; the CV in the headline is not. Fly \
-                more filaments for the map (web.flown)",
+                more filaments for the map (web.simulated)",
                 per_cent(*missing, 2),
                 match sides.is_empty() {
                     true => "is too uneven over small patches".to_owned(),
@@ -132,22 +132,22 @@ impl Display for Doubt {
             ),
             Self::Pieces { sides, apart } => write!(
                 f,
-                "the map is made of pieces of the sheet that was flown, shifted at random, and {}; picture, thin \
+                "the map is made of pieces of the sheet that was simulated, shifted at random, and {}; picture, thin \
                 places, strips and light follow from it, the CV in the headline does not. Another web.seed draws \
                 other pieces",
                 too_uneven(sides, *apart)
             ),
             Self::SmallSheet { sides } => write!(
                 f,
-                "the few filaments that were flown do not tell the CV over patches of {}: their sheet is too \
-                small for such patches, or all filaments of another layer were flown. It is that of the map, \
+                "the few filaments that were simulated do not tell the CV over patches of {}: their sheet is too \
+                small for such patches, or all filaments of another layer were simulated. It is that of the map, \
                 which is made of pieces of that sheet, and it has no error",
                 millimetres(sides)
             ),
             Self::NothingFlown => write!(
                 f,
-                "no fibre was flown for every layer of this web, so the errors are by chance only, and it is \
-                not known how far a surrogate with these numbers is from real fibres. Compared with flown \
+                "no fibre was simulated for every layer of this web, so the errors are by chance only, and it is \
+                not known how far a surrogate with these numbers is from real fibres. Compared with simulated \
                 curves, its CV was up to 20 % wrong (docs/web.md)"
             ),
             Self::CutOff { share } => write!(
@@ -185,21 +185,21 @@ fn too_uneven(sides: &[f64], apart: f64) -> String {
 }
 
 /// Why a few filaments do not tell what all do.
-fn reason(why: FewDoubt, pitch: f64) -> String {
+fn reason(why: SubsampleWarning, pitch: f64) -> String {
     match why {
-        FewDoubt::Halves(patch, off) => format!(
-            "every second one of the flown filaments would give a CV over patches of {} that is {} % {}",
+        SubsampleWarning::Halves(patch, off) => format!(
+            "every second one of the simulated filaments would give a CV over patches of {} that is {} % {}",
             millimetres(&[patch]),
             per_cent(off.abs(), 2),
             if off > 0.0 { "higher" } else { "lower" }
         ),
-        FewDoubt::Own(patch) => format!(
-            "over patches of {} nearly all of the unevenness is what each flown filament makes for itself, \
+        SubsampleWarning::Own(patch) => format!(
+            "over patches of {} nearly all of the patch_cv is what each simulated filament makes for itself, \
             and what is left for all cannot be distinguished from zero",
             millimetres(&[patch])
         ),
-        FewDoubt::Neighbours(correlation) => format!(
-            "the flown filaments are {} mm apart, and the places where such neighbours come down have a \
+        SubsampleWarning::Neighbours(correlation) => format!(
+            "the simulated filaments are {} mm apart, and the places where such neighbours come down have a \
             correlation of {}",
             digits(1e3 * pitch, 3),
             digits(correlation, 2)
@@ -241,8 +241,8 @@ mod tests {
     #[test]
     fn doubts_are_sentences_with_their_numbers() {
         let few = |enough: Option<f64>| {
-            let (sides, why) = (vec![0.01, 0.02], FewDoubt::Halves(0.02, -0.08));
-            Doubt::FewFilaments { sides, why, pitch: 0.002, enough }.to_string()
+            let (sides, why) = (vec![0.01, 0.02], SubsampleWarning::Halves(0.02, -0.08));
+            Doubt::Subsample { sides, why, pitch: 0.002, enough }.to_string()
         };
         let said = few(Some(1000.0));
         assert!(
@@ -251,10 +251,10 @@ mod tests {
         );
         assert!(
             said.contains("over patches of 20 mm that is 8 % lower")
-                && said.ends_with("leave web.flown out, which flies 1000 or more for each metre"),
+                && said.ends_with("leave web.simulated out, which flies 1000 or more for each metre"),
             "{said}"
         );
-        assert!(few(None).ends_with("Fly all of them, web.flown = \"all\""), "{}", few(None));
+        assert!(few(None).ends_with("Fly all of them, web.simulated = \"all\""), "{}", few(None));
         let filled = |sides: Vec<f64>| Doubt::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
         let said = filled(vec![0.01, 0.02]);
         assert!(

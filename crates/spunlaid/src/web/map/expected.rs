@@ -1,10 +1,10 @@
-//! The unevenness that is expected of webs of independent filaments, from single fibres.
+//! The CV that is expected of webs of independent filaments, from single fibres.
 
 use super::one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 use super::plan::places;
 use super::{Edges, Fibres, Filaments, Layer, Sheet, Web};
-use crate::ground::threads::try_each;
-use crate::ground::{Control, Difference, Effect, Error, Estimate, Fault};
+use crate::ground::threads::try_par_map;
+use crate::ground::{Difference, Effect, Error, Estimate, Fault, RunContext};
 use std::ops::Range;
 
 /// Spreads σ_CD of a filament beyond its place that count as the edge of a web: less than 0.14 % of its fibre
@@ -86,7 +86,7 @@ impl ExpectedCv {
     /// The change from this CV to the one over the same patches among others, as a share of it.
     ///
     /// The fibres of both are compared one by one where there are as many, because they fly in the same
-    /// gusts; else the two are taken as independent.
+    /// eddies; else the two are taken as independent.
     pub(crate) fn effect_to(&self, others: &[Self]) -> Option<Effect<f64>> {
         let other = others.iter().find(|other| other.patch == self.patch)?;
         let ratio = other.cv / self.cv;
@@ -114,7 +114,7 @@ pub(super) const ALONE: u64 = 16;
 ///
 /// # Errors
 /// If the filaments cannot be laid, if a layer has no surrogate, or if it is stopped.
-pub(crate) fn expected_cv(web: &Web, by: Control<'_>) -> Result<Vec<ExpectedCv>, Error> {
+pub(crate) fn expected_cv(web: &Web, by: RunContext<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let layers = paths(web).ok_or_else(|| Fault::plain("a layer has no surrogate".to_owned()))?;
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);
@@ -159,11 +159,11 @@ pub(super) fn expected(
     layers: Vec<Layer>,
     sides: &[usize],
     (sample, columns): (OneFibre, Range<usize>),
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<PatchExpectation>, Error> {
     let sheet = &web.sheet;
     let closed = sheet.edges == Edges::Periodic;
-    let found = try_each(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, sample, by))?;
+    let found = try_par_map(by.threads, layers.len(), |i| one_fibre(&layers[i], sides, sample, by))?;
     let expected = |i: usize| {
         // Places of a patch.
         let count = if closed { columns.len() } else { columns.len() + 1 - sides[i] };
@@ -251,7 +251,7 @@ mod tests {
             };
             // Two seeds that follow each other have half of their fibres in common.
             let web = Web { sheet, layers: vec![layer], seed: 100 * seed };
-            expected_cv(&web, Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &done })
+            expected_cv(&web, RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done })
                 .unwrap()
                 .remove(0)
         };

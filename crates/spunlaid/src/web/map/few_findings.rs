@@ -2,15 +2,15 @@
 
 /// The CV of a web of many filaments over patches of one side, as a few of them tell it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FewFilamentsCv {
+pub struct SubsampleCv {
     /// Side of the patches [m].
     pub patch: f64,
     /// CV of the web of all filaments; zero where the filaments take all of CV² for their own part.
     pub cv: f64,
-    /// Its standard error by chance: the clouds on the sheet that was flown are few. None if the sheet is too
+    /// Its standard error by chance: the clouds on the sheet that was simulated are few. None if the sheet is too
     /// small to say.
     pub by_chance: Option<f64>,
-    /// Its standard error because few filaments were flown: from what every second one of them says.
+    /// Its standard error because few filaments were simulated: from what every second one of them says.
     pub by_pitch: f64,
     /// How far every second filament is off, as a share of the CV.
     pub of_halves: f64,
@@ -21,11 +21,11 @@ pub struct FewFilamentsCv {
     /// What CV² of all has more than that of a map in which those between the few are filled in, each at its own place
     /// and without a defect; of filaments at random places, that of an even row. Zero where such a map gives it.
     pub beyond_filling: f64,
-    /// What CV² over a larger area, which was flown coarsely, has more than that of the sheet; zero without.
+    /// What CV² over a larger area, which was simulated coarsely, has more than that of the sheet; zero without.
     pub beyond_sheet: f64,
 }
 
-impl FewFilamentsCv {
+impl SubsampleCv {
     /// With another square of the CV: the errors of the square stay.
     pub(crate) fn with_square(self, square: f64) -> Self {
         let cv = square.max(0.0).sqrt();
@@ -34,20 +34,20 @@ impl FewFilamentsCv {
     }
 }
 
-/// Patches that the few filaments of a web in one air must tell well [m], and how far every second one may be
+/// Patches that the few filaments of a web in shared turbulence must tell well [m], and how far every second one may be
 /// off if that matters beside chance.
 const TOLD_WELL: f64 = 0.01;
 const FAR_OFF: f64 = 0.05;
 /// Correlation of the places where neighbours come down, at the pitch of the few, below which those between
 /// them are not told.
 const TOGETHER: f64 = 0.7;
-/// Filaments are left out only where there are so many for each that is flown.
+/// Filaments are left out only where there are so many for each that is simulated.
 pub(crate) const LEAST_SAVING: f64 = 1.5;
 /// A CV whose error by the few is a larger part of it is not told from zero.
 const UNCLEAR: f64 = 0.5;
 /// How far a number may be above a whole one and still be it.
 const WHOLE: f64 = 1e-6;
-/// How many times as many filaments as in most airs are flown, one after the other, where a file leaves their
+/// How many times as many filaments as in most airs are simulated, one after the other, where a file leaves their
 /// number open.
 pub(crate) const TRIED: [f64; 3] = [1.0, 2.0, 4.0];
 /// How many times as many filaments are advised at least.
@@ -55,7 +55,7 @@ const MORE: f64 = 2.0;
 
 /// Why a few filaments do not tell the CV of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FewDoubt {
+pub enum SubsampleWarning {
     /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m],
     /// and how far it is off as a share of the CV.
     Halves(f64, f64),
@@ -68,16 +68,16 @@ pub enum FewDoubt {
 
 /// What a few filaments of a layer say about all of them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct LayerFew {
-    /// Number of filaments that were flown and not lost.
+pub struct SubsampleEstimate {
+    /// Number of filaments that were simulated and not lost.
     pub filaments: u64,
     /// Number of those that were lost.
     pub lost: u64,
     /// Size of the sheet that they laid, across and along [m].
     pub sheet: [f64; 2],
-    /// Area whose clouds give the CV: of this sheet, and of others that were flown more coarsely [m²].
+    /// Area whose clouds give the CV: of this sheet, and of others that were simulated more coarsely [m²].
     pub area: f64,
-    /// The part of it that was flown as finely as this sheet [m²].
+    /// The part of it that was simulated as finely as this sheet [m²].
     pub fine_area: f64,
     /// Number of filaments on other sheets that gave the CV and were not lost.
     pub on_other_sheets: u64,
@@ -98,7 +98,7 @@ pub struct LayerFew {
     /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
     pub missing: [f64; 2],
     /// CV over patches of each size.
-    pub cvs: Vec<FewFilamentsCv>,
+    pub cvs: Vec<SubsampleCv>,
     /// What the places of all filaments, in place of usual ones, and their defects add to each CV² on a sheet of
     /// pieces; empty without them, and where the few have laid the whole sheet.
     pub by_places: Vec<f64>,
@@ -113,53 +113,53 @@ pub struct LayerFew {
     pub blocks_across: usize,
 }
 
-impl LayerFew {
+impl SubsampleEstimate {
     /// Whether coarse flights over a larger area say its CV too.
     pub fn is_of_two_levels(&self) -> bool {
         self.area > 1.01 * self.sheet[0] * self.sheet[1]
     }
 
     /// The CV over patches of a side of the sheet with its places and defects.
-    pub(crate) fn on_sheet(&self, patch: f64) -> Option<FewFilamentsCv> {
+    pub(crate) fn on_sheet(&self, patch: f64) -> Option<SubsampleCv> {
         let number = self.cvs.iter().position(|cv| cv.patch == patch)?;
         let cv = self.cvs[number];
         Some(self.by_places.get(number).map_or(cv, |more| cv.with_square(cv.cv * cv.cv + more)))
     }
 
     /// Why they do not tell the CV over patches of a side; None if they do.
-    pub(crate) fn doubt_over(&self, patch: f64) -> Option<FewDoubt> {
+    pub(crate) fn doubt_over(&self, patch: f64) -> Option<SubsampleWarning> {
         if self.correlation < TOGETHER {
-            return Some(FewDoubt::Neighbours(self.correlation));
+            return Some(SubsampleWarning::Neighbours(self.correlation));
         }
         let cv = self.cvs.iter().find(|cv| cv.patch == patch)?;
         let is_clear = cv.by_pitch < UNCLEAR * cv.cv;
         if !is_clear {
-            return Some(FewDoubt::Own(patch));
+            return Some(SubsampleWarning::Own(patch));
         }
         // Where chance leaves more open, more filaments would tell hardly more.
         let matters = cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
         let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters;
-        is_off.then_some(FewDoubt::Halves(patch, cv.of_halves))
+        is_off.then_some(SubsampleWarning::Halves(patch, cv.of_halves))
     }
 
     /// Why they do not tell the CV over patches of every side; None if they do. Of several reasons the strongest.
-    pub fn doubt(&self) -> Option<FewDoubt> {
-        let off = |doubt: &FewDoubt| match doubt {
-            FewDoubt::Halves(_, off) => off.abs(),
-            FewDoubt::Own(_) => f64::MAX,
-            FewDoubt::Neighbours(_) => f64::INFINITY,
+    pub fn doubt(&self) -> Option<SubsampleWarning> {
+        let off = |doubt: &SubsampleWarning| match doubt {
+            SubsampleWarning::Halves(_, off) => off.abs(),
+            SubsampleWarning::Own(_) => f64::MAX,
+            SubsampleWarning::Neighbours(_) => f64::INFINITY,
         };
         let all = self.cvs.iter().filter_map(|cv| self.doubt_over(cv.patch));
         all.max_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
     /// How many filaments fly for each metre of a row where the number is left open: as many as do in most
-    /// airs, or two or four times as many, and more than now. None if all of them have to fly, or if the flown
+    /// airs, or two or four times as many, and more than now. None if all of them have to fly, or if the simulated
     /// ones tell it.
     pub fn enough_per_metre(&self) -> Option<f64> {
         let times = match self.doubt()? {
-            FewDoubt::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
-            FewDoubt::Own(_) | FewDoubt::Neighbours(_) => MORE,
+            SubsampleWarning::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
+            SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_) => MORE,
         };
         let enough = TRIED.map(|tried| (tried / self.usual_pitch - WHOLE).ceil());
         let is_enough = |number: &f64| *number * self.pitch > times - WHOLE;
@@ -172,8 +172,8 @@ impl LayerFew {
 mod tests {
     use super::*;
 
-    fn cv(patch: f64, of_halves: f64) -> FewFilamentsCv {
-        FewFilamentsCv {
+    fn cv(patch: f64, of_halves: f64) -> SubsampleCv {
+        SubsampleCv {
             patch,
             cv: 0.2,
             by_chance: Some(0.01),
@@ -190,56 +190,62 @@ mod tests {
     #[test]
     fn a_few_tell_what_every_second_one_tells_too() {
         let cvs = vec![cv(0.002, 0.3), cv(0.01, -0.06), cv(0.02, 0.08), cv(0.05, 0.049)];
-        let told = LayerFew { correlation: 0.9, cvs, ..LayerFew::default() };
+        let told = SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() };
         let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| told.doubt_over(patch).is_some());
         assert_eq!(doubts, [false, true, true, false]);
-        assert_eq!(told.doubt(), Some(FewDoubt::Halves(0.02, 0.08)));
-        let within_chance = |cv: &FewFilamentsCv| FewFilamentsCv { by_chance: Some(0.012), ..*cv };
+        assert_eq!(told.doubt(), Some(SubsampleWarning::Halves(0.02, 0.08)));
+        let within_chance = |cv: &SubsampleCv| SubsampleCv { by_chance: Some(0.012), ..*cv };
         let cvs = told.cvs.iter().map(within_chance).collect();
-        assert_eq!(LayerFew { cvs, ..told }.doubt(), None);
+        assert_eq!(SubsampleEstimate { cvs, ..told }.doubt(), None);
     }
 
     #[test]
     fn neighbours_with_little_in_common_tell_nothing_of_those_between_them() {
-        let told =
-            LayerFew { correlation: 0.69, cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)], ..LayerFew::default() };
-        assert_eq!(told.doubt_over(0.002), Some(FewDoubt::Neighbours(0.69)));
-        assert_eq!(told.doubt(), Some(FewDoubt::Neighbours(0.69)));
-        assert_eq!(LayerFew { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
+        let told = SubsampleEstimate {
+            correlation: 0.69,
+            cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)],
+            ..SubsampleEstimate::default()
+        };
+        assert_eq!(told.doubt_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(told.doubt(), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(SubsampleEstimate { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
     }
 
     /// Twenty filaments of three thousand left zero of the CV, and its error was not a number.
     #[test]
     fn a_cv_that_is_not_told_from_zero_is_doubted_over_patches_of_any_size() {
         let own = |cv: f64, by_pitch: f64| {
-            let cvs = vec![FewFilamentsCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
-            LayerFew { correlation: 0.9, cvs, ..LayerFew::default() }.doubt_over(0.002)
+            let cvs = vec![SubsampleCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
+            SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() }.doubt_over(0.002)
         };
         assert_eq!(own(0.2, 0.09), None);
         for (cv, by_pitch) in [(0.2, 0.11), (0.0, 0.0), (0.0, f64::NAN), (f64::NAN, 0.01), (0.1, f64::NAN)] {
-            assert_eq!(own(cv, by_pitch), Some(FewDoubt::Own(0.002)), "{cv} {by_pitch}");
+            assert_eq!(own(cv, by_pitch), Some(SubsampleWarning::Own(0.002)), "{cv} {by_pitch}");
         }
     }
 
     /// The advised number does what was found to do, and is never that of nearly all.
     #[test]
     fn so_many_are_advised_as_tell_it() {
-        let few = |pitch: f64, correlation: f64, off: f64| LayerFew {
+        let few = |pitch: f64, correlation: f64, off: f64| SubsampleEstimate {
             pitch,
             usual_pitch: 0.002,
             pitch_of_all: 1.0 / 6000.0,
             correlation,
             cvs: vec![cv(0.01, off)],
-            ..LayerFew::default()
+            ..SubsampleEstimate::default()
         };
         // Far from enough: not twice as many, but what the air asks for.
         assert_eq!(few(0.025, 0.2, 0.0).enough_per_metre(), Some(500.0));
         assert_eq!(few(0.002, 0.6, 0.0).enough_per_metre(), Some(1000.0));
         assert_eq!(few(0.002, 0.9, 0.2).enough_per_metre(), Some(2000.0));
-        // More than are flown without being asked.
+        // More than are simulated without being asked.
         assert_eq!(few(0.0005, 0.6, 0.0).enough_per_metre(), None);
         assert_eq!(few(0.002, 0.9, 0.01).enough_per_metre(), None);
         // Five sixths of all save nothing.
-        assert_eq!(LayerFew { pitch_of_all: 1.0 / 1200.0, ..few(0.002, 0.6, 0.0) }.enough_per_metre(), None);
+        assert_eq!(
+            SubsampleEstimate { pitch_of_all: 1.0 / 1200.0, ..few(0.002, 0.6, 0.0) }.enough_per_metre(),
+            None
+        );
     }
 }

@@ -4,17 +4,17 @@ use super::basis_weight::Map;
 use super::clouds::{Clouds, autocorrelation};
 use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
-use super::few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
+use super::few_findings::{SubsampleCv, SubsampleEstimate, SubsampleWarning};
 use super::laid_web::{Evidence, LaidWeb, LayerFlown};
 use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
-use super::uniformity::{Unevenness, nearest_to_seen, unevenness_at, variance_of_mean};
+use super::uniformity::{PatchCv, nearest_to_seen, unevenness_at, variance_of_mean};
 use super::waves::Places;
 use super::{Layer, Web};
 use crate::fibre::STRONG;
-use crate::ground::threads::try_each;
-use crate::ground::{Control, Dimension, Error, Estimate, Fault};
+use crate::ground::threads::try_par_map;
+use crate::ground::{Dimension, Error, Estimate, Fault, RunContext};
 use crate::web::surrogate::Surrogate;
 use std::borrow::Cow;
 use std::sync::atomic::AtomicU64;
@@ -62,7 +62,7 @@ impl Findings {
     }
 
     /// See [`Clouds::texture_md`]. It has no error where that of no CV is known: the sheet then has too few clouds, or
-    /// too few filaments were flown.
+    /// too few filaments were simulated.
     pub fn texture_md(&self) -> Option<Estimate> {
         let texture = self.clouds.as_ref()?.texture_md();
         let is_known = |patch: &PatchFindings| patch.told().is_some_and(|told| told.standard_error.is_some());
@@ -79,40 +79,40 @@ impl Findings {
     }
 }
 
-/// The unevenness over patches of one size, in several ways.
+/// The CV over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// On the map; of filaments in one air of which a few were flown, as these tell it ([`PatchFindings::few`]),
+    /// On the map; of filaments in shared turbulence of which a few were simulated, as these tell it ([`PatchFindings::few`]),
     /// and on the map again, without an error, where they do not tell it ([`PatchFindings::doubt`]).
-    pub map: Unevenness,
+    pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
     /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
     pub single_fibres: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// From what it is known. In airs of their own, filaments in one air would give [`PatchFindings::independent`].
+    /// From what it is known. In independent turbulence, filaments in shared turbulence would give [`PatchFindings::independent`].
     pub evidence: Evidence,
-    /// What a few filaments in one air say of all; None if all were flown, or if the patch is too large for
+    /// What a few filaments in shared turbulence say of all; None if all were simulated, or if the patch is too large for
     /// the sheet that they laid.
-    pub few: Option<FewFilamentsCv>,
+    pub few: Option<SubsampleCv>,
     /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
-    /// were flown.
-    pub doubt: Option<FewDoubt>,
-    /// CV of the map itself, in which filaments between few flown ones are filled in.
+    /// were simulated.
+    pub doubt: Option<SubsampleWarning>,
+    /// CV of the map itself, in which filaments between few simulated ones are filled in.
     pub of_map: f64,
 }
 
 impl PatchFindings {
-    /// The CV of the web; None if a few filaments were flown and do not tell it.
-    pub fn told(&self) -> Option<Unevenness> {
+    /// The CV of the web; None if a few filaments were simulated and do not tell it.
+    pub fn told(&self) -> Option<PatchCv> {
         self.doubt.is_none().then_some(self.map)
     }
 
     /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
     /// not told.
-    pub fn told_with_whole_error(&self) -> Option<Unevenness> {
+    pub fn with_total_error(&self) -> Option<PatchCv> {
         let told = self.told()?;
-        Some(Unevenness { standard_error: self.whole_error().whole().or(told.standard_error), ..told })
+        Some(PatchCv { standard_error: self.total_error().whole().or(told.standard_error), ..told })
     }
 
     /// The share by which the deviations of the map, with what is filled in, would have to be larger to be those of
@@ -126,29 +126,29 @@ impl PatchFindings {
         Some(off.hypot(told.by_pitch / told.cv).copysign(off))
     }
 
-    /// What the filaments of a web in one air would give in airs of their own, by their surrogate; None if they
+    /// What the filaments of a web in shared turbulence would give in independent turbulence, by their surrogate; None if they
     /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
     pub fn independent(&self) -> Option<f64> {
         self.single_fibres.filter(|_| self.evidence != Evidence::Known).map(|(cv, _)| cv)
     }
 
     /// The error of the CV of the map, by its causes.
-    pub fn whole_error(&self) -> WholeError {
+    pub fn total_error(&self) -> ErrorBudget {
         let flight = match self.evidence {
             Evidence::Known => None,
             Evidence::AllInOneAir => Some(0.0),
             Evidence::FewInOneAir => self.few.filter(|_| self.doubt.is_none()).map(|few| few.by_pitch),
         };
-        WholeError { chance: self.map.standard_error, flight }
+        ErrorBudget { chance: self.map.standard_error, flight }
     }
 
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
-    /// a few filaments do not tell it. Which filaments were flown for all is chance too.
+    /// a few filaments do not tell it. Which filaments were simulated for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
         if self.evidence == Evidence::Known {
             return self.map.interval();
         }
-        Unevenness { standard_error: self.whole_error().whole(), ..self.map }.interval_of_few()
+        PatchCv { standard_error: self.total_error().whole(), ..self.map }.interval_of_few()
     }
 }
 
@@ -160,7 +160,7 @@ const LAGS: usize = 257;
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn find(web: &Web, by: Control<'_>) -> Result<Findings, Error> {
+pub fn find(web: &Web, by: RunContext<'_>) -> Result<Findings, Error> {
     find_laid(web, None, by)
 }
 
@@ -168,7 +168,7 @@ pub fn find(web: &Web, by: Control<'_>) -> Result<Findings, Error> {
 ///
 /// # Errors
 /// As [`find`].
-pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Result<Findings, Error> {
+pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result<Findings, Error> {
     let sheet = &web.sheet;
     let SheetPosition { reach, columns } = across(web);
     let sides = sides(sheet, &columns);
@@ -187,7 +187,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
     let evidence = laid.evidence();
     // The progress is that of the web; what comes after it is short.
     let aside = AtomicU64::new(0);
-    let by = Control { done: &aside, ..by };
+    let by = RunContext { done: &aside, ..by };
     let map = laid.map.between(columns.clone());
     let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
     let alone = match paths(web) {
@@ -202,7 +202,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         _ => Places::Fixed,
     };
     let mut patches = Vec::new();
-    let uneven = try_each(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
+    let uneven = try_par_map(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;
     for (i, map) in uneven.into_iter().enumerate() {
         let Some(map) = map else { continue };
         let single_fibres = alone.as_ref().map(|alone| alone[i].cv);
@@ -212,9 +212,9 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
         let doubt = laid.few().find_map(|few| few.doubt_over(map.patch));
         let (of_map, is_told) = (map.cv, doubt.is_none());
         let map = match (evidence, few) {
-            (_, Some(few)) if is_told => Unevenness { cv: few.cv, standard_error: few.by_chance, ..map },
+            (_, Some(few)) if is_told => PatchCv { cv: few.cv, standard_error: few.by_chance, ..map },
             // A map of pieces of another sheet says nothing of chance.
-            (Evidence::FewInOneAir, _) => Unevenness { standard_error: None, ..map },
+            (Evidence::FewInOneAir, _) => PatchCv { standard_error: None, ..map },
             _ => map,
         };
         patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
@@ -226,7 +226,7 @@ pub(crate) fn find_laid(web: &Web, laid: Option<LaidWeb>, by: Control<'_>) -> Re
     let error_of_weight = Some(variance.sqrt()).filter(|error| error.is_normal());
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
     // The layer of which the filling knows least.
-    let off = |few: &&LayerFew| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
+    let off = |few: &&SubsampleEstimate| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
     let worst = laid.few().max_by(|a, b| off(a).total_cmp(&off(b)));
     let filling = worst.map_or_else(Vec::new, |few| few.octaves.clone());
     let of_weight = error_of_weight.filter(|_| evidence == Evidence::Known).unwrap_or(0.0);
@@ -264,32 +264,34 @@ fn straight(web: &Web, patch: f64) -> f64 {
 /// Where they have laid the whole sheet, its map has what the places of the filaments, their defects and the layers
 /// do together at random, and only what filling them in makes of it is taken away. On a sheet of pieces the layers,
 /// whose airs are independent of each other, add up their variances.
-fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilamentsCv> {
+fn of_all_layers(web: &Web, laid: &LaidWeb, map: PatchCv) -> Option<SubsampleCv> {
     let weights: Vec<f64> = web.layers.iter().map(|layer| layer.basis_weight(&web.sheet)).collect();
     let whole = weights.iter().sum::<f64>();
     let is_whole = is_whole(web, laid);
-    let of_layer = |(weight, flown): (&f64, &LayerFlown)| match &flown.few {
+    let of_layer = |(weight, simulated): (&f64, &LayerFlown)| match &simulated.few {
         // All of its filaments are on the map.
         None => is_whole.then_some(None),
         Some(few) => Some(Some((weight / whole, few.on_sheet(map.patch)?))),
     };
-    let layers: Vec<_> = weights.iter().zip(&laid.flown).map(of_layer).collect::<Option<_>>()?;
-    let layers: Vec<(f64, FewFilamentsCv)> = layers.into_iter().flatten().collect();
+    let layers: Vec<_> = weights.iter().zip(&laid.simulated).map(of_layer).collect::<Option<_>>()?;
+    let layers: Vec<(f64, SubsampleCv)> = layers.into_iter().flatten().collect();
     if layers.is_empty() {
         return None;
     }
-    let sum = |of: &dyn Fn(&FewFilamentsCv) -> f64, power: i32| {
+    let sum = |of: &dyn Fn(&SubsampleCv) -> f64, power: i32| {
         layers.iter().map(|(share, few)| (share.powi(2) * of(few)).powi(power)).sum::<f64>()
     };
     let square = sum(&|few| few.cv * few.cv, 1);
     let cv = square.sqrt();
     // The errors of sums of squares, as one of their root. What layers have in common at random is as much as their
     // waves are alike: at most, their sampling errors add up. Sheets in other airs have nothing in common.
-    let is_of_levels =
-        laid.flown.iter().all(|layer| layer.few.as_ref().is_some_and(LayerFew::is_of_two_levels));
-    let chance = |few: &FewFilamentsCv| few.cv * few.by_chance.unwrap_or(f64::NAN);
+    let is_of_levels = laid
+        .simulated
+        .iter()
+        .all(|layer| layer.few.as_ref().is_some_and(SubsampleEstimate::is_of_two_levels));
+    let chance = |few: &SubsampleCv| few.cv * few.by_chance.unwrap_or(f64::NAN);
     let by_chance = if is_of_levels { sum(&chance, 2).sqrt() } else { sum(&chance, 1) } / cv;
-    let told = FewFilamentsCv {
+    let told = SubsampleCv {
         patch: map.patch,
         cv,
         by_chance: Some(by_chance).filter(|error| error.is_finite()),
@@ -307,10 +309,10 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: Unevenness) -> Option<FewFilame
     if is_of_levels {
         return Some(told);
     }
-    Some(FewFilamentsCv { by_chance: map.standard_error.map(|error| error * map.cv / told.cv), ..told })
+    Some(SubsampleCv { by_chance: map.standard_error.map(|error| error * map.cv / told.cv), ..told })
 }
 
-/// Whether the filaments of every layer of which few were flown have laid the whole sheet.
+/// Whether the filaments of every layer of which few were simulated have laid the whole sheet.
 fn is_whole(web: &Web, laid: &LaidWeb) -> bool {
     laid.few().all(|few| few.sheet == [web.sheet.width, web.sheet.length])
 }
@@ -319,14 +321,14 @@ fn is_whole(web: &Web, laid: &LaidWeb) -> bool {
 ///
 /// What the flight itself leaves out (its mesh, its time step, its drag law) is not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WholeError {
+pub struct ErrorBudget {
     /// By chance: another piece of the same web has another CV. None if the sheet is too small to say.
     pub chance: Option<f64>,
-    /// By the filaments that were flown, which are few. None if nothing was flown, or if they do not tell it.
+    /// By the filaments that were simulated, which are few. None if nothing was simulated, or if they do not tell it.
     pub flight: Option<f64>,
 }
 
-impl WholeError {
+impl ErrorBudget {
     /// All causes together; None if one of them is not known.
     ///
     /// The square of a difference and the square of its standard error together are what the square of the
@@ -372,14 +374,14 @@ fn of_sides(sides: impl Iterator<Item = f64>, doubt: impl FnOnce(Vec<f64>) -> Do
     (!sides.is_empty()).then(|| doubt(sides))
 }
 
-/// Filaments of a web in one air that were lost.
+/// Filaments of a web in shared turbulence that were lost.
 fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
-    let count = |(layer, flown): (&Layer, &LayerFlown)| {
-        flown.few.as_ref().map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
+    let count = |(layer, simulated): (&Layer, &LayerFlown)| {
+        simulated.few.as_ref().map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
     };
     let others = laid.few().map(|few| few.on_other_sheets + few.lost_on_other_sheets).sum::<u64>();
-    let of = web.layers.iter().zip(&laid.flown).map(count).sum::<u64>() + others;
-    let lost = laid.flown.iter().map(|layer| layer.lost).sum::<u64>()
+    let of = web.layers.iter().zip(&laid.simulated).map(count).sum::<u64>() + others;
+    let lost = laid.simulated.iter().map(|layer| layer.lost).sum::<u64>()
         + laid.few().map(|few| few.lost_on_other_sheets).sum::<u64>();
     let lost = Some(lost).filter(|lost| *lost > 0);
     lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
@@ -387,7 +389,7 @@ fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
 
 /// Layers whose CV is not known to the wanted error.
 fn unsure(laid: &LaidWeb) -> Vec<Doubt> {
-    let of_layer = |few: &LayerFew| {
+    let of_layer = |few: &SubsampleEstimate| {
         let number = nearest_to_seen(few.cvs.iter().map(|cv| cv.patch))?;
         let (wanted, cv) = (few.wanted?, few.cvs[number]);
         let reached = cv.by_chance?.hypot(cv.by_pitch) / cv.cv;
@@ -402,14 +404,14 @@ fn charged(laid: &LaidWeb) -> Vec<Doubt> {
     (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
 }
 
-/// Whether the few filaments that were flown are enough for what is told of all.
+/// Whether the few filaments that were simulated are enough for what is told of all.
 fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
     let few = || findings.laid.few();
     let too_few = few().filter_map(|few| {
         let why = few.doubt()?;
         let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
         let (pitch, enough) = (few.pitch, few.enough_per_metre());
-        Some(Doubt::FewFilaments { sides: sides.collect(), why, pitch, enough })
+        Some(Doubt::Subsample { sides: sides.collect(), why, pitch, enough })
     });
     let mut doubts: Vec<Doubt> = too_few.collect();
     let missing = few().flat_map(|few| few.missing).fold(0.0, f64::max);

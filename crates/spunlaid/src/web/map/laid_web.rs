@@ -1,7 +1,7 @@
 //! What has been laid.
 
 use super::basis_weight::Map;
-use super::few_findings::LayerFew;
+use super::few_findings::SubsampleEstimate;
 use super::window::Strand;
 use crate::fibre::{SheetHeight, WayPlace};
 use crate::ground::statistics::student_t_95_at;
@@ -28,9 +28,9 @@ pub struct LaidWeb {
     pub map: Map,
     /// Mass beyond edges that cut it off [kg].
     pub cut: f64,
-    /// What is known of each layer whose filaments were flown together and laid as they came down; empty of a web
+    /// What is known of each layer whose filaments were simulated together and laid as they came down; empty of a web
     /// of independent filaments.
-    pub flown: Vec<LayerFlown>,
+    pub simulated: Vec<LayerFlown>,
 }
 
 /// From what the CV of a web is known.
@@ -38,21 +38,21 @@ pub struct LaidWeb {
 pub enum Evidence {
     /// From known numbers of filaments that are independent of each other.
     Known,
-    /// From all filaments of the sheet, which were flown in one air.
+    /// From all filaments of the sheet, which were simulated in one air.
     AllInOneAir,
-    /// From a few filaments that were flown in one air, for all.
+    /// From a few filaments that were simulated in one air, for all.
     FewInOneAir,
 }
 
-/// What is known of the filaments of a layer that were flown together, in one air.
+/// What is known of the filaments of a layer that were simulated together, in one air.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerFlown {
     /// Single fibres of a window.
     pub strands: Vec<Strand>,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
-    /// What a few filaments say about the web of all; None if all were flown.
-    pub few: Option<LayerFew>,
+    /// What a few filaments say about the web of all; None if all were simulated.
+    pub few: Option<SubsampleEstimate>,
     /// What charge has made of the filaments; None if they carry none.
     pub charged: Option<ChargedCurtain>,
     /// Filaments that were lost: they are missing on the web from then on.
@@ -64,29 +64,32 @@ pub struct LayerFlown {
 impl LaidWeb {
     /// From what its CV is known.
     pub fn evidence(&self) -> Evidence {
-        match (self.flown.is_empty(), self.few().next()) {
+        match (self.simulated.is_empty(), self.few().next()) {
             (true, _) => Evidence::Known,
             (false, None) => Evidence::AllInOneAir,
             (false, Some(_)) => Evidence::FewInOneAir,
         }
     }
 
-    /// What the few filaments say of each layer of which only a few were flown.
-    pub fn few(&self) -> impl Iterator<Item = &LayerFew> {
-        self.flown.iter().filter_map(|layer| layer.few.as_ref())
+    /// What the few filaments say of each layer of which only a few were simulated.
+    pub fn few(&self) -> impl Iterator<Item = &SubsampleEstimate> {
+        self.simulated.iter().filter_map(|layer| layer.few.as_ref())
     }
 
     /// The single fibres of all layers in the window.
     pub fn strands(&self) -> Vec<Strand> {
-        let of_layer = |(layer, flown): (usize, &LayerFlown)| {
-            flown.strands.iter().map(|strand| Strand { layer, ..strand.clone() }).collect::<Vec<_>>()
+        let of_layer = |(layer, simulated): (usize, &LayerFlown)| {
+            simulated.strands.iter().map(|strand| Strand { layer, ..strand.clone() }).collect::<Vec<_>>()
         };
-        self.flown.iter().enumerate().flat_map(of_layer).collect()
+        self.simulated.iter().enumerate().flat_map(of_layer).collect()
     }
 
     /// The layers whose filaments are charged, by their index.
     pub fn charged(&self) -> impl Iterator<Item = (usize, &ChargedCurtain)> {
-        self.flown.iter().enumerate().filter_map(|(layer, flown)| Some((layer, flown.charged.as_ref()?)))
+        self.simulated
+            .iter()
+            .enumerate()
+            .filter_map(|(layer, simulated)| Some((layer, simulated.charged.as_ref()?)))
     }
 }
 
@@ -137,7 +140,7 @@ impl Correlation {
     }
 }
 
-/// What filaments have laid that were flown in one air, and the surrogate of it.
+/// What filaments have laid that were simulated in one air, and the surrogate of it.
 #[derive(Clone, Debug)]
 pub struct FlownFibres {
     /// The curves of some of them on the belt, without the spin-up.
@@ -168,12 +171,12 @@ pub struct Curves {
     pub(super) one_air: OneAir,
 }
 
-/// How far curves that were flown in one air hang together.
+/// How far curves that were simulated in one air hang together.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OneAir {
     /// Number of the group of neighbours of each curve. Groups are so wide that one hardly knows of another.
     pub(crate) groups: Vec<usize>,
-    /// Length of fed fibre after which gusts are forgotten [m].
+    /// Length of fed fibre after which eddies are forgotten [m].
     pub(crate) memory: f64,
 }
 
@@ -207,7 +210,7 @@ impl Curves {
             }
             let middle = [0, 1].map(|axis| curve.iter().map(|p| p[axis]).sum::<f64>() / curve.len() as f64);
             for point in curve.iter_mut() {
-                // The place under the nozzle is where the curve is on average.
+                // The place under the hole is where the curve is on average.
                 *point = [point[0] - middle[0], point[1] - middle[1]];
             }
         }

@@ -1,12 +1,12 @@
 //! Lays all filaments of a web.
 
 use super::Web;
-use super::canvas::{Canvas, CanvasPart};
+use super::canvas::{CanvasPart, DepositionGrid};
 use super::laid_web::LaidWeb;
 use super::plan::{Plan, plans};
 use super::window::{Strand, Strands, Window, WindowOnSheet};
-use crate::ground::threads::{lock, try_each};
-use crate::ground::{Control, Error, Lanes, WIDTH};
+use crate::ground::threads::{lock, try_par_map};
+use crate::ground::{Error, Lanes, RunContext, WIDTH};
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -30,12 +30,12 @@ pub fn pieces(web: &Web) -> Result<u64, Error> {
 ///
 /// # Errors
 /// If the web cannot be laid, or if it is stopped.
-pub fn lay(web: &Web, by: Control<'_>) -> Result<LaidWeb, Error> {
+pub fn lay(web: &Web, by: RunContext<'_>) -> Result<LaidWeb, Error> {
     let plans = plans(web)?;
     let pieces: Vec<f64> = plans.iter().map(Plan::mass_of_piece).collect();
     // No cell of a trace alone has more than four times its mean; a canvas reckons with ropes of 64 times.
     let traces = plans.iter().map(|plan| plan.weight_of_trace(&web.sheet)).sum::<f64>() / 16.0;
-    let canvas = Canvas::new(&web.sheet, &pieces, web.basis_weight() + traces)?.ring(by.isa);
+    let canvas = DepositionGrid::new(&web.sheet, &pieces, web.basis_weight() + traces)?.ring(by.isa);
     let mut units: Vec<(&Plan<'_>, Range<usize>)> = Vec::new();
     for plan in &plans {
         let count = plan.places.len();
@@ -45,7 +45,7 @@ pub fn lay(web: &Web, by: Control<'_>) -> Result<LaidWeb, Error> {
     }
     // Parts are large; a thread uses one again.
     let parts = Mutex::new(Vec::new());
-    try_each(by.threads, units.len(), |unit| {
+    try_par_map(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::new(&canvas));
         plan.draw(web, (which.clone(), canvas.quanta(plan.mass_of_piece())), &mut part, by)?;
@@ -60,7 +60,7 @@ pub fn lay(web: &Web, by: Control<'_>) -> Result<LaidWeb, Error> {
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn strands(web: &Web, window: Window, by: Control<'_>) -> Result<Vec<Strand>, Error> {
+pub fn strands(web: &Web, window: Window, by: RunContext<'_>) -> Result<Vec<Strand>, Error> {
     let plans = plans(web)?;
     let sets = |(layer, plan): (usize, &Plan<'_>)| {
         (0..plan.places.len()).step_by(WIDTH).map(move |first| (layer, first)).collect::<Vec<_>>()
@@ -72,7 +72,7 @@ pub fn strands(web: &Web, window: Window, by: Control<'_>) -> Result<Vec<Strand>
     sets.retain(|&(layer, first)| {
         plans[layer].places[first..].iter().take(WIDTH).any(|place| nears(&plans[layer], *place))
     });
-    let of_sets = try_each(by.threads, sets.len(), |i| {
+    let of_sets = try_par_map(by.threads, sets.len(), |i| {
         let (layer, first) = sets[i];
         strands_of(web, &on, (layer, &plans[layer]), first, by)
     })?;
@@ -85,7 +85,7 @@ fn strands_of(
     on: &WindowOnSheet,
     (layer, plan): (usize, &Plan<'_>),
     first: usize,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<Strand>, Error> {
     let count = WIDTH.min(plan.places.len() - first);
     let [places, mut along] = plan.start(web, first, count);

@@ -4,41 +4,41 @@
 //! CV²(fine) = CV²(coarse, all) + [CV²(fine) − CV²(coarse)](common part)
 //! ```
 //!
-//! Most of the error of a CV is that the flown sheet holds few clouds, and a coarse flight has nearly the same clouds
-//! as a fine one in the same air. So the area is flown coarsely, and the common part gives the error of the coarse
+//! Most of the error of a CV is that the simulated sheet holds few clouds, and a coarse flight has nearly the same clouds
+//! as a fine one in the same air. So the area is simulated coarsely, and the common part gives the error of the coarse
 //! mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of
 //! a control variate.                                                                            theory.md (83m), (83o)
 
 use super::few_filaments::{SMALL, small_patch};
-use super::few_findings::{FewFilamentsCv, LayerFew};
+use super::few_findings::{SubsampleCv, SubsampleEstimate};
 use super::uniformity::nearest_to_seen;
 
-/// Results of a layer on sheets that were flown finely, coarsely, or both ways in the same air.
+/// Results of a layer on sheets that were simulated finely, coarsely, or both ways in the same air.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Levels {
-    /// Sheets that were flown both ways.
+    /// Sheets that were simulated both ways.
     pub(crate) pairs: Vec<Pair>,
     /// Coarse sheets in other airs.
-    pub(crate) coarse: Vec<LayerFew>,
+    pub(crate) coarse: Vec<SubsampleEstimate>,
 }
 
-/// One sheet in one air, flown both ways.
+/// One sheet in one air, simulated both ways.
 #[derive(Clone, Debug)]
 pub(crate) struct Pair {
     /// Flown finely.
-    pub(crate) fine: LayerFew,
+    pub(crate) fine: SubsampleEstimate,
     /// Flown coarsely.
-    pub(crate) coarse: LayerFew,
+    pub(crate) coarse: SubsampleEstimate,
 }
 
 /// Parts of the variance of a CV, as parts of its square.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Variances {
-    /// Because the area that was flown finely is small.
+    /// Because the area that was simulated finely is small.
     pub(crate) by_pairs: f64,
     /// Because the whole area is small.
     pub(crate) by_area: f64,
-    /// Because few filaments were flown.
+    /// Because few filaments were simulated.
     pub(crate) by_pitch: f64,
 }
 
@@ -59,14 +59,14 @@ struct OfPatch {
 /// A sheet as one of many.
 #[derive(Clone, Copy)]
 struct Sheet<'a> {
-    few: &'a LayerFew,
+    few: &'a SubsampleEstimate,
     /// Its fraction of the area of all.
     fraction: f64,
 }
 
 impl Levels {
     /// Combines the sheets: the first fine sheet with the CV of all. None without a pair.
-    pub(crate) fn combine(&self) -> Option<LayerFew> {
+    pub(crate) fn combine(&self) -> Option<SubsampleEstimate> {
         let first = &self.pairs.first()?.fine;
         let mut combined = first.clone();
         for (number, cv) in combined.cvs.iter_mut().enumerate() {
@@ -74,7 +74,7 @@ impl Levels {
                 continue;
             };
             let error = |variance: f64| of_all * variance.sqrt();
-            *cv = FewFilamentsCv {
+            *cv = SubsampleCv {
                 by_chance: Some(error(variances.by_pairs + variances.by_area)),
                 by_pitch: error(variances.by_pitch),
                 of_halves,
@@ -111,9 +111,10 @@ impl Levels {
     /// * `number` – of the patches of the first fine sheet
     fn combine_over(&self, number: usize) -> Option<OfPatch> {
         let patch = self.pairs.first()?.fine.cvs[number].patch;
-        let at = |few: &LayerFew| few.cvs.iter().position(|cv| (cv.patch / patch - 1.0).abs() < 1e-6);
-        let square = |few: &LayerFew| Some(few.cvs[at(few)?].cv.powi(2));
-        let blocks = |few: &LayerFew| Some(few.blocks[at(few)?].clone());
+        let at =
+            |few: &SubsampleEstimate| few.cvs.iter().position(|cv| (cv.patch / patch - 1.0).abs() < 1e-6);
+        let square = |few: &SubsampleEstimate| Some(few.cvs[at(few)?].cv.powi(2));
+        let blocks = |few: &SubsampleEstimate| Some(few.blocks[at(few)?].clone());
         let whole: f64 = self.pairs.iter().map(|pair| area(&pair.fine)).sum();
         let (mut fine, mut common) = (0.0, 0.0);
         let (mut fine_blocks, mut common_blocks) = (Vec::new(), Vec::new());
@@ -150,7 +151,7 @@ impl Levels {
     ///
     /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
     /// distance is the same on all of them.
-    fn by_pitch(&self, patch: f64, at: impl Fn(&LayerFew) -> Option<usize>) -> Option<(f64, f64)> {
+    fn by_pitch(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<(f64, f64)> {
         let (mut squares, mut off, mut fractions) = (0.0, 0.0, 0.0);
         for Sheet { few, fraction } in self.coarse() {
             let of_halves = few.cvs[at(few)?].of_halves;
@@ -168,7 +169,7 @@ impl Levels {
 /// Largest coefficient: a level that scatters so much less than the other one says little about it.
 const MOST: f64 = 2.0;
 
-fn area(few: &LayerFew) -> f64 {
+fn area(few: &SubsampleEstimate) -> f64 {
     few.sheet[0] * few.sheet[1]
 }
 
@@ -320,9 +321,9 @@ mod tests {
     }
 
     /// A sheet of such blocks, whose few filaments leave nothing open.
-    fn sheet(blocks: Vec<f64>) -> LayerFew {
+    fn sheet(blocks: Vec<f64>) -> SubsampleEstimate {
         let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
-        let cv = FewFilamentsCv {
+        let cv = SubsampleCv {
             patch: 0.01,
             cv: mean.sqrt(),
             by_chance: None,
@@ -334,13 +335,13 @@ mod tests {
             beyond_sheet: 0.0,
         };
         let sheet = [0.2, 0.05 * (blocks.len() / ACROSS) as f64];
-        LayerFew {
+        SubsampleEstimate {
             sheet,
             area: sheet[0] * sheet[1],
             cvs: vec![cv],
             blocks: vec![blocks],
             blocks_across: ACROSS,
-            ..LayerFew::default()
+            ..SubsampleEstimate::default()
         }
     }
 
@@ -365,7 +366,7 @@ mod tests {
 
     /// Sheets of which the pair has a part of its clouds in common.
     fn levels(random: &mut Normal, in_common: f64, reaching: bool) -> Levels {
-        let mut both = |rows: usize| -> [LayerFew; 2] {
+        let mut both = |rows: usize| -> [SubsampleEstimate; 2] {
             let [a, b] = [0, 1].map(|_| blocks(random, rows, reaching));
             let other = |(a, b): (&f64, &f64)| in_common * a + (1.0 - in_common * in_common).sqrt() * b;
             let coarse: Vec<f64> = a.iter().zip(&b).map(other).collect();
@@ -387,7 +388,7 @@ mod tests {
             let (mut sum, mut squares, mut reported, mut alone) = (0.0, 0.0, 0.0, 0.0);
             for _ in 0..TRIALS {
                 let levels = levels(&mut random, in_common, reaching);
-                let square = |few: &LayerFew| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
+                let square = |few: &SubsampleEstimate| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
                 let combined = levels.combine().unwrap();
                 sum += square(&combined);
                 squares += square(&combined).powi(2);

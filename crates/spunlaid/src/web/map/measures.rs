@@ -12,12 +12,12 @@ type OfPatch = Measure<PatchFindings>;
 
 /// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
 /// first, of the tables and of studies.
-pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
+pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
     share("cv", "CV over patches of # mm", |patch| Some(patch.told()?.cv))
         .meaning("coefficient of variation of the basis weight of the map over square patches")
         .kept("cv_#_mm", "cv_#_mm")
         .main()
-        .figure(&figure("cv", "Unevenness of the web, CV", "CV of the web"))
+        .figure(&figure("cv", "PatchCv of the web, CV", "CV of the web"))
         .errors(&[
             share("cv_standard_error", "Error of the CV by chance", |patch| patch.map.standard_error)
                 .meaning("standard error of the CV: another piece of the same web would have another CV")
@@ -25,14 +25,14 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
                 .role(OfOne),
             OfPatch::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
                 .meaning("degrees of freedom of the error by chance"),
-            share("cv_flight_error", "Error of the CV by the few fibres", |patch| patch.whole_error().flight)
-                .meaning("standard error of the CV because only a few fibres were flown")
+            share("cv_sample_error", "Error of the CV by the few fibres", |patch| patch.total_error().flight)
+                .meaning("standard error of the CV because only a few fibres were simulated")
                 .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
                 .short("few fibres")
                 .digits(2)
                 .shown_if(|patch| patch.few.is_some())
                 .role(Further),
-            share("cv_whole_error", "", |patch| patch.whole_error().whole())
+            share("cv_total_error", "", |patch| patch.total_error().whole())
                 .meaning("error of the CV by all causes together"),
         ]),
     share("cv_of_map", "", |patch| patch.few.map(|_| patch.of_map))
@@ -74,7 +74,7 @@ pub const OF_PATCHES: &[Measure<PatchFindings>] = &[
 ];
 
 /// The measures of a whole web, in the order of `summary.json` and of studies.
-pub const OF_WEBS: &[Measure<Findings>] = &[
+pub const WEB_MEASURES: &[Measure<Findings>] = &[
     OfWeb::new(
         "basis_weight_kg_m2",
         "Basis weight",

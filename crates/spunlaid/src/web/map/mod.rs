@@ -1,7 +1,7 @@
 //! The web: how much fibre lies where on the belt when many filaments are laid side by side.
 //!
 //! A [`Web`] is a sheet of cells on which layers of filaments are laid, each a curve of the
-//! [surrogate](crate::web::surrogate) or one that was flown. [`lay`] gives the [`Map`] of the basis weight, the
+//! [surrogate](crate::web::surrogate) or one that was simulated. [`lay`] gives the [`Map`] of the basis weight, the
 //! mass of fibre in each cell. Of such a map, simulated or measured, [`uniformity`] says how uneven it is.
 //!
 //! The error of a CV comes from what is chance, and each kind of chance has one place (theory.md):
@@ -9,8 +9,8 @@
 //! | what is chance | where | theory |
 //! |---|---|---|
 //! | the waves of one sheet, of independent filaments or of one air | [`uniformity`] | "Chance in a map" |
-//! | which of the filaments were flown | `few_filaments` | (83d), (83e), "The error of few filaments" |
-//! | the mean over filaments that share gusts | `shared_error` | (72a) |
+//! | which of the filaments were simulated | `few_filaments` | (83d), (83e), "The error of few filaments" |
+//! | the mean over filaments that share eddies | `shared_error` | (72a) |
 //! | the curves of single fibres, of a web of independent filaments | `expected` | scatter between the fibres |
 //! | when neighbours come down together | `simulation::one_air` | "The error of a correlation of neighbours" |
 //!
@@ -41,19 +41,19 @@ mod window;
 
 use crate::web::surrogate::Surrogate;
 pub use basis_weight::Map;
-pub(crate) use canvas::{Canvas, CanvasPart, NO_CORNERS, widen};
+pub(crate) use canvas::{CanvasPart, DepositionGrid, NO_CORNERS, widen};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
-pub(crate) use defects::{Brush, Titres, holes, inlets};
+pub(crate) use defects::{Depositor, Titres, holes, inlets};
 pub use doubt::Doubt;
 pub(crate) use expected::{ExpectedCv, expected_cv, inner_columns};
 pub(crate) use few_filaments::{
-    Arrangement, FEWEST as FEWEST_OF_FEW, FewFilaments, FilledMaps, blocks_on, small_patch,
+    Arrangement, FEWEST as FEWEST_OF_FEW, FilledMaps, Subsample, blocks_on, small_patch,
 };
-pub use few_findings::{FewDoubt, FewFilamentsCv, LayerFew};
 pub(crate) use few_findings::{LEAST_SAVING, TRIED};
+pub use few_findings::{SubsampleCv, SubsampleEstimate, SubsampleWarning};
 pub(crate) use findings::find_laid;
-pub use findings::{Findings, PatchFindings, WholeError, find};
+pub use findings::{ErrorBudget, Findings, PatchFindings, find};
 pub(crate) use laid_web::OneAir;
 pub use laid_web::{
     ChargedCurtain, Correlation, Curves, Evidence, FlownFibres, LaidWeb, LayerFlown, NeighbourCorrelation,
@@ -62,7 +62,7 @@ pub use laid_web::{
 pub use lattice::Chance;
 pub use lay::{lay, pieces, strands};
 pub(crate) use levels::OfMean;
-pub use measures::{OF_PATCHES, OF_WEBS};
+pub use measures::{PATCH_MEASURES, WEB_MEASURES};
 pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 use std::sync::Arc;
@@ -139,7 +139,7 @@ pub enum Filaments {
         /// Size of the slot in machine direction [m].
         depth: f64,
     },
-    /// In rows of nozzles.
+    /// In rows of holes.
     Rows(Vec<Row>),
 }
 
@@ -186,26 +186,26 @@ impl Filaments {
     }
 }
 
-/// A row of nozzles.
+/// A row of holes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Place of the first nozzle, from the sheet's edge [m].
+    /// Place of the first hole, from the sheet's edge [m].
     pub offset: f64,
-    /// Distance from nozzle to nozzle [m].
+    /// Distance from hole to hole [m].
     pub pitch: f64,
-    /// Number of nozzles.
+    /// Number of holes.
     pub filaments: u64,
     /// Place of the row in machine direction, from the middle of the slot [m].
     pub md: f64,
-    /// Whether the pitch is the width of the sheet over the number of nozzles.
+    /// Whether the pitch is the width of the sheet over the number of holes.
     pub is_even: bool,
 }
 
 impl Row {
     /// A row in the middle of the slot.
     ///
-    /// * `offset` – place of the first nozzle [m]
-    /// * `pitch` – distance from nozzle to nozzle [m]
+    /// * `offset` – place of the first hole [m]
+    /// * `pitch` – distance from hole to hole [m]
     pub const fn new(offset: f64, pitch: f64, filaments: u64) -> Self {
         Self { offset, pitch, filaments, md: 0.0, is_even: false }
     }
@@ -216,7 +216,7 @@ impl Row {
 pub enum Fibres {
     /// Paths of the stochastic model, each its own.
     Surrogate(Surrogate),
-    /// Curves of filaments that were flown in one air, which lay them on the sheet as they come down.
+    /// Curves of filaments that were simulated in one air, which lay them on the sheet as they come down.
     Flown(Arc<FlownFibres>),
 }
 

@@ -1,15 +1,15 @@
-//! What one fibre alone says about the unevenness of a web of many.
+//! What one fibre alone says about the CV of a web of many.
 
 use super::lay::lay;
 use super::uniformity::boxes;
 use super::{Fibres, Filaments, FlownFibres, Layer, Row, Sheet, Web};
 use crate::ground::random::stream;
-use crate::ground::threads::try_each;
-use crate::ground::{Control, Error, Estimate};
+use crate::ground::threads::try_par_map;
+use crate::ground::{Error, Estimate, RunContext};
 use crate::web::surrogate::Surrogate;
 use rand_chacha::rand_core::Rng;
 
-/// How the unevenness is found from single fibres.
+/// How the CV is found from single fibres.
 #[derive(Clone, Copy, Debug)]
 pub struct OneFibre {
     /// Side of a cell [m].
@@ -33,7 +33,7 @@ const ABREAST: usize = 8;
 pub struct SingleFibres {
     /// `CV²·τ` of filaments at random places [1/m]: the value of each fibre, and their mean.
     pub at_random: Estimate,
-    /// The same of filaments at fixed places, without what the places themselves do, the unevenness of
+    /// The same of filaments at fixed places, without what the places themselves do, the CV of
     /// [`SingleFibres::profile`].
     pub at_places: Estimate,
     /// Mean length of a filament in a patch [m], by the first column of the patch; the trace lies in the middle of the
@@ -63,7 +63,7 @@ pub fn one_fibre(
     layer: &Layer,
     sides: &[usize],
     sample: OneFibre,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<SingleFibres>, Error> {
     let largest = sides.iter().copied().max().unwrap_or(1);
     // So far apart that no patch meets two fibres.
@@ -97,7 +97,7 @@ fn add(
     sides: &[usize],
     sample: OneFibre,
     [apart, trace, rows]: [usize; 3],
-    by: Control<'_>,
+    by: RunContext<'_>,
     found: &mut [FibreSums],
 ) -> Result<(), Error> {
     let pitch = apart as f64 * sample.cell;
@@ -111,7 +111,7 @@ fn add(
     let metres = map.quantum / layer.linear_density;
     let length = layer.fed_length(&web.sheet);
     let share = metres / (rows as f64);
-    let of_sides = try_each(by.threads, sides.len(), |i| {
+    let of_sides = try_par_map(by.threads, sides.len(), |i| {
         let mut fibres = vec![Alone { squares: 0.0, profile: vec![0.0; apart] }; sample.fibres as usize];
         boxes(&map, sides[i], [map.columns, map.rows], |_, boxes| {
             for (Alone { squares, profile }, cells) in fibres.iter_mut().zip(boxes.chunks_exact(apart)) {
@@ -268,15 +268,15 @@ impl Fibres {
     pub fn surrogate(&self) -> Option<Surrogate> {
         match self {
             Self::Surrogate(surrogate) => Some(*surrogate),
-            Self::Flown(flown) => flown.surrogate(),
+            Self::Flown(simulated) => simulated.surrogate(),
         }
     }
 
-    /// What was flown, if they were.
-    pub fn flown(&self) -> Option<&FlownFibres> {
+    /// What was simulated, if they were.
+    pub fn simulated(&self) -> Option<&FlownFibres> {
         match self {
             Self::Surrogate(_) => None,
-            Self::Flown(flown) => Some(flown),
+            Self::Flown(simulated) => Some(simulated),
         }
     }
 
@@ -284,7 +284,7 @@ impl Fibres {
     pub fn sigma_cd(&self) -> f64 {
         match self {
             Self::Surrogate(surrogate) => surrogate.sigma_cd,
-            Self::Flown(flown) => flown.curves.sigma_cd(),
+            Self::Flown(simulated) => simulated.curves.sigma_cd(),
         }
     }
 

@@ -3,15 +3,15 @@
 use super::plan::Plan;
 use super::shared_error::{Part, SharedError};
 use super::{Curves, Fibres, Web};
-use crate::ground::{Control, Error, Estimate, WIDTH};
+use crate::ground::{Error, Estimate, RunContext, WIDTH};
 use std::f64::consts::PI;
 
-/// Directions of the pieces of some filaments on the belt, each piece with its mass: of curves that were flown,
+/// Directions of the pieces of some filaments on the belt, each piece with its mass: of curves that were simulated,
 /// each of them once; of a surrogate, those of up to 64 filaments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orientation {
     /// `⟨cos²⟩` of the angle to the machine direction of each filament: ½ without orientation. Its error counts
-    /// gusts that move neighbours together.
+    /// eddies that move neighbours together.
     pub cos_squared: Estimate,
     /// Share of the mass by direction: entry i holds angles to the machine direction from 10i to 10(i+1)
     /// degrees, positive towards the cross direction, in the sense in which the fibre was fed.
@@ -53,9 +53,9 @@ impl DirectionSums {
 struct Sample {
     /// Share of the mass of the web.
     weight: f64,
-    /// Of each filament, by stretches of it: one unless filaments hang in one air.
+    /// Of each filament, by stretches of it: one unless filaments hang in shared turbulence.
     filaments: Vec<Vec<DirectionSums>>,
-    /// The groups of neighbours of filaments in one air.
+    /// The groups of neighbours of filaments in shared turbulence.
     groups: Option<Vec<usize>>,
     directions: [u64; Orientation::DIRECTIONS],
 }
@@ -75,7 +75,7 @@ impl Sample {
         }
     }
 
-    /// All curves that were flown, each once.
+    /// All curves that were simulated, each once.
     fn of_curves(weight: f64, curves: &Curves, advance: f64) -> Self {
         let stretches = (curves.length() / curves.one_air.memory).max(1.0) as usize;
         let mut sample = Self { groups: Some(curves.one_air.groups.clone()), ..Self::new(weight) };
@@ -91,7 +91,7 @@ impl Sample {
     }
 
     /// Filaments of a surrogate, spread over the width.
-    fn of_surrogate(weight: f64, plan: &Plan<'_>, web: &Web, by: Control<'_>) -> Result<Self, Error> {
+    fn of_surrogate(weight: f64, plan: &Plan<'_>, web: &Web, by: RunContext<'_>) -> Result<Self, Error> {
         let groups = plan.places.len().div_ceil(WIDTH);
         let advance = plan.layer.belt_ratio() * plan.piece;
         let mut sample = Self::new(weight);
@@ -201,13 +201,13 @@ impl Orientation {
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn orientation(web: &Web, by: Control<'_>) -> Result<Orientation, Error> {
+pub fn orientation(web: &Web, by: RunContext<'_>) -> Result<Orientation, Error> {
     let (mut samples, mut piece) = (Vec::new(), 0.0_f64);
     for (number, layer) in web.layers.iter().enumerate() {
         let weight = layer.basis_weight(&web.sheet) / web.basis_weight();
         samples.push(match &layer.fibres {
-            Fibres::Flown(flown) => {
-                let curves = &flown.curves;
+            Fibres::Flown(simulated) => {
+                let curves = &simulated.curves;
                 piece = piece.max(curves.spacing());
                 Sample::of_curves(weight, curves, layer.belt_ratio() * curves.spacing())
             }
@@ -228,7 +228,7 @@ mod tests {
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-    /// Directions of filaments of which ten beside each other are in the same gust: over many seeds the errors
+    /// Directions of filaments of which ten beside each other are in the same eddy: over many seeds the errors
     /// that are told are as large as the scatter, and those of independent filaments a half of it or less.
     #[test]
     fn stat_the_errors_of_filaments_in_one_air_are_their_scatter() {
@@ -249,7 +249,7 @@ mod tests {
                 for (filament, _) in
                     (0..FILAMENTS).flat_map(|filament| (0..PIECES).map(move |i| (filament, i)))
                 {
-                    // A gust draws filaments out along the machine direction by more or less.
+                    // A eddy draws filaments out along the machine direction by more or less.
                     let angle = PI * uniform();
                     let drawn = 1.0 + gusts[filament / GUST];
                     sample.add((filament, stretch), [drawn * libm::cos(angle), libm::sin(angle)]);

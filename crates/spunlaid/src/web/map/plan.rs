@@ -4,7 +4,7 @@ use super::canvas::{CanvasPart, OUTSIDE, Pens};
 use super::defects::{PLACES, Titres, inlets};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::ground::random::{stream, uniform};
-use crate::ground::{Control, Error, Fault, Isa, Lanes, WIDTH};
+use crate::ground::{Error, Fault, Isa, Lanes, RunContext, WIDTH};
 use crate::web::surrogate::{PATH_POINTS, PathKey, Paths, Surrogate};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
@@ -112,7 +112,7 @@ impl<'a> Plan<'a> {
         web: &Web,
         (which, quanta): (Range<usize>, u32),
         part: &mut CanvasPart<'_>,
-        by: Control<'_>,
+        by: RunContext<'_>,
     ) -> Result<(), Error> {
         let (Some(low), Some(high)) = (self.places.get(which.start), self.places.get(which.end - 1)) else {
             return Ok(());
@@ -166,7 +166,7 @@ impl<'a> Plan<'a> {
         &self,
         web: &Web,
         sets: &[(usize, usize)],
-        by: Control<'_>,
+        by: RunContext<'_>,
         mut take: impl FnMut(usize, &[[Lanes; 2]]),
     ) -> Result<(), Error> {
         let paths = sets.iter().map(|set| self.paths(web, by.isa, *set));

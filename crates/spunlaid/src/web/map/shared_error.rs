@@ -1,4 +1,4 @@
-//! The error of a mean over filaments that hang in one air, and so are not independent.
+//! The error of a mean over filaments that hang in shared turbulence, and so are not independent.
 //!
 //! ```text
 //! parts of the mean: filaments × stretches of the belt
@@ -53,7 +53,7 @@ impl SharedError {
     ///
     /// A cell with more fibre has a larger sum, but all cells together have a fixed length. So the sums are
     /// compared with a line over the length. What is left of a cell is like that of the cells beside it, because
-    /// gusts reach across: products with these count by half. What stays with a filament in all stretches, as its
+    /// eddies reach across: products with these count by half. What stays with a filament in all stretches, as its
     /// place in the slot does, follows from the products of its other stretches.
     ///
     /// * `parts` – of each filament, in order across the web; all have as many stretches
@@ -117,11 +117,11 @@ mod tests {
 
     const FILAMENTS: usize = 64;
     const STRETCHES: usize = 6;
-    /// Filaments beside each other that a gust moves together.
+    /// Filaments beside each other that a eddy moves together.
     const GUST: usize = 10;
     const SEEDS: u64 = 600;
 
-    /// Parts whose mean is zero over all seeds: gusts that move neighbours together and of which a part is kept from
+    /// Parts whose mean is zero over all seeds: eddies that move neighbours together and of which a part is kept from
     /// stretch to stretch, what the place of each filament adds, and more of it where more fibre lies.
     fn parts(seed: u64, of_place: f64, kept: f64) -> Vec<Vec<Part>> {
         let mut random = SplitMix64::seed_from_u64(seed);
@@ -171,7 +171,7 @@ mod tests {
         (held, squares[0] / squares[1])
     }
 
-    /// 95 % intervals hold the known mean of filaments in common gusts, with places that stay as they are or
+    /// 95 % intervals hold the known mean of filaments in common eddies, with places that stay as they are or
     /// without; as if filaments were independent they hold it in two of three seeds.
     #[test]
     fn stat_the_error_of_filaments_in_one_air_covers() {

@@ -4,9 +4,9 @@ use super::basis_weight::Map;
 use super::waves::{FEWEST, Parts, Places, Powers};
 use crate::ground::statistics::{interval_of_deviation, interval_of_deviation_by, student_t_95_at};
 
-/// The unevenness over patches of one size.
+/// The CV over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unevenness {
+pub struct PatchCv {
     /// Side of the square patches [m].
     pub patch: f64,
     /// Standard deviation of the basis weight of patches over its mean.
@@ -16,13 +16,13 @@ pub struct Unevenness {
     pub standard_error: Option<f64>,
 }
 
-impl Unevenness {
+impl PatchCv {
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say.
     pub fn interval(&self) -> Option<[f64; 2]> {
         Some(interval_of_deviation(self.cv, self.standard_error?))
     }
 
-    /// [`Unevenness::interval`] where the waves that make the CV are few, so that their own powers say only
+    /// [`PatchCv::interval`] where the waves that make the CV are few, so that their own powers say only
     /// roughly how much they scatter, as in a web whose filaments share one air: by Student's t with the
     /// degrees of freedom of the CV.
     pub(crate) fn interval_of_few(&self) -> Option<[f64; 2]> {
@@ -55,7 +55,7 @@ pub fn nearest_to_seen(patches: impl Iterator<Item = f64>) -> Option<usize> {
 }
 
 /// [`unevenness_at`] of filaments at places of which nothing is known.
-pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
+pub fn patch_cv(map: &Map, side: usize) -> Option<PatchCv> {
     unevenness_at(map, side, &Places::Unknown)
 }
 
@@ -68,7 +68,7 @@ pub fn unevenness(map: &Map, side: usize) -> Option<Unevenness> {
 ///
 /// * `side` – of a patch [cells], at least one and within the sheet; None otherwise, and without any fibre
 /// * `places` – what is known of the places of the filaments
-pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Option<Unevenness> {
+pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Option<PatchCv> {
     let (squares, powers) = deviations(map, side)?;
     let of_mean = match places_of_filaments {
         Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.variance_of_mean(map.closed)),
@@ -86,7 +86,7 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
         let share = parts.share([false; 2]);
         (share > 0.0 && 2.0 / share >= DEGREES).then(|| 0.5 * cv * share.sqrt())
     });
-    Some(Unevenness {
+    Some(PatchCv {
         patch: side as f64 * map.cell,
         cv,
         standard_error: error.filter(|error| error.is_finite()),

@@ -1,6 +1,6 @@
 //! Waves: the powers of a field on a rectangle, and how much of its variance is chance.
 
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use crate::ground::{Complex, InverseTransform, Lanes, WIDTH};
 use std::array::from_fn;
 
@@ -16,7 +16,7 @@ pub enum Places {
     Unknown,
     /// Some filaments are at random places: streaks are chance, and so is the number of filaments.
     AtRandom(Streaks),
-    /// The places are those of nozzles: the mean along the web is the same for all webs.
+    /// The places are those of holes: the mean along the web is the same for all webs.
     Fixed,
 }
 
@@ -78,7 +78,7 @@ impl Powers {
         // So many groups of eight columns hold the first half of the waves, and the one in the middle.
         let groups = columns / 2 / WIDTH + 1;
         // Sixteen rows at a time, eight as real and eight as imaginary part.
-        let pairs: Vec<Vec<Complex>> = each(threads, rows.div_ceil(2 * WIDTH), |pair| {
+        let pairs: Vec<Vec<Complex>> = par_map(threads, rows.div_ceil(2 * WIDTH), |pair| {
             let first = pair * 2 * WIDTH;
             let numbers = |first: usize, column: usize| {
                 Lanes::from_fn(|lane| if first + lane < rows { value(first + lane, column) } else { 0.0 })
@@ -103,7 +103,7 @@ impl Powers {
         });
         let transform = InverseTransform::new(rows);
         let scale = Lanes::splat(((columns * rows) as f64).powi(-2));
-        let powers = each(threads, groups, |group| {
+        let powers = par_map(threads, groups, |group| {
             let at_once = rows.min(2 * WIDTH);
             let rows = pairs.iter().flat_map(|pair| &pair[group * 2 * WIDTH..][..at_once]);
             let mut data: Vec<Complex> = rows.copied().collect();

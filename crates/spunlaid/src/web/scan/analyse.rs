@@ -14,7 +14,7 @@ use super::weigh::{Correction, Light, WeighedPicture, beside, weigh};
 use super::{Doubt, FEWEST};
 use crate::ground::units::shortest;
 use crate::ground::{Dimension, Fault, FileError};
-use crate::web::map::uniformity::Unevenness;
+use crate::web::map::uniformity::PatchCv;
 use crate::web::map::{Clouds, autocorrelation};
 
 /// Usual sides of patches [m].
@@ -146,8 +146,8 @@ fn patches(
         let low = if given.is_some() { low } else { (low * low - noise * noise).max(0.0).sqrt() };
         let interval = doubt.map_or(Ok([low, high * (1.0 + blur.unwrap_or(0.0).max(0.0))]), Err);
         let standard_error = doubt.is_none().then(|| found.standard_error());
-        let unevenness = Unevenness { patch, cv, standard_error };
-        patches.push(PatchFindings { unevenness, interval, noise, blur });
+        let patch_cv = PatchCv { patch, cv, standard_error };
+        patches.push(PatchFindings { patch_cv, interval, noise, blur });
     }
     Ok(patches)
 }

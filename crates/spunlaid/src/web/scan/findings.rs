@@ -6,7 +6,7 @@ use super::spots::ForeignParts;
 use super::streaks::StreakSearch;
 use super::weigh::{Light, Pixels};
 use crate::ground::Fault;
-use crate::web::map::uniformity::Unevenness;
+use crate::web::map::uniformity::PatchCv;
 use crate::web::map::{Clouds, Map};
 
 /// How a picture is read.
@@ -67,7 +67,7 @@ pub struct Findings {
     pub titre: Option<f64>,
     /// Pixels that needed care.
     pub pixels: Pixels,
-    /// What is only a guess about the lamp or the numbers, if anything: then nothing that depends on it has an
+    /// What is only an assumed value about the lamp or the numbers, if anything: then nothing that depends on it has an
     /// interval.
     pub guess: Option<Doubt>,
     /// The parts of the picture that are not web and were left out.
@@ -85,12 +85,12 @@ pub struct Findings {
     pub notes: Vec<Fault>,
 }
 
-/// The unevenness over patches of one size.
+/// The CV over patches of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// The unevenness, without the noise of the camera if that is known. It has no standard error where
+    /// The CV, without the noise of the camera if that is known. It has no standard error where
     /// [`interval`](Self::interval) has none.
-    pub unevenness: Unevenness,
+    pub patch_cv: PatchCv,
     /// The 95 % confidence interval of the CV of the web, of which this is a piece, or why none can be given.
     pub interval: Result<[f64; 2], Doubt>,
     /// CV of the noise of the camera over such patches: as given and taken out, or at most.

@@ -12,7 +12,7 @@ type OfPeriod = Measure<ScanPeriod>;
 type OfLimit = Measure<StreakLimit>;
 
 /// The measures of a scan, in the order of `summary.json`; what has no label stands there alone.
-pub const OF_SCANS: &[Measure<Findings>] = &[
+pub const SCAN_MEASURES: &[Measure<Findings>] = &[
     OfScan::new("white", "Grey level of the lamp without web", RATIO, Known(|scan| scan.white))
         .meaning("grey level of the lamp without web; none with a picture of the lamp")
         .digits(5),
@@ -52,14 +52,14 @@ pub const OF_SCANS: &[Measure<Findings>] = &[
 ];
 
 /// The measures of the patches of one size, in the order of `summary.json`, where the interval follows the first.
-pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
-    OfPatch::new("cv", "CV", PERCENT, Number(|patch| patch.unevenness.cv))
+pub const SCANNED_PATCH_MEASURES: &[Measure<PatchFindings>] = &[
+    OfPatch::new("cv", "CV", PERCENT, Number(|patch| patch.patch_cv.cv))
         .meaning("coefficient of variation of the basis weight over square patches")
         .errors(&[OfPatch::new(
             "cv_standard_error",
             "Error of the CV by chance",
             PERCENT,
-            Known(|patch| patch.unevenness.standard_error),
+            Known(|patch| patch.patch_cv.standard_error),
         )
         .meaning("standard error of the CV: another piece of the same web would have another CV")
         .role(ErrorRole::OfOne)]),
@@ -74,7 +74,7 @@ pub const OF_SCANNED_PATCHES: &[Measure<PatchFindings>] = &[
 ];
 
 /// The measures of a streak of a scan.
-pub const OF_SCAN_STREAKS: &[Measure<ScanStreak>] = &[
+pub const SCAN_STREAK_MEASURES: &[Measure<ScanStreak>] = &[
     OfStreak::new("place_m", "Position", MILLIMETRES, Told(|streak| Some(What::Exact(streak.place))))
         .meaning("middle of the streak, from the left edge of the web"),
     OfStreak::new("amplitude", "Amplitude", PERCENT, Told(|streak| Some(streak.height())))
@@ -94,7 +94,7 @@ pub const OF_SCAN_STREAKS: &[Measure<ScanStreak>] = &[
 ];
 
 /// The measures of a period of a scan across the machine direction.
-pub const OF_SCAN_PERIODS: &[Measure<ScanPeriod>] = &[
+pub const SCAN_PERIOD_MEASURES: &[Measure<ScanPeriod>] = &[
     OfPeriod::new("period_m", "Period", MILLIMETRES, Told(|wave| Some(What::Exact(wave.period))))
         .meaning("distance of streaks that repeat"),
     OfPeriod::new("amplitude", "Amplitude", PERCENT, Told(|wave| Some(wave.height())))
@@ -105,7 +105,7 @@ pub const OF_SCAN_PERIODS: &[Measure<ScanPeriod>] = &[
 ];
 
 /// The least streaks that a scan can show.
-pub const OF_STREAK_LIMITS: &[Measure<StreakLimit>] = &[
+pub const STREAK_LIMIT_MEASURES: &[Measure<StreakLimit>] = &[
     OfLimit::new("width_m", "Width", MILLIMETRES, Told(|limit| Some(What::Exact(WIDTH * limit.sigma))))
         .meaning("width of a streak at half of its amplitude"),
     OfLimit::new("amplitude", "Least amplitude", PERCENT, Told(|limit| Some(What::Exact(limit.amplitude))))

@@ -53,7 +53,7 @@
 //! let light = Light::Weight { mean: Some(16e-3) };
 //! let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::new(light) })?;
 //! assert!((found.map.basis_weight() / 16e-3 - 1.0).abs() < 1e-12);
-//! assert!(found.patches[0].unevenness.cv < 0.1);
+//! assert!(found.patches[0].CV.cv < 0.1);
 //! # Ok(())
 //! # }
 //! ```
@@ -78,7 +78,9 @@ mod weigh;
 pub use analyse::analyse;
 pub use findings::{Findings, PatchFindings, Settings};
 pub(crate) use levels::flattened;
-pub use measures::{OF_SCAN_PERIODS, OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS};
+pub use measures::{
+    SCAN_MEASURES, SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES,
+};
 pub use optics::shortest_sharp_wave;
 pub use picture::{Format, Picture};
 pub use read::{CELL, WEIGHT_OF_BLACK, parse, read};
@@ -95,9 +97,9 @@ named! {
     /// Why the true CV over patches of a size cannot be known from a picture.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Doubt {
-        /// The level of the lamp without web is a guess: all CVs may be wrong by the same factor.
+        /// The level of the lamp without web is an assumed value: all CVs may be wrong by the same factor.
         White = "the level of the lamp is a guess",
-        /// The shading of the lamp is a guess: a polynomial took it out, with what the web varies as smoothly.
+        /// The shading of the lamp is an assumed value: a polynomial took it out, with what the web varies as smoothly.
         Shading = "the shading of the lamp is a guess",
         /// The picture of the lamp is clipped.
         ClippedLamp = "the picture of the lamp is clipped",

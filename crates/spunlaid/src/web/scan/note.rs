@@ -104,14 +104,14 @@ pub(super) fn notes(
         notes.push(Fault::new(
             "one more pixel of blur would lower the CV of small patches by more than 1 %, so the blur of the \
             camera has lowered it too, and no interval is given there",
-            match sharp.map(|patch| Dimension::Length.pretty(patch.unevenness.patch)) {
+            match sharp.map(|patch| Dimension::Length.pretty(patch.patch_cv.patch)) {
                 Some(side) => format!("from patches of {side} on this does not matter"),
                 None => "it matters at all sizes of patch here, so scan with smaller pixels".to_owned(),
             },
         ));
     }
     if let Some(few) = patches.iter().find(|patch| patch.interval == Err(Doubt::Few)) {
-        let side = Dimension::Length.pretty(few.unevenness.patch);
+        let side = Dimension::Length.pretty(few.patch_cv.patch);
         let message =
             format!("this sheet holds too few patches of {side} or more, so no interval is given there");
         notes.push(Fault::new(message, "scan a larger piece of the web"));

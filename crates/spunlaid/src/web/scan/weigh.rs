@@ -64,7 +64,7 @@ pub(super) struct WeighedPicture {
 }
 
 impl WeighedPicture {
-    /// What is only a guess about the lamp, if anything.
+    /// What is only an assumed value about the lamp, if anything.
     pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
         let is_white =
             matches!(light, Light::Transmitted { white: None, .. } | Light::Reflected { white: None, .. })

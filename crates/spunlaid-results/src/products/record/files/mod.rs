@@ -9,7 +9,7 @@ use crate::files::table::number;
 use crate::files::{table, versioned_json};
 use crate::numbers::{decimals, rounded, to_decimals};
 use serde_json::{Value as Json, json};
-use spunlaid::air::{Analysis, Component, OF_COMPONENTS, OF_RECORDS, Record};
+use spunlaid::air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
 use spunlaid::ground::{Interval, Measured, Value};
 
 /// Half the width of an interval: the error of the value.
@@ -56,11 +56,11 @@ pub fn analysis_json(record: &Record, analysis: &Analysis) -> String {
         },
         "warnings": analysis.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     });
-    versioned_json(1, joined([about, values(OF_RECORDS, analysis), rest]))
+    versioned_json(1, joined([about, values(RECORD_MEASURES, analysis), rest]))
 }
 
 fn component(component: &Component) -> Json {
-    joined([json!({"name": component.name}), values(OF_COMPONENTS, component)])
+    joined([json!({"name": component.name}), values(COMPONENT_MEASURES, component)])
 }
 
 /// The value of a measure and the ends of its 95 % interval, as they are shown.

@@ -88,8 +88,8 @@ pub(super) fn end_node_path(case: &Case, results: &Results) -> Figure {
         "The path of the free end across the mean flow in the first replicate, with the same scale in both \
                        directions."
             .to_owned();
-    let flown = path.since(spin_up).next().map_or(end, |(time, _)| *time);
-    if let Some((start, _)) = drawn.first().filter(|(start, _)| *start > flown) {
+    let simulated = path.since(spin_up).next().map_or(end, |(time, _)| *time);
+    if let Some((start, _)) = drawn.first().filter(|(start, _)| *start > simulated) {
         caption.push_str(&format!(" Only the last {} s are drawn.", significant(end - start, 2)));
     }
     Figure::new(&chart, caption)

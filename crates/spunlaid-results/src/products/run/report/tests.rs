@@ -295,11 +295,11 @@ fn the_report_of_a_run_shows_its_spinline() {
     let results = SpinResults::new(&file).unwrap();
     let figures = spinline_figures(SPINLINE, &results.rows, &results.influences);
     let mut case = sample::case(4, 50, 2);
-    let flown = sample::results(&case, 0.01);
+    let simulated = sample::results(&case, 0.01);
     let shown = |case: &Case| {
         let checks = FinerChecks::none(Unchecked::TooShort);
         let spinline = Some((&results, &figures[..]));
-        run_report((case, ""), (&flown, &checks), &[], spinline, PERFORMANCE).unwrap().html()
+        run_report((case, ""), (&simulated, &checks), &[], spinline, PERFORMANCE).unwrap().html()
     };
     let page = shown(&case);
     check_well_formed(&page);

@@ -30,7 +30,7 @@ pub fn spinline_figures(prefix: &str, rows: &[Solution], influences: &[Influence
     figures
 }
 
-/// The strain rate is shown to this multiple of the distance at which the thread freezes, because it is zero
+/// The strain rate is shown to this multiple of the distance at which the thread solidifies, because it is zero
 /// from there on.
 const BEYOND_FREEZING: f64 = 1.25;
 
@@ -65,7 +65,7 @@ fn thread_figures(prefix: &str, solutions: &[Solution]) -> Vec<Figure> {
             ThreadRow { name: "last row", colour: VERMILION, solution: last },
         ],
     };
-    let frozen = rows.iter().map(|row| row.solution.freezing.distance).fold(0.0, f64::max);
+    let frozen = rows.iter().map(|row| row.solution.solidification.distance).fold(0.0, f64::max);
     let crystallises = solutions.iter().any(|solution| solution.end().transformed > 0.0);
     let mut figures = vec![
         drawing(prefix, &rows),
@@ -85,7 +85,7 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
     Chart::new(&format!("{prefix}_{name}"), title, along, up)
 }
 
-/// A chart with a quantity of each row, and where the row freezes.
+/// A chart with a quantity of each row, and where the row solidifies.
 ///
 /// * `is_keyed` – whether the chart has a legend
 fn with_rows(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
@@ -102,17 +102,17 @@ fn with_points<'a, P: Iterator<Item = (f64, f64)>>(
     rows.iter().enumerate().fold(chart, |chart, (i, row)| {
         let keyed = |series: Series, is_keyed: bool| if is_keyed { series } else { series.unlabelled() };
         let line = Series::new(&row.label("filament"), row.colour).width(2.0);
-        let freezing =
+        let solidification =
             Series::new("solidification point", row.colour).named(&row.label("solidification point"));
-        let frozen = row.solution.freezing.distance * MM;
+        let frozen = row.solution.solidification.distance * MM;
         chart
             .line(keyed(line, is_keyed), points(row))
-            .vertical(keyed(freezing.dashed(&[5.0, 4.0]).width(1.2), is_keyed && i == 0), frozen)
+            .vertical(keyed(solidification.dashed(&[5.0, 4.0]).width(1.2), is_keyed && i == 0), frozen)
     })
 }
 
 /// The words of a caption that say what frozen means.
-fn about_freezing(rows: &[ThreadRow<'_>]) -> String {
+fn about_solidification(rows: &[ThreadRow<'_>]) -> String {
     let [first, ..] = rows else { return String::new() };
     let rows = if first.name.is_empty() { "" } else { " of each row" };
     format!(
@@ -129,7 +129,7 @@ fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let diameter = with_rows(diameter, rows, |station| station.diameter * MICROMETRES, false);
     let caption = format!(
         "Speed and diameter of the filament, averaged over its cross-section, and the velocity of the air along it. {}",
-        about_freezing(rows)
+        about_solidification(rows)
     );
     Figure::stacked(
         &format!("{prefix}_speed_and_diameter"),
@@ -155,7 +155,7 @@ fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let chart = with_air(chart, rows, |station| station.air_temperature - ZERO_CELSIUS);
     let caption = format!(
         "Temperature of the filament, averaged over its cross-section, and of the air around it. {}",
-        about_freezing(rows)
+        about_solidification(rows)
     );
     Figure::new(&chart, caption)
 }
@@ -169,7 +169,7 @@ fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let caption = format!(
         "Above, the force in the filament; below, the stress in its cross-section. The stress at the \
         solidification point orients the polymer, and so decides birefringence and modulus. {}",
-        about_freezing(rows)
+        about_solidification(rows)
     );
     Figure::stacked(
         &format!("{prefix}_tension_and_stress"),
@@ -179,7 +179,7 @@ fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     )
 }
 
-/// From the freezing point on it is zero, at once.
+/// From the solidification point on it is zero, at once.
 fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
     let title = "Strain rate of the filament";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
@@ -188,7 +188,7 @@ fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
         chart,
         rows,
         |row| {
-            let frozen = row.solution.freezing.distance * MM;
+            let frozen = row.solution.solidification.distance * MM;
             let points = row.points(|station| station.strain_rate);
             let points = points.filter(move |(distance, _)| *distance <= frozen);
             points.chain([(frozen, 0.0), (until * MM, 0.0)])
@@ -197,7 +197,7 @@ fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
     );
     let caption = format!(
         "Rate of stretching of the filament, up to a little below the solidification point. {}",
-        about_freezing(rows)
+        about_solidification(rows)
     );
     Figure::new(&chart, caption)
 }
@@ -209,12 +209,12 @@ fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     let chart = with_rows(chart, rows, |station| station.transformed, true);
     let caption = format!(
         "Crystallinity over the largest crystallinity that the polymer reaches. {}",
-        about_freezing(rows)
+        about_solidification(rows)
     );
     Figure::new(&chart, caption)
 }
 
-/// Diameter and freezing point of each row.
+/// Diameter and solidification point of each row.
 fn curtain_figure(prefix: &str, rows: &[Solution]) -> Figure {
     let title = "Rows of the curtain";
     let chart = |name: &str, up: &str, value: fn(&Solution) -> f64| {
@@ -227,12 +227,13 @@ fn curtain_figure(prefix: &str, rows: &[Solution]) -> Figure {
             )
     };
     let diameter = chart("diameter", "Diameter *d*, cold (µm)", |row| row.final_diameter * MICROMETRES);
-    let freezing =
-        chart("freezing", "Solidification point, below the die (mm)", |row| row.freezing.distance * MM);
+    let solidification = chart("solidification", "Solidification point, below the die (mm)", |row| {
+        row.solidification.distance * MM
+    });
     Figure::stacked(
         &format!("{prefix}_rows"),
         title,
-        &[&diameter, &freezing],
+        &[&diameter, &solidification],
         "Each row meets the air that the rows before it have warmed and dragged along. The air does not mix \
         between the rows in this model.",
     )

@@ -38,8 +38,8 @@ fn the_numbers_of_a_figure_are_those_of_the_thread() {
     let last = text.lines().rfind(|line| line.starts_with("filament,") && !line.ends_with(',')).unwrap();
     let end = rows[0].end();
     assert_eq!(last, format!("filament,{},,{}", 1e3 * end.distance, 1e6 * end.diameter));
-    let frozen = 1e3 * rows[0].freezing.distance;
-    assert!(text.contains(&format!("freezing point,{frozen},")), "{text}");
+    let frozen = 1e3 * rows[0].solidification.distance;
+    assert!(text.contains(&format!("solidification point,{frozen},")), "{text}");
     let influences = csv("l_influences");
     assert!(influences.contains("Throughput,0.43,-0.86,,"), "{influences}");
     assert!(influences.contains("Die temperature,,,-5.7,11.4"), "{influences}");

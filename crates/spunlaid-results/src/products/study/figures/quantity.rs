@@ -59,7 +59,7 @@ impl Group {
         }
     }
 
-    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the unevenness of
+    /// Whether it is drawn where there is a figure for each key: the motion across the flow, the CV of
     /// a web and what a buyer sees of it, or what a spinline gives.
     pub(super) fn is_main(&self) -> bool {
         let series: Vec<&str> = self.members.iter().map(|(_, series)| &**series).collect();

@@ -52,8 +52,8 @@ fn point(study: &Study, index: usize, measured: &PointResults) -> Json {
     let result = |i: usize| {
         let mut numbers = json!({"mean": measured.mean(i), "standard_error": measured.standard_error(i)});
         // By all causes, if there are others than the scatter of the replicates.
-        if let Some(error) = measured.whole_error(&study.quantities, i) {
-            numbers["whole_error"] = error.into();
+        if let Some(error) = measured.total_error(&study.quantities, i) {
+            numbers["total_error"] = error.into();
         }
         (study.quantities[i].column.clone(), numbers)
     };

@@ -42,7 +42,7 @@ fn point_row(study: &Study, index: usize, results: &PointResults) -> Vec<Value> 
     for (index, quantity) in study.quantities.iter().enumerate() {
         row.extend([results.mean(index), results.error(index)].map(Value::Number));
         if quantity.further_errors().next().is_some() {
-            let whole = results.whole_error(&study.quantities, index);
+            let whole = results.total_error(&study.quantities, index);
             row.push(Value::Number(whole.unwrap_or(f64::NAN)));
         }
     }

@@ -37,7 +37,7 @@ pub fn head(quantity: &Quantity) -> String {
 
 /// Mean ± error at a point: by all causes, or else the standard error.
 pub fn cell(study: &Study, results: &PointResults, quantity: usize) -> String {
-    let whole = results.whole_error(&study.quantities, quantity);
+    let whole = results.total_error(&study.quantities, quantity);
     let error = whole.or_else(|| results.standard_error(quantity));
     in_unit(&study.quantities[quantity], results.mean(quantity), error)
 }

@@ -60,14 +60,14 @@ pub(super) fn neighbours(layers: &[LayerFlown]) -> Option<Figure> {
         Axis::logarithmic("Distance in cross direction (mm)").in_column("distance_mm"),
         Axis::linear("Correlation").zero_based().in_column("correlation"),
     );
-    for (layer, flown) in layers[..=last].iter().enumerate() {
+    for (layer, simulated) in layers[..=last].iter().enumerate() {
         for ((name, correlation, sign), colour) in DIRECTIONS.into_iter().zip(OF_DIRECTIONS[layer.min(1)]) {
             let name = if last == 0 { name.to_owned() } else { format!("layer {}, {name}", layer + 1) };
             let point = |neighbour: &NeighbourCorrelation| {
                 let Correlation { value, standard_error, .. } = correlation(neighbour);
                 (neighbour.distance * MM, value, standard_error)
             };
-            let points: Vec<_> = flown.neighbours.iter().map(point).collect();
+            let points: Vec<_> = simulated.neighbours.iter().map(point).collect();
             chart = joined(chart, Series { colour, ..sign(&name) }, &points);
         }
     }

@@ -1,9 +1,9 @@
-//! What settings of the line and what guesses matter for the CV.
+//! What settings of the line and what assumed_values matter for the CV.
 
 use super::PER_CENT;
 use crate::effects::{describe, name};
 use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
-use spunlaid::experiment::{Advice, Tried, setting};
+use spunlaid::experiment::{Advice, SensitivityRun, setting};
 use spunlaid::ground::{Difference, Dimension};
 use spunlaid::simulation::WebSpec;
 use spunlaid_charts::{Figure, Table};
@@ -12,8 +12,8 @@ use spunlaid_charts::{Figure, Table};
 /// top. None if none is known.
 pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
     let (patch, first) = (advice.judged_by?, advice.tried.first()?);
-    let are_guesses = first.change.setting == setting::GUESS;
-    let mut rows: Vec<(String, Vec<&Tried>)> = Vec::new();
+    let are_assumed = first.change.setting == setting::ASSUMED;
+    let mut rows: Vec<(String, Vec<&SensitivityRun>)> = Vec::new();
     for tried in &advice.tried {
         let name = name(&tried.change, spec);
         match rows.iter_mut().find(|(other, _)| *other == name) {
@@ -21,12 +21,12 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
             None => rows.push((name, vec![tried])),
         }
     }
-    let difference = |tried: &Tried| Some(in_unit(&tried.on(patch)?.difference, PER_CENT));
+    let difference = |tried: &SensitivityRun| Some(in_unit(&tried.on(patch)?.difference, PER_CENT));
     let size = |row: &Row| row.effects.iter().flatten().map(|effect| effect.value.abs()).fold(0.0, f64::max);
     let mut rows: Vec<Row> = rows.into_iter().map(|(name, same)| row(name, &same, &difference)).collect();
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let side = Dimension::Length.pretty_to(patch, 3);
-    let keys = if are_guesses { ["half", "twice"] } else { ["less", "more"] };
+    let keys = if are_assumed { ["half", "twice"] } else { ["less", "more"] };
     let label = format!("Change of the CV over patches of {side} (%)");
     let panel = Panel { heading: "", keys: keys.map(str::to_owned).to_vec(), label, rows, decimals: 1 };
     let mut table = Table::new(["cv_change_percent", "half_width_percent"]);
@@ -34,7 +34,7 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
         let numbers = difference(tried).map(|of| [of.value, of.known_half_width().unwrap_or(f64::NAN)]);
         table.add(&describe(&tried.change, spec), numbers);
     }
-    let (name, title, what) = match are_guesses {
+    let (name, title, what) = match are_assumed {
         true => (
             "web_guesses",
             "Influence of the assumed values",
@@ -55,12 +55,16 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
 }
 
 /// The changes of one key, with less and with more of it.
-fn row(name: String, same: &[&Tried], difference: &dyn Fn(&Tried) -> Option<Difference>) -> Row {
-    let key = |tried: &&Tried| tried.change.keys.first().cloned();
+fn row(
+    name: String,
+    same: &[&SensitivityRun],
+    difference: &dyn Fn(&SensitivityRun) -> Option<Difference>,
+) -> Row {
+    let key = |tried: &&SensitivityRun| tried.change.keys.first().cloned();
     let values: Vec<String> = same.iter().filter_map(key).map(|key| key.pretty(key.to)).collect();
     let from = same.first().and_then(key).map_or_else(String::new, |key| key.pretty(key.from));
     let effect = |less: bool| {
-        let is_it = |tried: &&&Tried| key(tried).is_some_and(|key| (key.to < key.from) == less);
+        let is_it = |tried: &&&SensitivityRun| key(tried).is_some_and(|key| (key.to < key.from) == less);
         difference(same.iter().find(is_it)?)
     };
     let detail = format!("{} instead of {from}", values.join(" or "));

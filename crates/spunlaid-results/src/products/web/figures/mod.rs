@@ -3,8 +3,8 @@
 pub(crate) mod clouds;
 mod curtain;
 pub(crate) mod effects;
+pub(crate) mod patch_cv;
 mod profiles;
-pub(crate) mod unevenness;
 
 use spunlaid::web::map::Findings;
 use spunlaid::web::{Web, scan};
@@ -32,11 +32,11 @@ const SHARES: Weights =
 pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
     let map = &findings.laid.map;
     let mut figures = vec![
-        unevenness::over_patches(web, findings),
-        unevenness::histogram(&findings.within(), GRAMS),
+        patch_cv::over_patches(web, findings),
+        patch_cv::histogram(&findings.within(), GRAMS),
         profiles::laid(web, findings),
     ];
-    figures.extend(curtain::neighbours(&findings.laid.flown));
+    figures.extend(curtain::neighbours(&findings.laid.simulated));
     figures.extend(curtain::charge(&findings.laid));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures.push(directions(findings));
@@ -47,11 +47,8 @@ pub fn web_figures(web: &Web, findings: &Findings) -> Vec<Figure> {
 pub fn scan_figures(findings: &scan::Findings) -> Vec<Figure> {
     let map = &findings.map;
     let weights = if findings.mean_known { GRAMS } else { SHARES };
-    let mut figures = vec![
-        unevenness::scanned(findings),
-        unevenness::histogram(map, weights),
-        profiles::scanned(map, weights),
-    ];
+    let mut figures =
+        vec![patch_cv::scanned(findings), patch_cv::histogram(map, weights), profiles::scanned(map, weights)];
     figures.extend(findings.streaks.as_ref().map(profiles::streaks));
     figures.extend(clouds::figures(findings.clouds.as_ref(), &findings.autocorrelation, map.cell));
     figures

@@ -1,10 +1,10 @@
 //! What changes do to the CV of a web, in `summary.json`: those of the line at the same basis weight, and
-//! other values of guesses.
+//! other values of assumed_values.
 
 use crate::command::web_command;
 use crate::files::measured::{joined, known};
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::{Advice, Change, ChangedWeb, Tried};
+use spunlaid::experiment::{Advice, Change, ChangedWeb, SensitivityRun};
 use spunlaid::ground::{ChangedKey, Effect};
 use spunlaid::simulation::LayerSpec;
 use spunlaid::web::map::Findings;
@@ -20,17 +20,20 @@ pub(super) fn of_line(advice: &Advice, findings: &Findings, beside: &str) -> Jso
     with_failed(json!({"judged_by_patch_m": advice.judged_by, "changes": changes}), advice)
 }
 
-/// Other values of guesses, and the CVs of all webs with these and of the web as it is.
-pub(super) fn of_guesses(guesses: &Advice, findings: &Findings, beside: &str) -> Json {
+/// Other values of assumed_values, and the CVs of all webs with these and of the web as it is.
+pub(super) fn of_guesses(assumed_values: &Advice, findings: &Findings, beside: &str) -> Json {
     let range = |effect: &Effect<f64>| {
         let cv = cv_over(findings, effect.of);
-        let [cv_from, cv_to] = guesses.range(effect.of).map(|ratio| ratio * cv);
+        let [cv_from, cv_to] = assumed_values.range(effect.of).map(|ratio| ratio * cv);
         json!({"patch_m": effect.of, "cv_from": cv_from, "cv_to": cv_to})
     };
-    let ranges = guesses.tried.iter().take(1).flat_map(|first| first.effects.iter().map(range));
+    let ranges = assumed_values.tried.iter().take(1).flat_map(|first| first.effects.iter().map(range));
     let ranges: Json = ranges.collect();
-    let values = changed_webs(guesses, (findings, beside), true);
-    with_failed(json!({"judged_by_patch_m": guesses.judged_by, "ranges": ranges, "values": values}), guesses)
+    let values = changed_webs(assumed_values, (findings, beside), true);
+    with_failed(
+        json!({"judged_by_patch_m": assumed_values.judged_by, "ranges": ranges, "values": values}),
+        assumed_values,
+    )
 }
 
 fn keys(change: &Change) -> Vec<Json> {
@@ -54,7 +57,7 @@ fn cv_over(findings: &Findings, patch: f64) -> f64 {
     found.and_then(|found| found.told()).map_or(f64::NAN, |told| told.cv)
 }
 
-/// Adds the changes that could not be flown or laid, if there are any.
+/// Adds the changes that could not be simulated or laid, if there are any.
 fn with_failed(mut told: Json, advice: &Advice) -> Json {
     let failed = |(change, why): &(Change, String)| {
         let (setting, layer) = (change.setting.name, alone(change));
@@ -66,8 +69,8 @@ fn with_failed(mut told: Json, advice: &Advice) -> Json {
     told
 }
 
-fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_guesses: bool) -> Json {
-    let patch = |tried: &Tried, effect: &Effect<f64>| {
+fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assumed: bool) -> Json {
+    let patch = |tried: &SensitivityRun, effect: &Effect<f64>| {
         let (cv, difference) = (cv_over(findings, effect.of), &effect.difference);
         let at_first = tried.at_first.iter().find(|first| first.of == effect.of);
         let told = json!({
@@ -77,10 +80,10 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_gues
             // As a share of the CV; its standard error is null for a single fibre.
             "cv_change": difference.value,
             "standard_error": difference.standard_error,
-            "beyond_chance": difference.is_beyond_chance(),
+            "significant": difference.is_significant(),
         });
-        // The part of the change that filaments in one air make each for itself; the rest is that of their clouds. Of a
-        // change that was flown again, that in the first air.
+        // The part of the change that filaments in shared turbulence make each for itself; the rest is that of their clouds. Of a
+        // change that was simulated again, that in the first air.
         let more = json!({
             "of_own_part": effect.own,
             "clouds_in_common": effect.in_common,
@@ -88,10 +91,10 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_gues
         });
         joined([told, known(more)])
     };
-    let changed_web = |tried: &Tried| {
-        let Tried { change, effects, at_first } = tried;
+    let changed_web = |tried: &SensitivityRun| {
+        let SensitivityRun { change, effects, at_first } = tried;
         let ChangedWeb { set, spec, belt_speed, mass_flow, .. } = &change.experiment;
-        let guess = keys(change).into_iter().next().filter(|_| are_guesses).unwrap_or_default();
+        let guess = keys(change).into_iter().next().filter(|_| are_assumed).unwrap_or_default();
         let layer = alone(change);
         let mut told = json!({
             "setting": change.setting.name,

@@ -4,21 +4,23 @@ use crate::files::measured::{joined, json, known};
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
 use serde_json::{Value as Json, json};
 use spunlaid::ground::{Known, Measure, Measured, Value, measure};
-use spunlaid::web::{Fabric, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+use spunlaid::web::{
+    FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
+};
 
 /// The fabric in `summary.json`: all numbers that are known.
 pub(super) fn summary(fabric: &Fabric) -> Json {
     let [strips_md, strips_cd] = fabric.strips.each_ref().map(Option::as_ref);
     let parts = json!({
-        "patches": all(OF_FABRIC_PATCHES, &fabric.patches),
-        "thinnest": some(OF_THINNEST, &fabric.marks.thinnest),
-        "strips_md": strips_md.map(|strips| entries(OF_STRIPS, strips)),
-        "strips_cd": strips_cd.map(|strips| entries(OF_STRIPS, strips)),
+        "patches": all(FABRIC_PATCH_MEASURES, &fabric.patches),
+        "thinnest": some(THINNEST_PATCH_MEASURES, &fabric.marks.thinnest),
+        "strips_md": strips_md.map(|strips| entries(STRIP_MEASURES, strips)),
+        "strips_cd": strips_cd.map(|strips| entries(STRIP_MEASURES, strips)),
         // Of the defects of the line, in the order of the file.
-        "streaks": some(OF_STREAKS, &fabric.streaks),
+        "streaks": some(STREAK_MEASURES, &fabric.streaks),
         "notes": (!fabric.notes.is_empty()).then_some(&fabric.notes),
     });
-    joined([entries(OF_FABRICS, fabric), known(parts)])
+    joined([entries(FABRIC_MEASURES, fabric), known(parts)])
 }
 
 fn entries<T>(measures: &'static [Measure<T>], of: &T) -> Json {
@@ -50,15 +52,15 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
     let mut all = Vec::new();
     for patch in fabric.patches.iter().filter(|patch| is_near(patch.thin.patch, SHOWN)) {
         let before = format!("{} mm patches ", number(patch.thin.patch * 1e3));
-        all.extend(rows(&before, &OF_FABRIC_PATCHES[2..4], patch));
+        all.extend(rows(&before, &FABRIC_PATCH_MEASURES[2..4], patch));
     }
     for (strips, direction) in fabric.strips.iter().zip(["MD", "CD"]) {
         let name = |[_, value]: [String; 2]| [format!("Weakest strip along {direction}"), value];
-        all.extend(strips.iter().flat_map(|strips| rows("", &OF_STRIPS[2..3], strips)).map(name));
+        all.extend(strips.iter().flat_map(|strips| rows("", &STRIP_MEASURES[2..3], strips)).map(name));
     }
     // The width of a piece without edges says nothing of the fabric.
     let of_edges = if fabric.trim.is_some() { 0 } else { 1 };
-    for row in rows("", &OF_FABRICS[of_edges..], fabric) {
+    for row in rows("", &FABRIC_MEASURES[of_edges..], fabric) {
         let is_air = row[0] == AIR;
         all.push(row);
         // As tests tell it.
@@ -66,7 +68,7 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
             fabric.air.filter(|_| is_air).map(|air| told(air.permeability.times(1e3), "l/(m² s)", None));
         all.extend(litres.map(|litres| ["the same".to_owned(), litres]));
     }
-    let (name, told) = (&OF_STREAKS[0], &OF_STREAKS[3..]);
+    let (name, told) = (&STREAK_MEASURES[0], &STREAK_MEASURES[3..]);
     for streak in fabric.streaks.iter().take(MOST_STREAKS) {
         let place = known_text(&name.of(streak)).unwrap_or_default();
         all.extend(rows(&format!("Streak at {place}: "), told, streak));

@@ -61,7 +61,7 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
         ],
     ];
     for patch in &findings.patches {
-        let cv = patch.told_with_whole_error().map(|told| {
+        let cv = patch.with_total_error().map(|told| {
             let error = told.standard_error.map(|error| 100.0 * error);
             format!("{}{THIN}%", plus_minus(100.0 * told.cv, error))
         });

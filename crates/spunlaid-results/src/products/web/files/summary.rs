@@ -16,8 +16,9 @@ use spunlaid::ground::{Estimate, Measure};
 use spunlaid::web::map::Findings;
 use spunlaid::web::scan::Doubt;
 use spunlaid::web::{
-    ChargedCurtain, Clouds, Edges, Fabric, LayerFew, Map, NeighbourCorrelation, OF_PATCHES, OF_SCAN_PERIODS,
-    OF_SCAN_STREAKS, OF_SCANNED_PATCHES, OF_SCANS, OF_STREAK_LIMITS, OF_WEBS, Web, scan,
+    ChargedCurtain, Clouds, Edges, Fabric, Map, NeighbourCorrelation, PATCH_MEASURES, SCAN_MEASURES,
+    SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES,
+    SubsampleEstimate, WEB_MEASURES, Web, scan,
 };
 
 /// What a layer was laid from.
@@ -51,12 +52,12 @@ pub struct Layer {
     pub hole_pitch_m: Vec<f64>,
     /// Noise of the surrogate [m^-½].
     pub noise_per_sqrt_m: Option<f64>,
-    /// Rms difference between the autocorrelations of the flown fibres and those of the surrogate.
+    /// Rms difference between the autocorrelations of the simulated fibres and those of the surrogate.
     pub fit_residual: Option<f64>,
     /// What chance alone would leave of it.
     pub fit_residual_by_chance: Option<f64>,
     /// Largest lateral wave number of the air that all filaments share, times its length scale; none of
-    /// filaments in airs of their own.
+    /// filaments in independent turbulence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lateral_cutoff: Option<f64>,
     /// What its filaments do to their air, where a case says how they fly.
@@ -77,7 +78,7 @@ fn curtain<S: Serializer>(curtain: &Option<Load>, serializer: S) -> Result<S::Ok
 pub fn summary_of_web(
     web: &Web,
     (findings, fabric): (&Findings, &Fabric),
-    (advice, guesses, beside): (Option<&Advice>, Option<&Advice>, &str),
+    (advice, assumed_values, beside): (Option<&Advice>, Option<&Advice>, &str),
     layers: &[Layer],
     performance: Performance,
     notes: &[String],
@@ -90,16 +91,17 @@ pub fn summary_of_web(
         };
         let interval = patch.interval().ok_or_else(|| why.to_owned());
         let side = patch.map.patch;
-        let mut numbers = numbers_of_patch(side, OF_PATCHES, patch, interval);
+        let mut numbers = numbers_of_patch(side, PATCH_MEASURES, patch, interval);
         // With half and twice of each assumed value, of which the error knows nothing.
-        let known = |guesses: &&Advice| guesses.tried.iter().any(|tried| tried.on(side).is_some());
-        if let (Some(guesses), Some(told)) = (guesses.filter(known), patch.told()) {
-            numbers["cv_assumed"] = json(guesses.range(side).map(|ratio| ratio * told.cv));
+        let known =
+            |assumed_values: &&Advice| assumed_values.tried.iter().any(|tried| tried.on(side).is_some());
+        if let (Some(assumed_values), Some(told)) = (assumed_values.filter(known), patch.told()) {
+            numbers["cv_assumed"] = json(assumed_values.range(side).map(|ratio| ratio * told.cv));
         }
         numbers
     });
-    let flown: Vec<Json> = findings.laid.few().map(few_flown).collect();
-    let lost = findings.laid.flown.iter().map(|layer| layer.lost);
+    let simulated: Vec<Json> = findings.laid.few().map(few_flown).collect();
+    let lost = findings.laid.simulated.iter().map(|layer| layer.lost);
     // Where edges cut fibre off: the strips that all but the map leaves out, and the mean basis weight between them.
     let edges = (web.sheet.edges == Edges::Cut).then(|| {
         json!({
@@ -113,11 +115,11 @@ pub fn summary_of_web(
         "fibre_length_m": findings.fibre_length,
         "cut_off_kg": findings.laid.cut,
         "lost_filaments": lost.reduce(|all, lost| all + lost),
-        "flown": (!flown.is_empty()).then_some(flown),
+        "simulated": (!simulated.is_empty()).then_some(simulated),
         "edges": edges,
     }));
     // The declared measures of a whole web that do not stand elsewhere in the file: with the map, or with each layer.
-    let here = OF_WEBS.iter().filter(|measure| !measure.entry().is_empty());
+    let here = WEB_MEASURES.iter().filter(|measure| !measure.entry().is_empty());
     let declared = here.flat_map(|measure| with_errors(measure, findings)).collect();
     let clouds = findings.clouds.as_ref();
     let map = of_map(&findings.laid.map, weight, clouds, findings.texture_md(), patches.collect());
@@ -127,7 +129,7 @@ pub fn summary_of_web(
         "web": joined([map, laid, declared]),
         "fabric": fabric::summary(fabric),
         "advice": advice.map(|advice| effects::of_line(advice, findings, beside)),
-        "guesses": guesses.map(|guesses| effects::of_guesses(guesses, findings, beside)),
+        "assumed_values": assumed_values.map(|assumed_values| effects::of_guesses(assumed_values, findings, beside)),
         "neighbours": neighbours(findings, name),
         "charge": charged.as_array().is_some_and(|charged| !charged.is_empty()).then_some(charged),
         "performance": performance,
@@ -145,7 +147,7 @@ pub fn summary_of_scan(
 ) -> String {
     let patches = findings.patches.iter().map(|patch| {
         let interval = patch.interval.map_err(|doubt| doubt.to_string());
-        numbers_of_patch(patch.unevenness.patch, OF_SCANNED_PATCHES, patch, interval)
+        numbers_of_patch(patch.patch_cv.patch, SCANNED_PATCH_MEASURES, patch, interval)
     });
     let (weight, clouds) = (findings.map.basis_weight(), findings.clouds.as_ref());
     let texture = clouds.map(Clouds::texture_md);
@@ -167,7 +169,7 @@ pub fn summary_of_scan(
     let parts = json!({
         "web": web,
         "fabric": fabric::summary(fabric),
-        "scan": joined([about, values(OF_SCANS, findings), streaks(findings)]),
+        "scan": joined([about, values(SCAN_MEASURES, findings), streaks(findings)]),
         "performance": performance,
         "notes": notes,
     });
@@ -178,9 +180,9 @@ pub fn summary_of_scan(
 fn streaks(findings: &scan::Findings) -> Json {
     let search = findings.streaks.as_ref();
     json!({
-        "streaks": search.map(|search| all(OF_SCAN_STREAKS, &search.streaks)),
-        "periods": search.map(|search| all(OF_SCAN_PERIODS, &search.periods)),
-        "streak_limits": search.map(|search| all(OF_STREAK_LIMITS, &search.limits)),
+        "streaks": search.map(|search| all(SCAN_STREAK_MEASURES, &search.streaks)),
+        "periods": search.map(|search| all(SCAN_PERIOD_MEASURES, &search.periods)),
+        "streak_limits": search.map(|search| all(STREAK_LIMIT_MEASURES, &search.limits)),
     })
 }
 
@@ -191,7 +193,7 @@ fn streaks(findings: &scan::Findings) -> Json {
 fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, texture: Option<Estimate>, patches: Json) -> Json {
     let cloudiness = clouds.map(|clouds| {
         let (index, standard_error) = clouds.cloudiness(SEEN[0], SEEN[1]);
-        // For all such webs; null if the map is too small to say, or if too few filaments were flown.
+        // For all such webs; null if the map is too small to say, or if too few filaments were simulated.
         let interval = standard_error.map(|error| interval_of_deviation(index, error));
         let [from_m, to_m] = SEEN;
         json!({
@@ -218,8 +220,8 @@ fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, texture: Option<Estim
 /// The few filaments of a layer from which all others follow: their distance in a row, the correlation of the places
 /// where two at this distance and equal depth come down, the sheet that they laid, and the part of the variance of a
 /// filament between them that they do not tell. The areas are those that give
-/// the CV: flown as finely as the sheet, and in all.
-fn few_flown(few: &LayerFew) -> Json {
+/// the CV: simulated as finely as the sheet, and in all.
+fn few_flown(few: &SubsampleEstimate) -> Json {
     json!({
         "filaments": few.filaments,
         "pitch_m": few.pitch,
@@ -268,8 +270,9 @@ fn neighbours<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Optio
             "correlation_cd_interval": cd.interval(),
         })
     };
-    let flown = findings.laid.flown.iter().enumerate();
-    let all = flown.flat_map(|(layer, flown)| flown.neighbours.iter().map(move |one| (layer, one)));
+    let simulated = findings.laid.simulated.iter().enumerate();
+    let all =
+        simulated.flat_map(|(layer, simulated)| simulated.neighbours.iter().map(move |one| (layer, one)));
     let neighbours: Vec<Json> = all.map(entry).collect();
     (!neighbours.is_empty()).then(|| json!({"cd": neighbours}))
 }

@@ -1,4 +1,4 @@
-//! What changes do to a web, for people: what would make it more even and how much guesses matter, on the first
+//! What changes do to a web, for people: what would make it more even and how much assumed_values matter, on the first
 //! screen, and a table of all changes that were tried.
 
 use super::cards::Card;
@@ -8,7 +8,7 @@ use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::page::table::{Cell, Row, Table, Tone};
 use crate::page::words::{grams, millimetres};
 use crate::products::web::files::effects::HOUR;
-use spunlaid::experiment::{Advice, ChangedWeb, Tried, setting};
+use spunlaid::experiment::{Advice, ChangedWeb, SensitivityRun, setting};
 use spunlaid::ground::{Difference, Effect, NAMED, Turned};
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::{Evidence, Findings};
@@ -18,8 +18,8 @@ use spunlaid::web::map::{Evidence, Findings};
 pub struct Advised<'a> {
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
-    /// What guesses matter for it; None if these were not tried.
-    pub guesses: Option<&'a Advice>,
+    /// What assumed_values matter for it; None if these were not tried.
+    pub assumed_values: Option<&'a Advice>,
     /// Whether what was not tried is tried next.
     pub awaited: bool,
     /// The folder of the web, beside which those of changed webs lie.
@@ -107,13 +107,13 @@ fn untried(what: &str, awaited: bool) -> String {
 const LARGE: f64 = 0.05;
 
 /// A change with what it does over patches of one size.
-type Found<'a> = (&'a Tried, &'a Effect<f64>);
+type Found<'a> = (&'a SensitivityRun, &'a Effect<f64>);
 
 /// The change that lowers the CV most over patches of another size than the one by which they are judged, and
 /// is none of those that lower it there.
 fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<Found<'a>> {
     let named = advice.improvements(patch);
-    let is_new = |tried: &Tried| !named.iter().any(|(other, _)| std::ptr::eq(*other, tried));
+    let is_new = |tried: &SensitivityRun| !named.iter().any(|(other, _)| std::ptr::eq(*other, tried));
     let patches = findings.patches.iter().map(|found| found.map.patch).filter(|other| *other != patch);
     let found = patches.flat_map(|other| advice.improvements(other));
     let found = found.filter(|(tried, effect)| effect.difference.value <= -LARGE && is_new(tried));
@@ -123,8 +123,9 @@ fn elsewhere<'a>(findings: &Findings, advice: &'a Advice, patch: f64) -> Option<
 /// What seemed to be among the best in a first air, and was not in a second one.
 fn unconfirmed(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
     let confirmed = advice.improvements(patch);
-    let is_confirmed = |tried: &Tried| confirmed.iter().any(|(other, _)| std::ptr::eq(*other, tried));
-    let words = |tried: &Tried| {
+    let is_confirmed =
+        |tried: &SensitivityRun| confirmed.iter().any(|(other, _)| std::ptr::eq(*other, tried));
+    let words = |tried: &SensitivityRun| {
         let again = tried.on(patch).map_or_else(String::new, per_cent);
         format!(
             " In a first simulation it seemed to fall with {} as well; in a second one the change was {again}{THIN}%.",
@@ -140,7 +141,7 @@ const IN_COMMON: f64 = 0.3;
 
 /// Which changes are compared as two webs by themselves, because hardly any cloud is the same in both.
 fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
-    let is_apart = |tried: &&Tried| {
+    let is_apart = |tried: &&SensitivityRun| {
         tried.on(patch).and_then(|effect| effect.in_common).is_some_and(|common| common < IN_COMMON)
     };
     let apart = advice.tried.iter().filter(is_apart);
@@ -189,7 +190,7 @@ pub(crate) fn effect_cell(
 ) -> Cell {
     match difference {
         None => Cell::new(missing, Tone::Faint),
-        Some(difference) if difference.is_beyond_chance() => Cell::new(text(difference), Tone::Plain),
+        Some(difference) if difference.is_significant() => Cell::new(text(difference), Tone::Plain),
         Some(difference) => Cell::new(text(difference), Tone::Faint),
     }
 }
@@ -200,9 +201,9 @@ pub(super) fn effects_table(
     findings: &Findings,
     (advice, beside): (&Advice, &str),
 ) -> Option<(Table, String)> {
-    let are_guesses = advice.tried.first()?.change.setting == setting::GUESS;
+    let are_assumed = advice.tried.first()?.change.setting == setting::ASSUMED;
     let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();
-    let row = |tried: &Tried| {
+    let row = |tried: &SensitivityRun| {
         let cv = |patch: &f64| {
             let effect = tried.on(*patch).map(|effect| &effect.difference);
             effect_cell(effect, "–", |difference| difference_text(difference, PER_CENT))
@@ -213,13 +214,13 @@ pub(super) fn effects_table(
         let cells = patches.iter().map(cv).chain(line);
         Row::new(describe(&tried.change, spec), cells).command(web_command(&tried.change, beside))
     };
-    let first = if are_guesses { "With another value" } else { "At the same basis weight" };
+    let first = if are_assumed { "With another value" } else { "At the same basis weight" };
     let heads = patches.iter().map(|patch| format!("CV at {}, %", millimetres(*patch)));
     let heads = [first.to_owned()].into_iter().chain(heads);
     let heads = heads.chain(["Belt, m/min", "Belt, m/s", "From each metre, kg/h"].map(str::to_owned));
     let failed: Vec<String> =
         (advice.failed.iter()).map(|(change, why)| format!("{}: {why}", describe(change, spec))).collect();
-    let in_same_air = |tried: &Tried| tried.effects.iter().any(|effect| effect.in_common.is_some());
+    let in_same_air = |tried: &SensitivityRun| tried.effects.iter().any(|effect| effect.in_common.is_some());
     let mut error = if advice.tried.iter().any(in_same_air) {
         "from blocks of both webs in the same turbulence, so the sampling error that both have in common does not count"
     } else if findings.laid.evidence() != Evidence::Known {
@@ -232,7 +233,7 @@ pub(super) fn effects_table(
     if advice.is_confirmed {
         error += "; the best ones were simulated once more in other turbulence";
     }
-    let (what, held) = if are_guesses {
+    let (what, held) = if are_assumed {
         ("when an assumed value is another one".to_owned(), "All other numbers stay as they are")
     } else {
         let weight = grams(findings.within().basis_weight());
@@ -249,7 +250,7 @@ pub(super) fn effects_table(
         "Change of the CV as a fraction of it {what}: over patches of each size, ± one standard error, {error}. \
         Grey values are not significant at 95 %. {held}. The command below each change lays that web."
     );
-    if let Some(patch) = judged_by(findings, advice).filter(|_| !are_guesses) {
+    if let Some(patch) = judged_by(findings, advice).filter(|_| !are_assumed) {
         caption += &clouds_apart(spec, advice, patch);
     }
     if !failed.is_empty() {
@@ -258,9 +259,9 @@ pub(super) fn effects_table(
     Some((Table::new(heads).rows(advice.tried.iter().map(row)), caption))
 }
 
-/// What the CV of a web is with half and twice of each number that its file calls a guess, because the error
+/// What the CV of a web is with half and twice of each number that its file calls an assumed value, because the error
 /// of the CV knows nothing of them: the guess that matters most first.
-pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
+pub(super) fn assumed_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
     let card = |rows, words: String| Card {
         id: "measure",
         title: "Measure first",
@@ -268,39 +269,40 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
         apart: Default::default(),
         words: vec![words],
     };
-    let names: Vec<String> = spec.guessed.iter().map(|key| in_sentence(label(key))).collect();
+    let names: Vec<String> = spec.assumed.iter().map(|key| in_sentence(label(key))).collect();
     let names = listed(&names);
-    let judged = tried.guesses.and_then(|guesses| {
-        let patch = judged_by(findings, guesses)?;
+    let judged = tried.assumed_values.and_then(|assumed_values| {
+        let patch = judged_by(findings, assumed_values)?;
         let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
-        Some((guesses, patch, found.told()?.cv))
+        Some((assumed_values, patch, found.told()?.cv))
     });
-    let Some((guesses, patch, cv)) = judged else {
+    let Some((assumed_values, patch, cv)) = judged else {
         return card(
             Vec::new(),
-            match spec.guessed.is_empty() {
-                true => "The file of this web names no assumed value (web.guessed).".to_owned(),
+            match spec.assumed.is_empty() {
+                true => "The file of this web names no assumed value (web.assumed).".to_owned(),
                 false => untried(
                     &format!("The CV with half and twice of the assumed {names}"),
-                    tried.awaited && tried.guesses.is_none() && tried.advice.is_none(),
+                    tried.awaited && tried.assumed_values.is_none() && tried.advice.is_none(),
                 ),
             },
         );
     };
-    let key = |tried: &Tried| tried.change.keys.first().map_or_else(String::new, |key| key.key.clone());
+    let key =
+        |tried: &SensitivityRun| tried.change.keys.first().map_or_else(String::new, |key| key.key.clone());
     let most = |name: &str| {
-        let of = guesses.tried.iter().filter(|tried| key(tried) == name);
+        let of = assumed_values.tried.iter().filter(|tried| key(tried) == name);
         of.filter_map(|tried| Some(tried.on(patch)?.difference.value.abs())).fold(0.0, f64::max)
     };
-    let mut sorted: Vec<&Tried> = guesses.tried.iter().collect();
+    let mut sorted: Vec<&SensitivityRun> = assumed_values.tried.iter().collect();
     sorted.sort_by(|a, b| most(&key(b)).total_cmp(&most(&key(a))));
-    let row = |found: &&Tried| {
+    let row = |found: &&SensitivityRun| {
         let (name, value) = value_and_cv(found, patch, cv)?;
         Some(Row::new(name, [value]).command(web_command(&found.change, tried.beside)))
     };
     let rows: Vec<Row> = sorted.iter().filter_map(row).collect();
     let place = format!("over patches of {}", millimetres(patch));
-    let words = match (rows.is_empty(), guesses.range(patch)) {
+    let words = match (rows.is_empty(), assumed_values.range(patch)) {
         (true, _) => "No web with half or twice of the assumed values could be simulated.".to_owned(),
         (false, [1.0, 1.0]) => format!("None of these assumed values changes the CV {place} significantly."),
         (false, ends) => {
@@ -318,12 +320,12 @@ pub(super) fn guess_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>
              it takes."
         }
     };
-    card(rows, words + unknown + &failed_words(guesses))
+    card(rows, words + unknown + &failed_words(assumed_values))
 }
 
-/// Which values could not be laid or flown, and why.
-fn failed_words(guesses: &Advice) -> String {
-    let failed = guesses.failed.iter().filter_map(|(change, why)| {
+/// Which values could not be laid or simulated, and why.
+fn failed_words(assumed_values: &Advice) -> String {
+    let failed = assumed_values.failed.iter().filter_map(|(change, why)| {
         let key = change.keys.first()?;
         let part = if key.to < key.from { "Half" } else { "Twice" };
         let verb = if change.refusal.is_some() { "cannot be laid" } else { "could not be simulated" };
@@ -337,7 +339,7 @@ fn failed_words(guesses: &Advice) -> String {
 }
 
 /// `Depth of the slot: 10 mm`, and `18.3 ± 1.5 %`.
-fn value_and_cv(tried: &Tried, patch: f64, cv: f64) -> Option<(String, String)> {
+fn value_and_cv(tried: &SensitivityRun, patch: f64, cv: f64) -> Option<(String, String)> {
     let key = tried.change.keys.first()?;
     let value = key.pretty(key.to).replace(' ', &HARD.to_string());
     let told = tried.on(patch).map_or_else(

@@ -5,12 +5,14 @@ use crate::page::table::{Content, Layout, Row, Table};
 use crate::page::words::millimetres;
 use crate::products::web::files::fabric::known_text;
 use spunlaid::ground::{Measure, PERCENT, measure};
-use spunlaid::web::{Fabric, OF_FABRIC_PATCHES, OF_FABRICS, OF_STREAKS, OF_STRIPS, OF_THINNEST};
+use spunlaid::web::{
+    FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
+};
 
 /// Everything that is told of a fabric.
 pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
-    let rows = measure::measured(OF_FABRICS, fabric).filter_map(|row| {
+    let rows = measure::measured(FABRIC_MEASURES, fabric).filter_map(|row| {
         let value = known_text(&row)?;
         Some(Row::new(row.measure.label, [value.as_str(), row.measure.meaning]))
     });
@@ -29,7 +31,7 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     for note in &fabric.notes {
         section = section.caption(note);
     }
-    let [patch, places @ ..] = OF_FABRIC_PATCHES else { return section };
+    let [patch, places @ ..] = FABRIC_PATCH_MEASURES else { return section };
     let weights = places.iter().position(|measure| measure.unit == PERCENT).unwrap_or(places.len());
     let (places, weights) = places.split_at(weights);
     let sides: Vec<_> = fabric.patches.iter().map(|of| (shown(patch, of), of)).collect();
@@ -38,11 +40,11 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let thinnest: Vec<_> =
         (1..).zip(&fabric.marks.thinnest).map(|(i, place)| (i.to_string(), place)).collect();
     let heading = format!("The thinnest places, patches of {}", millimetres(fabric.marks.patch));
-    section = compare(section, (&heading, "Place"), OF_THINNEST, &thinnest);
+    section = compare(section, (&heading, "Place"), THINNEST_PATCH_MEASURES, &thinnest);
     let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
     let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();
-    section = compare(section, ("Strips", "Direction"), OF_STRIPS, &strips);
-    let [place, told @ ..] = OF_STREAKS else { return section };
+    section = compare(section, ("Strips", "Direction"), STRIP_MEASURES, &strips);
+    let [place, told @ ..] = STREAK_MEASURES else { return section };
     let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
     compare(section, ("Streaks of the defects", place.label), told, &streaks)
 }

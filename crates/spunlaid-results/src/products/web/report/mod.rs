@@ -4,9 +4,9 @@ pub(crate) mod cards;
 pub(crate) mod effects;
 pub(crate) mod fabric;
 pub(crate) mod light_table;
+pub(crate) mod patch_cv;
 pub(crate) mod scale;
 pub(crate) mod spinlines;
-pub(crate) mod unevenness;
 
 use super::files::picture::Pictures;
 use super::files::summary::Layer;
@@ -20,20 +20,20 @@ use crate::page::table::{Row, Table};
 use crate::page::words::{cost, count, grams, grams_with_error, metres, millimetres};
 use crate::products::load::section_of_loads;
 use cards::scale_card;
-use effects::{Advised, advice_card, effects_table, guess_card};
+use effects::{Advised, advice_card, assumed_card, effects_table};
 use fabric::fabric_section;
 use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
+use patch_cv::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
 use scale::Judged;
 use spinlines::{LayerSpinline, sections_of_web};
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{ChargedCurtain, Fabric, LayerFew, Strand, Web};
+use spunlaid::web::{ChargedCurtain, Fabric, Strand, SubsampleEstimate, Web};
 use spunlaid_charts::Figure;
-use unevenness::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
 
 /// A web.
 ///
@@ -80,7 +80,7 @@ pub fn web_report<'a>(
             [
                 advice_card(spec, findings, tried),
                 cards::line(spec, findings, layers),
-                guess_card(spec, findings, tried),
+                assumed_card(spec, findings, tried),
                 cards::fabric(fabric),
             ]
             .map(Section::from),
@@ -98,11 +98,11 @@ pub fn web_report<'a>(
         .costing(cost(performance)))
 }
 
-/// All that was changed, and all that was guessed.
+/// All that was changed, and all that was assumed.
 fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'static> {
     let all = [
         ("What would make it more uniform", tried.advice),
-        ("Influence of the assumed values", tried.guesses),
+        ("Influence of the assumed values", tried.assumed_values),
     ];
     let tables = all.into_iter().filter_map(|(heading, effects)| {
         Some((heading, effects_table(spec, findings, (effects?, tried.beside))?))
@@ -190,24 +190,26 @@ const AS_HEAVY: f64 = 0.005;
 fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
     let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
-        let told = patch.and_then(PatchFindings::told_with_whole_error);
-        let assumed = told.as_ref().filter(|_| !spec.guessed.is_empty());
-        let assumed = assumed.map(|told| assumed_words(told, tried.guesses));
+        let told = patch.and_then(PatchFindings::with_total_error);
+        let assumed = told.as_ref().filter(|_| !spec.assumed.is_empty());
+        let assumed = assumed.map(|told| assumed_words(told, tried.assumed_values));
         return headline(told.as_ref(), findings.laid.evidence() == Evidence::Known, assumed);
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
     let remedy = match enough.is_finite() {
-        true => format!("Leave web.flown out to simulate as many as needed, {enough} or more for each metre"),
-        false => "Simulate all of them, web.flown = \"all\"".to_owned(),
+        true => {
+            format!("Leave web.simulated out to simulate as many as needed, {enough} or more for each metre")
+        }
+        false => "Simulate all of them, web.simulated = \"all\"".to_owned(),
     };
     format!("CV not known: too few filaments simulated. {remedy}.")
 }
 
 /// What half and twice of the assumed values make of the CV, for a headline.
-fn assumed_words(told: &Unevenness, guesses: Option<&Advice>) -> String {
+fn assumed_words(told: &PatchCv, assumed_values: Option<&Advice>) -> String {
     let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(told.patch).is_some());
-    match guesses.filter(known).map(|guesses| guesses.range(told.patch)) {
+    match assumed_values.filter(known).map(|assumed_values| assumed_values.range(told.patch)) {
         None => "the error excludes assumed values".to_owned(),
         Some([1.0, 1.0]) => "and no other with the assumed values".to_owned(),
         Some(ends) => {
@@ -278,7 +280,7 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
 /// What the error in the headline is made of, in sentences.
 fn error_sentences(findings: &Findings) -> String {
     let Some(patch) = findings.seen() else { return String::new() };
-    let error = patch.whole_error();
+    let error = patch.total_error();
     let part = |part: Option<f64>| match part {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
         None => "an unknown part".to_owned(),
@@ -295,26 +297,26 @@ fn error_sentences(findings: &Findings) -> String {
                 .to_owned()
         }
         (Evidence::FewInOneAir, Some(_)) => {
-            format!("{}; they are too few for the CV of all, and the map is no better.", flown(findings))
+            format!("{}; they are too few for the CV of all, and the map is no better.", simulated(findings))
         }
         (Evidence::FewInOneAir, None) => format!(
             "{}; the web of all is estimated from them. The area contributes {} to the error, because it has \
             few clouds, and the size of the sample {}.",
-            flown(findings),
+            simulated(findings),
             part(error.chance),
             part(error.flight)
         ),
     }
 }
 
-/// How many filaments were flown for all, and where.
-fn flown(findings: &Findings) -> String {
+/// How many filaments were simulated for all, and where.
+fn simulated(findings: &Findings) -> String {
     let filaments: u64 = findings.laid.few().map(|few| few.filaments).sum();
     let mut sheets: Vec<String> = findings.laid.few().map(|few| few.sheet.map(metres).join(" × ")).collect();
     sheets.dedup();
     let sheets = sheets.join(" and of ");
     let area: f64 = findings.laid.few().map(|few| few.area).sum();
-    let coarse = match findings.laid.few().any(LayerFew::is_of_two_levels) {
+    let coarse = match findings.laid.few().any(SubsampleEstimate::is_of_two_levels) {
         true => format!(
             ", and as many with a coarse mesh in other turbulence: {} m² in all",
             significant(area, 2)

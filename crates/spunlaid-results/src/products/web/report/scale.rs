@@ -1,6 +1,6 @@
 //! What a CV means: the same web with weaker and stronger clouds, and where on this scale the web itself lies.
 
-use super::unevenness::per_cent;
+use super::patch_cv::per_cent;
 use crate::Failure;
 use crate::failure::undrawable;
 use crate::numbers::{THIN, significant};
@@ -37,7 +37,7 @@ fn place(cv: f64) -> f64 {
     (middle(after - 1) + share * (middle(after) - middle(after - 1))).clamp(0.5, 99.5)
 }
 
-/// What is known of the unevenness of a web.
+/// What is known of the CV of a web.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Judged {
     /// Side of the patches [m].
@@ -57,7 +57,7 @@ impl From<&PatchFindings> for Judged {
         Self {
             patch: patch.map.patch,
             of_map: patch.of_map,
-            told: patch.told_with_whole_error().map(|told| (told.cv, told.standard_error)),
+            told: patch.with_total_error().map(|told| (told.cv, told.standard_error)),
             interval: patch.interval(),
             chance: Some(patch.straight_fibres),
         }

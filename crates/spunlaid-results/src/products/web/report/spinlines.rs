@@ -3,7 +3,7 @@
 use crate::numbers::{THIN, significant};
 use crate::page::document::Section;
 use crate::page::words::grams;
-use crate::products::spinline::files::{SpinResults, freezing};
+use crate::products::spinline::files::{SpinResults, solidification};
 use crate::products::spinline::report::section;
 use crate::products::web::files::summary::Layer;
 use spunlaid::web::Web;
@@ -33,7 +33,7 @@ pub(super) fn sections_of_web<'a>(
             let row = layers.get(*layer)?;
             Some(way(row, row.filaments as f64 / web.sheet.width, spinline, layers.len() > 1))
         };
-        let about = spinline.results.rows.first().map(freezing);
+        let about = spinline.results.rows.first().map(solidification);
         let sentences = spinline.layers.iter().filter_map(own).chain(about).collect();
         let (id, title) = match number {
             0 => ("spinline".to_owned(), "From the die to the web"),

@@ -9,7 +9,7 @@ use super::lattice::{BEFORE, NEEDED, READ};
 use super::plan::Plan;
 use super::tape::{Rows, Tape};
 use crate::ground::lanes::{indices, integers, singles};
-use crate::ground::{Lanes, Register, Singles, Vec3, WIDTH, Wide};
+use crate::ground::{F32x12, Lanes, Register, Vec3, WIDTH, Wide};
 
 /// Eight fields, one of each place that is looked at, and what does not depend on the place.
 pub(crate) struct EddyFields<'a> {
@@ -135,7 +135,7 @@ impl<'a> EddyFields<'a> {
         }
         let mut sums = [[0.0; READ]; WIDTH];
         for (lane, sums) in sums.iter_mut().enumerate() {
-            let mut of_samples = [S::Singles::zero(); NEEDED];
+            let mut of_samples = [S::F32x12::zero(); NEEDED];
             for (rows, weights) in rows.iter().zip(&weights).take(self.parts) {
                 for (rows, weights) in rows[lane].iter().zip(weights) {
                     for (m, sum) in of_samples.iter_mut().enumerate() {

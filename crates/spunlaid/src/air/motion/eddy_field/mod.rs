@@ -1,4 +1,4 @@
-//! A field of eddies in space, in which neighbouring fibres feel the same gusts.
+//! A field of eddies in space, in which neighbouring fibres feel the same eddies.
 //!
 //! `u'(x, y, z, t) = u · G(c, y, z; a)`: air has the label `c`, the time at which it passed the inlet, and
 //! the age `a`, the decay times that have gone by since. `G` is a sum of waves in `c`, `y` and `z` with von

@@ -13,7 +13,7 @@ use super::transform::{ABREAST, Numbers, Transform, Turned, root};
 use crate::air::motion::StreamKey;
 use crate::ground::Isa;
 use crate::ground::random::stream;
-use crate::ground::threads::each;
+use crate::ground::threads::par_map;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use std::f64::consts::TAU;
@@ -79,13 +79,13 @@ impl Synthesis {
     ) -> Vec<T> {
         let WindowPair { generation, number, part } = *windows;
         let shape = &plan.generations[generation];
-        let planes = each(threads, shape.harmonics.len(), |n| {
+        let planes = par_map(threads, shape.harmonics.len(), |n| {
             let mut random =
                 [0, SMALLER].map(|set| Random::new(plan, key, number, generation, n as u64 | set));
             self.plane(plan, &shape.harmonics[n], &mut random, part)
         });
         let [lines, points] = part.counts();
-        each(threads, lines, |y| {
+        par_map(threads, lines, |y| {
             let line = LineMaker {
                 synthesis: self,
                 generation,

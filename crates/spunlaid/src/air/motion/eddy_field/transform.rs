@@ -2,7 +2,7 @@
 //!
 //! Sums and products are rounded one by one, so every machine gives the same bits.
 
-use crate::ground::{Isa, Register, Sixteen, Task};
+use crate::ground::{F32x16, Isa, Register, Task};
 use std::f64::consts::TAU;
 
 /// Signals side by side.
@@ -27,7 +27,7 @@ struct Complex<R> {
     im: R,
 }
 
-impl<R: Sixteen> Complex<R> {
+impl<R: F32x16> Complex<R> {
     #[inline(always)]
     fn load(numbers: &Numbers) -> Self {
         Self { re: R::load(&numbers.re), im: R::load(&numbers.im) }
@@ -137,7 +137,7 @@ macro_rules! stage {
                 *turn = roots[r * group * stride];
             }
             for place in 0..stride {
-                let mut parts = [Complex::<S::Sixteen>::load(&from[place + stride * group]); $factor];
+                let mut parts = [Complex::<S::F32x16>::load(&from[place + stride * group]); $factor];
                 for (k, part) in parts.iter_mut().enumerate().skip(1) {
                     *part = Complex::load(&from[place + stride * (group + groups * k)]);
                 }
@@ -188,7 +188,7 @@ impl Task for Turned<'_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         for (number, turn) in self.numbers.iter_mut().zip(self.turns) {
-            Complex::<S::Sixteen>::load(number).times(*turn).store(number);
+            Complex::<S::F32x16>::load(number).times(*turn).store(number);
         }
     }
 }
@@ -197,7 +197,7 @@ impl Task for Turned<'_> {
 #[inline(always)]
 fn first_of_four<S: Register>(roots: &[[f32; 2]], from: &[Numbers], into: &mut [Numbers]) {
     for (group, into) in into.chunks_exact_mut(4).enumerate() {
-        let part = Complex::<S::Sixteen>::load(&from[group]);
+        let part = Complex::<S::F32x16>::load(&from[group]);
         part.store(&mut into[0]);
         for (r, into) in into.iter_mut().enumerate().skip(1) {
             part.times(roots[r * group]).store(into);
@@ -206,12 +206,12 @@ fn first_of_four<S: Register>(roots: &[[f32; 2]], from: &[Numbers], into: &mut [
 }
 
 #[inline(always)]
-fn two<R: Sixteen>([a, b]: [Complex<R>; 2]) -> [Complex<R>; 2] {
+fn two<R: F32x16>([a, b]: [Complex<R>; 2]) -> [Complex<R>; 2] {
     [a.plus(b), a.minus(b)]
 }
 
 #[inline(always)]
-fn three<R: Sixteen>([a, b, c]: [Complex<R>; 3]) -> [Complex<R>; 3] {
+fn three<R: F32x16>([a, b, c]: [Complex<R>; 3]) -> [Complex<R>; 3] {
     const SIN_60: f32 = 0.866_025_4;
     let (sum, rest) = (b.plus(c), b.minus(c).scaled(SIN_60));
     let middle = a.minus(sum.scaled(0.5));
@@ -219,13 +219,13 @@ fn three<R: Sixteen>([a, b, c]: [Complex<R>; 3]) -> [Complex<R>; 3] {
 }
 
 #[inline(always)]
-fn four<R: Sixteen>([a, b, c, d]: [Complex<R>; 4]) -> [Complex<R>; 4] {
+fn four<R: F32x16>([a, b, c, d]: [Complex<R>; 4]) -> [Complex<R>; 4] {
     let ([even, odd], [other_even, other_odd]) = (two([a, c]), two([b, d]));
     [even.plus(other_even), odd.plus_turned(other_odd), even.minus(other_even), odd.minus_turned(other_odd)]
 }
 
 #[inline(always)]
-fn five<R: Sixteen>([a, b, c, d, e]: [Complex<R>; 5]) -> [Complex<R>; 5] {
+fn five<R: F32x16>([a, b, c, d, e]: [Complex<R>; 5]) -> [Complex<R>; 5] {
     const COS: [f32; 2] = [0.309_017, -0.809_017];
     const SIN: [f32; 2] = [0.951_056_5, 0.587_785_25];
     let ([near, near_rest], [far, far_rest]) = (two([b, e]), two([c, d]));

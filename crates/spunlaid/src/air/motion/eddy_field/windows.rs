@@ -3,7 +3,7 @@
 use super::lattice::{BRICK, REPEATED, line_size, row_size};
 use super::synthesis::LineMaker;
 use super::transform::{ABREAST, Numbers};
-use crate::ground::{Isa, Register, Sixteen, Task};
+use crate::ground::{F32x16, Isa, Register, Task};
 use half::f16;
 use std::f64::consts::FRAC_PI_2;
 
@@ -183,19 +183,19 @@ impl Task for Join<'_> {
         let total = samples.len();
         for (m, sum) in sums.iter().enumerate() {
             let [one, other] = sum.samples;
-            let mut values = [S::Sixteen::splat(0.0); 3];
+            let mut values = [S::F32x16::splat(0.0); 3];
             for (value, window) in values.iter_mut().zip([x, y, z]) {
-                let of_one = S::Sixteen::load(&window[one].re).mul(S::Sixteen::splat(sum.factors[0]));
-                let of_other = S::Sixteen::load(&window[other].im).mul(S::Sixteen::splat(sum.factors[1]));
+                let of_one = S::F32x16::load(&window[one].re).mul(S::F32x16::splat(sum.factors[0]));
+                let of_other = S::F32x16::load(&window[other].im).mul(S::F32x16::splat(sum.factors[1]));
                 *value = of_one.add(of_other);
             }
             if m < before.len() {
                 for (value, before) in values.iter_mut().zip(&before[m]) {
-                    *value = value.add(S::Sixteen::load_halves(before));
+                    *value = value.add(S::F32x16::load_halves(before));
                 }
             }
             if m < total {
-                S::Sixteen::store_interleaved(values, &mut samples[m]);
+                S::F32x16::store_interleaved(values, &mut samples[m]);
             } else {
                 for (value, into) in values.into_iter().zip(&mut fading[m - total]) {
                     value.store_halves(into);

@@ -148,7 +148,7 @@ pub(super) fn clipped(
         .filter(|k| *k == 0 || samples[k - 1] + 1 < samples[*k])
         .map(|k| samples[k])
         .collect();
-    // A smooth gust has a flat top too, but goes there by single steps of the resolution.
+    // A smooth eddy has a flat top too, but goes there by single steps of the resolution.
     let leaps = |i: &usize| *i > 0 && (values[*i] - values[i - 1]).abs() > 1.5 * robust.resolution;
     let is_smooth = starts.len() < 3 && !starts.iter().any(leaps);
     let is_pile = samples.len() >= FEWEST_CLIPPED && samples.len() > 4 * second.1 && !is_smooth;

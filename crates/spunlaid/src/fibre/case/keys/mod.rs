@@ -35,10 +35,10 @@ pub static CASE: KeyTable =
 /// The text that a case file may give as cut-off frequency: Taylor's hypothesis.
 pub(crate) const TAYLOR: &str = "taylor";
 
-/// The text that a case file may give as tension at the end of the spinline: that of the flown fibre.
-pub(crate) const FLOWN: &str = "flown";
+/// The text that a case file may give as tension at the end of the spinline: that of the simulated fibre.
+pub(crate) const FLOWN: &str = "simulated";
 
-/// The text that a web may give as pitch of a row: that of nozzles over the whole width.
+/// The text that a web may give as pitch of a row: that of holes over the whole width.
 pub(crate) const EVEN: &str = "even";
 
 /// What applies if a case leaves a key out.
@@ -181,7 +181,7 @@ pub fn keys_of_table(table: &str) -> impl Iterator<Item = &'static Key> {
 }
 
 impl<T> Key<T> {
-    /// The table that it belongs to: `air`; `line.rows` of a row of nozzles.
+    /// The table that it belongs to: `air`; `line.rows` of a row of holes.
     pub fn table(&self) -> &'static str {
         self.name.rsplit_once('.').map_or("", |(table, _)| table)
     }

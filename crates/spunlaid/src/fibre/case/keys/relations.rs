@@ -32,9 +32,9 @@ pub struct Relations {
     pub(crate) in_study: Option<&'static str>,
     /// The key of a case that means the same, where it has another name.
     pub(crate) same_in_case: Option<&'static str>,
-    /// Keys of the flown cases whose values it gives.
+    /// Keys of the simulated cases whose values it gives.
     pub(crate) gives_case: &'static [&'static str],
-    /// Another key and its value, without which it cannot be set, and which a web in one air has anyway.
+    /// Another key and its value, without which it cannot be set, and which a web in shared turbulence has anyway.
     pub(crate) with_in_one_air: Option<(&'static str, &'static str)>,
     /// Why it is one number for all layers of a web, which any of them may give; none of one of each layer.
     pub(crate) of_all_layers: Option<&'static str>,

@@ -9,7 +9,7 @@ use crate::ground::{Lanes, Register, Vec3, Wide};
 /// Largest `s = h²λ/(ℓm)` of a tension `λ` that the predictor takes from the last step [-]: of fibres of
 /// fixed length the one that belongs to the limit of (55), of fed fibres, which fold, less. Pulling along the
 /// direction of the last step, more than this would throw nodes about where a fibre folds and whips. What is
-/// left out is found anew by the correction, which pulls along the predicted directions.       theory.md (51)
+/// left out is found again by the correction, which pulls along the predicted directions.       theory.md (51)
 const MOST_KEPT: f64 = 2.25;
 const MOST_KEPT_FED: f64 = 0.5;
 

@@ -1,7 +1,7 @@
 //! Further iterations of Newton's method, for the rare steps in which one does not find the tensions.
 //!
 //! One iteration takes the lengths of the elements as linear in the corrections. Where a fibre folds on to the belt, or
-//! where a strong gust turns an element far in one step, they are not, and elements would be left too long or
+//! where a strong eddy turns an element far in one step, they are not, and elements would be left too long or
 //! too short. Each lane is computed by itself in plain numbers, so what it does not need does not touch it.
 //!                                                                                             theory.md (53)
 

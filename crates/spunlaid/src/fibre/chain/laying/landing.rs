@@ -1,4 +1,4 @@
-//! The lay-down: nodes touch down, move with the belt, and leave the chain.
+//! The laydown: nodes touch down, move with the belt, and leave the chain.
 
 use super::{LaidPoint, LayingState};
 use crate::fibre::chain::Chain;

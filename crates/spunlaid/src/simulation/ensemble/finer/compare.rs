@@ -92,7 +92,7 @@ impl FinerPlan {
     fn change(&self, statistic: &'static Statistic, flights: [&Flight; 3]) -> Option<Change> {
         let [coarse, fine, finest] = flights.map(|flight| &flight.trajectories);
         let each = coarse.iter().zip(fine).zip(finest);
-        let each = each.map(|((a, b), c)| [a, b, c].map(|flown| statistic.measure(flown)));
+        let each = each.map(|((a, b), c)| [a, b, c].map(|simulated| statistic.measure(simulated)));
         let each: Vec<[f64; 3]> = each.filter(|of| of.iter().all(|value| value.is_finite())).collect();
         let is_rounding = each.iter().all(|of| of[1].abs() <= self.least());
         let ratio = |a: usize, b: usize| ratio(&each.iter().map(|of| [of[a], of[b]]).collect::<Vec<_>>());

@@ -3,16 +3,16 @@
 use super::plan::case_of_air;
 use super::{FinerChecks, FinerPlan, FinerPlans, Unchecked};
 use crate::fibre::{Case, Job, LaidPoint, SurroundingRun};
-use crate::ground::threads::{each, lock, unlock};
-use crate::ground::{Control, Error};
+use crate::ground::threads::{lock, par_map, unlock};
+use crate::ground::{Error, RunContext};
 use crate::simulation::ensemble::trajectory::fly_in_air;
-use crate::simulation::ensemble::{Keep, Recorder, Sample, Shapes, Trajectory};
+use crate::simulation::ensemble::{Recorded, Recorder, Sample, Shapes, Trajectory};
 use std::sync::{Mutex, MutexGuard};
 
 /// The position across the flow at the recorded instants after the start [m].
 pub(super) type Path = Vec<[f64; 2]>;
 
-/// What one flight of a check has flown: the numbers of its fibres, and the paths by replicate if they are compared.
+/// What one flight of a check has simulated: the numbers of its fibres, and the paths by replicate if they are compared.
 #[derive(Debug)]
 pub(super) struct Flight {
     pub(super) trajectories: Vec<Trajectory>,
@@ -24,18 +24,18 @@ pub(super) struct Flight {
 pub struct RunPaths(pub(in crate::simulation::ensemble) Vec<Option<Path>>);
 
 impl FinerPlans {
-    /// Flies the checks of a run that has been flown. A check that is stopped, or whose own fibres are lost,
+    /// Flies the checks of a run that has been simulated. A check that is stopped, or whose own fibres are lost,
     /// says so in its place.
-    pub fn check(&self, paths: &RunPaths, computing: Control<'_>) -> FinerChecks {
+    pub fn check(&self, paths: &RunPaths, computing: RunContext<'_>) -> FinerChecks {
         let flights: Vec<_> =
             self.all().flat_map(|plan| plan.flights().map(move |case| (plan, case))).collect();
-        let flown = each(computing.threads, flights.len(), |index| {
+        let simulated = par_map(computing.threads, flights.len(), |index| {
             let (plan, case) = flights[index];
             plan.fly(case, computing)
         });
-        let mut flown = flown.into_iter();
+        let mut simulated = simulated.into_iter();
         self.and_then(|plan| {
-            let flights: Vec<_> = flown.by_ref().take(plan.flights().count()).collect();
+            let flights: Vec<_> = simulated.by_ref().take(plan.flights().count()).collect();
             let flights: Result<Vec<_>, Error> = flights.into_iter().collect();
             let flights = flights.map_err(|ended| match ended {
                 Error::Interrupted => Unchecked::Stopped,
@@ -45,12 +45,12 @@ impl FinerPlans {
         })
     }
 
-    /// What is known if the checks are not flown because the run was stopped.
+    /// What is known if the checks are not simulated because the run was stopped.
     pub fn stopped(&self) -> FinerChecks {
         self.and_then(|_| Err(Unchecked::Stopped))
     }
 
-    /// What is known before the checks are flown.
+    /// What is known before the checks are simulated.
     pub fn before_flight(&self) -> FinerChecks {
         self.and_then(|_| Err(Unchecked::Pending))
     }
@@ -58,12 +58,12 @@ impl FinerPlans {
 
 impl FinerPlan {
     /// Flies one of its cases. Nothing that is recorded is kept, but for the paths that are compared.
-    fn fly(&self, case: &Case, computing: Control<'_>) -> Result<Flight, Error> {
+    fn fly(&self, case: &Case, computing: RunContext<'_>) -> Result<Flight, Error> {
         let jobs: Vec<Job<'_>> = (0..self.replicates).map(|replicate| Job::new(case, replicate)).collect();
         let finest = self.finest.as_ref().unwrap_or(&self.fine);
         let air = SurroundingRun { case: case_of_air(case, finest), horizon: self.horizon, field: None };
         let paths = Paths { stride: 1, ..Paths::from_run(Some(self), None) };
-        let keep = Keep { recorder: Some(&paths), ..Keep::NUMBERS };
+        let keep = Recorded { recorder: Some(&paths), ..Recorded::NUMBERS };
         let trajectories = fly_in_air(&jobs, keep, air, computing)?;
         Ok(Flight { trajectories, paths: paths.into_paths() })
     }

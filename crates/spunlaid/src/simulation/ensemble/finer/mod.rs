@@ -5,7 +5,7 @@
 //! statistics everywhere.
 //!
 //! ```text
-//! plan     what is flown again, and how much of it
+//! plan     what is simulated again, and how much of it
 //! flights  the flights of a check, and the paths that are compared
 //! compare  what differs
 //! ```
@@ -99,7 +99,7 @@ pub struct Change {
     /// The ratio of the means over the replicates, minus one, with the standard error of the paired ratio;
     /// the values are those of each replicate [-].
     pub estimate: Estimate,
-    /// Elements of a quarter of the length [m], and the same change from them; none if they were not flown.
+    /// Elements of a quarter of the length [m], and the same change from them; none if they were not simulated.
     pub from_quarter: Option<(f64, Estimate)>,
     /// Whether both refinements show that the error falls with the square of the element length.
     pub is_second_order: bool,
@@ -182,7 +182,7 @@ impl<T> Refinements<T> {
 
 impl FinerCheck {
     /// Whether it is over a part of a fed fibre's run. Such a fibre wanders more slowly than it folds, so
-    /// that a part of its lay-down may differ by another share than all of it.
+    /// that a part of its laydown may differ by another share than all of it.
     pub fn is_of_a_part(&self, run: &Run) -> bool {
         self.is_fed && self.duration < 0.99 * run.duration()
     }
@@ -248,8 +248,8 @@ pub enum Unchecked {
     /// The case says so.
     #[error("it was not asked for")]
     NotAsked,
-    /// The results are there before the check has been flown.
-    #[error("these results were written before the check was flown")]
+    /// The results are there before the check has been simulated.
+    #[error("these results were written before the check was simulated")]
     Pending,
     /// It was interrupted.
     #[error("it was stopped")]

@@ -1,4 +1,4 @@
-//! What is flown again for the checks of a run, and how much of it is worth its computing time.
+//! What is simulated again for the checks of a run, and how much of it is worth its computing time.
 
 use super::{Refinement, Refinements, Unchecked};
 use crate::air::EddyModel;
@@ -8,7 +8,7 @@ use crate::ground::WIDTH;
 
 /// Largest share of the computing time of a run that all its checks take together, and the share that each
 /// takes if that is enough for it. They are counted in steps of elements, so that they do not depend on the
-/// machine; the turbulence that each flight makes anew is counted as steps too.
+/// machine; the turbulence that each flight makes again is counted as steps too.
 const SHARE_OF_ALL: f64 = 0.2;
 const SHARE: f64 = 0.1;
 /// Computing time of a step with implicit tension, in steps of the explicit schemes: 1.75 to 1.95 were measured.
@@ -21,7 +21,7 @@ const FEWEST: u64 = 20;
 /// speed`.
 const COMES_DOWN: f64 = 2.0;
 const COMPARED: f64 = 2.0;
-/// Part of the stability limit up to which finer elements are flown.
+/// Part of the stability limit up to which finer elements are simulated.
 const PART_OF_LIMIT: f64 = 0.75;
 /// Time over which the motion of a fibre of fixed length is compared at least, in the time in which the air passes it.
 const PASSES: f64 = 5.0;
@@ -31,7 +31,7 @@ const OF_AN_EDDY: f64 = 0.25;
 /// Most recorded instants at which paths are compared, so that they take little memory.
 const MOST_COMPARED: u64 = 1 << 14;
 
-/// What is flown for a check.
+/// What is simulated for a check.
 #[derive(Clone, Debug)]
 pub struct FinerPlan {
     /// What is finer.
@@ -39,7 +39,7 @@ pub struct FinerPlan {
     /// The case with the step and mesh of the run, to compare with; `None` if the paths of the run itself are compared.
     pub(super) coarse: Option<Case>,
     pub(super) fine: Case,
-    /// The case with elements of a quarter of the length, if it is flown too.
+    /// The case with elements of a quarter of the length, if it is simulated too.
     pub(super) finest: Option<Case>,
     /// Whether what is compared with the finer flights has the scheme of the run.
     pub(super) has_scheme_of_run: bool,
@@ -71,7 +71,7 @@ impl FinerPlans {
     }
 
     /// Number of fibre steps of all checks, as in
-    /// [`Control::done`](crate::ground::Control::done).
+    /// [`RunContext::done`](crate::ground::RunContext::done).
     pub fn fibre_steps(&self) -> u64 {
         self.all().map(FinerPlan::fibre_steps).sum()
     }
@@ -104,7 +104,7 @@ impl Budget {
         }
     }
 
-    /// The part of a run that is flown again.
+    /// The part of a run that is simulated again.
     ///
     /// * `takes` – what a part takes, as a share of the computing time of the run; more for a larger part
     /// * `least` – the smallest part that says something
@@ -326,12 +326,12 @@ fn way(line: &Line) -> f64 {
 }
 
 impl FinerPlan {
-    /// The cases that are flown: as the run where its own paths are not compared, and finer.
+    /// The cases that are simulated: as the run where its own paths are not compared, and finer.
     pub(super) fn flights(&self) -> impl Iterator<Item = &Case> {
         self.coarse.iter().chain([&self.fine]).chain(&self.finest)
     }
 
-    /// Number of fibre steps, as in [`Control::done`](crate::ground::Control::done).
+    /// Number of fibre steps, as in [`RunContext::done`](crate::ground::RunContext::done).
     pub fn fibre_steps(&self) -> u64 {
         self.flights().map(|case| case.run.steps).sum::<u64>() * self.replicates
     }

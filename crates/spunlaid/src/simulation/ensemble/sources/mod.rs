@@ -19,7 +19,7 @@ use crate::air::{FieldCells, Flow, PlacedField};
 use crate::fibre::chain::Scheme;
 use crate::fibre::{Case, SolidFilament};
 use crate::ground::place::Inlet;
-use crate::ground::{Control, Difference, Error, Estimate, Fault, NORMAL_95, Vec3, WIDTH};
+use crate::ground::{Difference, Error, Estimate, Fault, NORMAL_95, RunContext, Vec3, WIDTH};
 use merged::Merged;
 use watch::{CellSums, fly_each};
 
@@ -37,7 +37,7 @@ const FAR_OF_FEW: f64 = 0.25;
 pub struct LineFilaments {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
-    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The flown ones
+    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The simulated ones
     /// are spread evenly over this list. Empty if all are fed in the middle.
     pub inlets: Vec<f64>,
 }
@@ -50,7 +50,7 @@ pub struct LineFilaments {
 pub struct Sources {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
-    /// Number of flown filaments without those that were lost.
+    /// Number of simulated filaments without those that were lost.
     pub replicates: u64,
     /// The filaments that were lost. They are in no mean.
     pub lost: Vec<LostFibre>,
@@ -128,7 +128,7 @@ impl Sources {
     /// # Errors
     /// If the case has no such cells ([`Sources::fault`]), or another thread stops the flights; and with the reason
     /// of the first lost fibre, if so many are lost that fewer than two are left, or none of a single one.
-    pub fn fly(case: &Case, curtain: &LineFilaments, by: Control<'_>) -> Result<Self, Error> {
+    pub fn fly(case: &Case, curtain: &LineFilaments, by: RunContext<'_>) -> Result<Self, Error> {
         let fitting = fitting(case).map_err(Error::Flight)?;
         let mut merged = Merged::new(case, &fitting);
         let each = WIDTH as u64;
@@ -144,8 +144,8 @@ impl Sources {
                     (first..last).map(|replicate| curtain.job(case, replicate)).collect();
                 fly_each(&jobs, &fitting, by)
             },
-            |flown: Result<Vec<Result<CellSums, Error>>, Error>| {
-                for sums in flown? {
+            |simulated: Result<Vec<Result<CellSums, Error>>, Error>| {
+                for sums in simulated? {
                     match sums {
                         Ok(sums) => merged.add(&sums, curtain.filaments_per_metre),
                         Err(error) => {

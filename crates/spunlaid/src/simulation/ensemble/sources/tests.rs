@@ -100,8 +100,8 @@ fn line(placed: PlacedField, replicates: u64) -> Case {
     case
 }
 
-fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> Control<'a> {
-    Control { threads, isa: Isa::detect(), stop, done: fibre_steps }
+fn control<'a>(threads: usize, stop: &'a AtomicBool, fibre_steps: &'a AtomicU64) -> RunContext<'a> {
+    RunContext { threads, isa: Isa::detect(), stop, done: fibre_steps }
 }
 
 fn fly(case: &Case, inlets: &[f64], threads: usize) -> Sources {
@@ -151,8 +151,8 @@ fn invariant_the_whole_force_does_not_depend_on_the_cells() {
         let of_cells = line(placed, 2);
         let fitting = fitting(&of_cells).unwrap();
         let mut merged = Merged::new(&of_cells, &fitting);
-        let flown = fly_each(&jobs, &fitting, control(1, &stop, &done)).unwrap();
-        flown.iter().flatten().for_each(|sums| merged.add(sums, 5000.0));
+        let simulated = fly_each(&jobs, &fitting, control(1, &stop, &done)).unwrap();
+        simulated.iter().flatten().for_each(|sums| merged.add(sums, 5000.0));
         let sources = merged.finish(5000.0);
         let [x, y, z] = summed(&sources, depth);
         let drag: f64 = sources.cells.iter().map(|cell| cell.sp * cell.volume / depth).sum();

@@ -4,7 +4,7 @@ use super::Fitting;
 use crate::air::Hint;
 use crate::fibre::{Cooled, Flight, Snapshot, SolidFilament};
 use crate::ground::place::Inlet;
-use crate::ground::{Control, Error, Lanes, Vec3};
+use crate::ground::{Error, Lanes, RunContext, Vec3};
 use crate::simulation::ensemble::Job;
 use crate::simulation::ensemble::trajectory::{FlightEnd, each_or_lost};
 use crate::simulation::observe::{MomentumBalance, NodeStates};
@@ -45,7 +45,7 @@ struct Watch {
 pub(super) fn fly_each(
     jobs: &[Job<'_>],
     fitting: &Fitting<'_>,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<Result<CellSums, Error>>, Error> {
     each_or_lost(jobs, |together| fly_until_lost(together, fitting, by))
 }
@@ -53,7 +53,7 @@ pub(super) fn fly_each(
 fn fly_until_lost(
     jobs: &[Job<'_>],
     fitting: &Fitting<'_>,
-    by: Control<'_>,
+    by: RunContext<'_>,
 ) -> Result<Vec<CellSums>, FlightEnd> {
     let mut flight = Flight::new(jobs, by.isa)?;
     let clock = flight.clock().clone();

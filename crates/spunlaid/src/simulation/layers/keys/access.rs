@@ -34,7 +34,7 @@ pub(crate) fn in_rows() -> Fault {
     )
 }
 
-/// Whether the case of flown fibres gives the value.
+/// Whether the case of simulated fibres gives the value.
 pub(super) fn is_flown(web: &WebSpec) -> bool {
     layer(web).is_some_and(|layer| layer.source.case().is_some())
 }
@@ -47,7 +47,7 @@ pub(super) fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
     web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
 }
 
-/// The first row of nozzles.
+/// The first row of holes.
 pub(super) fn row(web: &WebSpec) -> Option<&Row> {
     match &layer(web)?.filaments {
         Filaments::Rows(rows) => rows.first(),

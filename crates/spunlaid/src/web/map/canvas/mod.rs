@@ -33,7 +33,7 @@ const MOST_ALIKE: usize = 4096;
 /// the map does not depend on the order of the pieces. In machine direction the sheet is a stretch of the
 /// belt: what lies before and behind it is not counted, unless it is closed to a ring.
 #[derive(Debug)]
-pub(crate) struct Canvas {
+pub(crate) struct DepositionGrid {
     /// Columns and rows.
     pub(super) size: [i64; 2],
     pub(super) cell: f64,
@@ -52,7 +52,7 @@ struct CellSums {
     is_full: bool,
 }
 
-impl Canvas {
+impl DepositionGrid {
     /// * `pieces` – mass of a piece [kg] of each layer
     /// * `basis_weight` – of all layers [kg/m²]
     ///
@@ -169,7 +169,7 @@ impl Canvas {
         let [columns, rows] = self.size.map(|size| size as usize);
         let (quantum, closed) = (self.quantum, self.closed);
         let map = Map { columns, rows, cell: self.cell, quantum, closed, cells };
-        Ok(LaidWeb { map, cut: cut as f64 * quantum, flown: Vec::new() })
+        Ok(LaidWeb { map, cut: cut as f64 * quantum, simulated: Vec::new() })
     }
 }
 
@@ -189,7 +189,7 @@ pub(crate) fn widen([first, last]: &mut [[f64; 2]; 2], point: [f64; 2]) {
 /// What it has drawn goes to the canvas when it moves to another part, and at the end.
 #[derive(Debug)]
 pub(crate) struct CanvasPart<'a> {
-    pub(super) canvas: &'a Canvas,
+    pub(super) canvas: &'a DepositionGrid,
     /// First column and row, and number of columns and rows.
     pub(super) first: [i64; 2],
     pub(super) size: [i64; 2],
@@ -201,7 +201,7 @@ pub(crate) struct CanvasPart<'a> {
 
 impl<'a> CanvasPart<'a> {
     /// On which nothing can be drawn near yet.
-    pub(crate) fn new(canvas: &'a Canvas) -> Self {
+    pub(crate) fn new(canvas: &'a DepositionGrid) -> Self {
         Self { canvas, first: [0; 2], size: [0; 2], cells: Vec::new(), far: Vec::new(), is_full: false }
     }
 
@@ -221,7 +221,7 @@ impl<'a> CanvasPart<'a> {
         self.cover(first, if is_worth { size } else { [0; 2] });
     }
 
-    /// Draws a curve, see [`Canvas::draw`].
+    /// Draws a curve, see [`DepositionGrid::draw`].
     ///
     /// * `moves` – whether the part moves with it
     fn draw_curve(
@@ -303,9 +303,9 @@ mod tests {
 
     const CELL: f64 = 1e-3;
 
-    fn canvas(edges: Edges) -> Canvas {
+    fn canvas(edges: Edges) -> DepositionGrid {
         let sheet = Sheet { edges, ..Sheet::new(10e-3, 20e-3, CELL) };
-        Canvas::new(&sheet, &[1e-9], 1e-3).unwrap()
+        DepositionGrid::new(&sheet, &[1e-9], 1e-3).unwrap()
     }
 
     /// A piece across cells leaves in each the part that lies in it.
@@ -368,8 +368,8 @@ mod tests {
     #[test]
     fn rejects_cells_that_cannot_count_the_fibre() {
         let sheet = Sheet { edges: Edges::Cut, ..Sheet::new(10.0, 10.0, 1.0) };
-        assert!(Canvas::new(&sheet, &[1e-12], 1.0).is_err());
-        assert!(Canvas::new(&sheet, &[f64::NAN], 1.0).is_err());
-        assert!(Canvas::new(&sheet, &[], 1.0).is_err());
+        assert!(DepositionGrid::new(&sheet, &[1e-12], 1.0).is_err());
+        assert!(DepositionGrid::new(&sheet, &[f64::NAN], 1.0).is_err());
+        assert!(DepositionGrid::new(&sheet, &[], 1.0).is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! The unevenness of a web of many filaments in one air from a few of them, flown evenly across.
+//! The CV of a web of many filaments in shared turbulence from a few of them, simulated evenly across.
 //!
 //! ```text
 //! curves of n filaments → map of all, of the even ones, of the odd ones → CV
@@ -8,25 +8,25 @@
 //! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on
 //! its pitch. In a slot a filament is nearer to itself than to any other one at the same place across, and
 //! this own part falls with the number of filaments (theory.md, 83d). Where the filaments between them are filled in,
-//! the map with these tells the CV of a slot, unless the patches are smaller than the distance of the flown ones.
+//! the map with these tells the CV of a slot, unless the patches are smaller than the distance of the simulated ones.
 
 mod products;
 #[cfg(test)]
 mod tests;
 
 use super::basis_weight::Map;
-use super::canvas::Canvas;
+use super::canvas::DepositionGrid;
 use super::clouds::Clouds;
-use super::few_findings::{FewFilamentsCv, LayerFew};
+use super::few_findings::{SubsampleCv, SubsampleEstimate};
 use super::laid_web::too_full;
-use super::uniformity::{boxes, places_of_patches, unevenness};
+use super::uniformity::{boxes, patch_cv, places_of_patches};
 use super::{Edges, Sheet};
 use crate::ground::Error;
-use crate::ground::threads::{each, try_each};
+use crate::ground::threads::{par_map, try_par_map};
 use products::{CornerSums, Known, Products};
 use std::ops::Range;
 
-/// How all filaments hang of which a few are flown.
+/// How all filaments hang of which a few are simulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arrangement {
     /// In rows at an even pitch.
@@ -37,9 +37,9 @@ pub(crate) enum Arrangement {
     AtRandom,
 }
 
-/// The filaments that were flown, and those for which they stand.
+/// The filaments that were simulated, and those for which they stand.
 #[derive(Debug)]
-pub(crate) struct FewFilaments<'a> {
+pub(crate) struct Subsample<'a> {
     /// The sheet on which they are laid, with the patches that are looked at.
     pub(crate) sheet: &'a Sheet,
     /// Number of blocks of the sheet that are told apart, across and along.
@@ -59,10 +59,10 @@ pub(crate) struct FewFilaments<'a> {
     pub(crate) pairs: usize,
 }
 
-/// Maps in which the filaments between the flown ones have been filled in.
+/// Maps in which the filaments between the simulated ones have been filled in.
 #[derive(Debug)]
 pub(crate) struct FilledMaps {
-    /// From all flown ones.
+    /// From all simulated ones.
     pub(crate) of_all: Map,
     /// From every second one of them.
     pub(crate) of_every_second: Map,
@@ -82,7 +82,7 @@ const NEIGHBOURS: [usize; 4] = [0, 1, 2, 4];
 /// Smallest patch of a row whose CV does not know the pitch, in pitches.
 const PITCHES: f64 = 2.5;
 /// How far smaller patches are off, as a share of the CV, whatever halves say: 0.3 to 2.4 % in four lines of
-/// which all filaments were flown.
+/// which all filaments were simulated.
 pub(super) const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
 const BLOCK: f64 = 0.05;
@@ -97,14 +97,18 @@ fn error_of_waves([from, to]: [f64; 2], of_patches: &[(f64, f64)]) -> f64 {
     nearest.map_or(0.0, |(_, error)| *error)
 }
 
-impl FewFilaments<'_> {
+impl Subsample<'_> {
     /// What they say of all filaments.
     ///
     /// * `filled` – with the filaments between them
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
-    pub(crate) fn tell(&self, filled: Option<&FilledMaps>, threads: usize) -> Result<LayerFew, Error> {
+    pub(crate) fn tell(
+        &self,
+        filled: Option<&FilledMaps>,
+        threads: usize,
+    ) -> Result<SubsampleEstimate, Error> {
         let count = self.count();
         let halves = [self.map(Some(0))?, self.map(Some(1))?];
         let mut cells = halves[0].cells.clone();
@@ -118,14 +122,14 @@ impl FewFilaments<'_> {
             Arrangement::Rows => vec![Products::default(); sides.len()],
             Arrangement::Slot | Arrangement::AtRandom => self.products(&maps, &sides, threads)?,
         };
-        let found = each(threads, sides.len(), |i| {
-            (maps.each_ref().map(|map| unevenness(map, sides[i])), blocks(&maps[0], sides[i], self.blocks))
+        let found = par_map(threads, sides.len(), |i| {
+            (maps.each_ref().map(|map| patch_cv(map, sides[i])), blocks(&maps[0], sides[i], self.blocks))
         });
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
         let area = sheet[0] * sheet[1];
-        let mut told = LayerFew {
+        let mut told = SubsampleEstimate {
             filaments,
             lost,
             sheet,
@@ -133,7 +137,7 @@ impl FewFilaments<'_> {
             fine_area: area,
             pitch,
             blocks_across,
-            ..LayerFew::default()
+            ..SubsampleEstimate::default()
         };
         // How far the variance of the filled map may be off over patches of a side, as a part of it.
         let mut of_variance: Vec<(f64, f64)> = Vec::new();
@@ -177,7 +181,7 @@ impl FewFilaments<'_> {
             let by_pitch = (0.5 * off).hypot(by_places).hypot(small);
             let by_filling =
                 filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
-            let of_filled = filled.and_then(|filled| unevenness(&filled.of_all, self.side(*patch)));
+            let of_filled = filled.and_then(|filled| patch_cv(&filled.of_all, self.side(*patch)));
             let of_places = if self.arrangement == Arrangement::AtRandom { whole[1] } else { 0.0 };
             if let Some((mut by_filling, of_filled)) = by_filling {
                 told.blocks.push(of_filled);
@@ -197,7 +201,7 @@ impl FewFilaments<'_> {
                 of_variance
                     .push((*patch, (2.0 * by_pitch / cv).hypot(beyond_filling / (filled.cv * filled.cv))));
             }
-            told.cvs.push(FewFilamentsCv {
+            told.cvs.push(SubsampleCv {
                 patch: *patch,
                 cv,
                 // The waves of the few hold the chance of their depths too, which is an error by the few. The
@@ -217,10 +221,10 @@ impl FewFilaments<'_> {
         Ok(told)
     }
 
-    /// The CV of the map in which the filaments between the flown ones are filled in, and its blocks; None over patches
+    /// The CV of the map in which the filaments between the simulated ones are filled in, and its blocks; None over patches
     /// that it does not tell.
     ///
-    /// * `few` – CV of the flown ones alone
+    /// * `few` – CV of the simulated ones alone
     /// * `slot` – part of CV² that filaments of a slot make each for itself
     /// * `at_random` – what filaments at random places have more, of a CV²
     fn by_filling(
@@ -228,13 +232,13 @@ impl FewFilaments<'_> {
         filled: &FilledMaps,
         (patch, few, slot): (f64, f64, f64),
         at_random: &dyn Fn(f64) -> f64,
-    ) -> Option<(FewFilamentsCv, Vec<f64>)> {
+    ) -> Option<(SubsampleCv, Vec<f64>)> {
         if !filled.patches.contains(&patch) {
             return None;
         }
         let maps = [&filled.of_all, &filled.of_every_second];
         let [of_blocks, of_half_blocks] = maps.map(|map| blocks(map, self.side(patch), self.blocks));
-        let [filled, half] = maps.map(|map| unevenness(map, self.side(patch)));
+        let [filled, half] = maps.map(|map| patch_cv(map, self.side(patch)));
         let (filled, half) = (filled?, half?);
         let own = |cv: f64| match self.arrangement {
             Arrangement::AtRandom => at_random(cv * cv),
@@ -248,7 +252,7 @@ impl FewFilaments<'_> {
         // Filled-in filaments lie more alike than they do, and lack what is missing. Over small patches the two
         // errors may cancel in the halves, which then say too little.
         let small = if patch < small_patch(self.pitch()) { SMALL * cv } else { 0.0 };
-        let told = FewFilamentsCv {
+        let told = SubsampleCv {
             patch,
             cv,
             by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
@@ -289,10 +293,10 @@ impl FewFilaments<'_> {
         Ok(canvas.finish()?.map)
     }
 
-    fn canvas(&self, sheet: &Sheet) -> Result<Canvas, Error> {
+    fn canvas(&self, sheet: &Sheet) -> Result<DepositionGrid, Error> {
         let pieces: usize = self.rows.iter().flatten().flatten().map(Vec::len).sum();
         let weight = pieces as f64 * self.piece / (self.sheet.width * self.sheet.length);
-        Ok(Canvas::new(sheet, &[self.piece], weight)?)
+        Ok(DepositionGrid::new(sheet, &[self.piece], weight)?)
     }
 
     /// Products of the patches of filaments with those of their neighbours and of all, for each side.
@@ -307,7 +311,7 @@ impl FewFilaments<'_> {
         let references: Vec<usize> =
             (0..pairs).flat_map(|i| [0, 1].map(|second| i * row.len() / pairs + second)).collect();
         let found =
-            try_each(threads, references.len(), |i| self.products_of(row, references[i], maps, sides))?;
+            try_par_map(threads, references.len(), |i| self.products_of(row, references[i], maps, sides))?;
         let map = &maps[0];
         let per_filament = map.total() as f64 / map.cells.len() as f64 / row.iter().flatten().count() as f64;
         let of_side = |(number, side): (usize, &usize)| {

@@ -27,7 +27,7 @@ impl Products {
     /// A filament that comes down farther from the sheet in the mean has less fibre on it, and so has the mean of all.
     ///
     /// * `square` – CV² of all
-    /// * `count`, `of_all` – number of the flown filaments, and of those for which they stand
+    /// * `count`, `of_all` – number of the simulated filaments, and of those for which they stand
     pub(super) fn variance(&self, square: f64, count: f64, of_all: f64) -> f64 {
         let alone = |[itself, next, second, _, _, mass]: [f64; 6]| {
             let own = itself - 2.0 * (4.0 * next - second) / 3.0;

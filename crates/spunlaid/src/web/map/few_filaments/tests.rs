@@ -98,8 +98,8 @@ fn few<'a>(
     arrangement: Arrangement,
     all: usize,
     curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>,
-) -> FewFilaments<'a> {
-    FewFilaments {
+) -> Subsample<'a> {
+    Subsample {
         sheet,
         blocks: blocks_on(sheet),
         rows: vec![curves.collect()],
@@ -115,7 +115,7 @@ fn few<'a>(
 fn on_map(sheet: &Sheet, curves: impl Iterator<Item = Option<Vec<[f64; 2]>>>) -> Vec<f64> {
     let all = few(sheet, Arrangement::Rows, 1, curves);
     let map = all.map(None).unwrap();
-    sheet.patches.iter().map(|patch| unevenness(&map, all.side(*patch)).unwrap().cv).collect()
+    sheet.patches.iter().map(|patch| patch_cv(&map, all.side(*patch)).unwrap().cv).collect()
 }
 
 /// Where all filaments of a row lay the same curve, a quarter of them has the CV of all over patches of whole
@@ -134,7 +134,7 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
     }
 }
 
-/// Where all are flown, nothing is left to be said.
+/// Where all are simulated, nothing is left to be said.
 #[test]
 fn limit_all_filaments_are_as_uneven_as_themselves() {
     let (sheet, field) = (sheet(&[2.0, 10.0]), Field::new(2));
@@ -197,7 +197,7 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
 }
 
 /// How far a few depths of a slot are off from all, against the told error, where the even and the odd half
-/// often agree by chance: many choices of the flown filaments in one field. On the short sheet a filament has
+/// often agree by chance: many choices of the simulated filaments in one field. On the short sheet a filament has
 /// a fifth more or less fibre than another one, and so has the mean of all: that tells nothing of the CV.
 #[test]
 fn stat_the_error_of_few_depths_is_their_scatter() {
@@ -211,7 +211,7 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
         let of = |choice: usize, i: usize, z: f64| {
             field.curve_with_own(z, SHARED, &Field::new(10_000 + (choice * 1000 + i) as u64))
         };
-        let found: Vec<Vec<FewFilamentsCv>> = (0..CHOICES)
+        let found: Vec<Vec<SubsampleCv>> = (0..CHOICES)
             .map(|choice| {
                 let curves = even(FEW).enumerate().map(|(i, z)| of(choice, i, z));
                 few(&sheet, Arrangement::Slot, 480, curves).tell(None, 2).unwrap().cvs
@@ -262,17 +262,17 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     }
 }
 
-/// Over patches as small as the pitch, the row that is flown is a comb; with the filaments between them
+/// Over patches as small as the pitch, the row that is simulated is a comb; with the filaments between them
 /// filled in, it tells what random places do.
 #[test]
 fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     const WEBS: u64 = 6;
     let (sheet, field) = (sheet(&[2.0]), Field::new(4));
     let row = |count: usize| even(count).map(|z| field.curve(z));
-    let flown = few(&sheet, Arrangement::AtRandom, 120, row(24));
+    let simulated = few(&sheet, Arrangement::AtRandom, 120, row(24));
     let filled = few(&sheet, Arrangement::AtRandom, 120, row(192)).map(None).unwrap();
     let filled = FilledMaps { of_all: filled.clone(), of_every_second: filled, patches: 0.0..1.0 };
-    let [comb, found] = [None, Some(filled)].map(|filled| flown.tell(filled.as_ref(), 2).unwrap().cvs[0]);
+    let [comb, found] = [None, Some(filled)].map(|filled| simulated.tell(filled.as_ref(), 2).unwrap().cvs[0]);
     let squares = (0..WEBS).map(|seed| {
         let mut random = SplitMix64::seed_from_u64(seed);
         let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
@@ -313,13 +313,13 @@ fn a_lost_filament_is_left_out() {
 fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
     let (sheet, field) = (sheet(&[10.0]), Field::new(7));
     let row = |count: usize| even(count).map(|z| field.curve(z));
-    let flown = few(&sheet, Arrangement::Slot, 480, row(48));
+    let simulated = few(&sheet, Arrangement::Slot, 480, row(48));
     let filled_as = |count: usize| {
         let map = few(&sheet, Arrangement::Slot, 480, row(count)).map(None).unwrap();
         let filled = FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0 };
-        flown.tell(Some(&filled), 2).unwrap().cvs[0]
+        simulated.tell(Some(&filled), 2).unwrap().cvs[0]
     };
-    let (alone, right, wrong) = (flown.tell(None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
+    let (alone, right, wrong) = (simulated.tell(None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
     assert!(wrong.cv > alone.cv + 2.0 * alone.by_pitch, "{alone:?} {wrong:?}");
     assert!(wrong.by_pitch > 0.8 * (wrong.cv - alone.cv), "{alone:?} {wrong:?}");
     assert!(right.by_pitch < alone.by_pitch, "{alone:?} {right:?}");
@@ -333,7 +333,7 @@ fn rejects_a_cell_that_is_too_full_for_the_sum_of_both_halves() {
         |points: usize| (0..points).map(|i| [0.05 * WIDTH, 0.5 * LENGTH + 1e-5 * (i % 2) as f64]).collect();
     let heaped =
         (1..30).map(|power| few(&sheet, Arrangement::Rows, 2, (0..2).map(move |_| Some(curve(1 << power)))));
-    let is_full = |half| move |few: &FewFilaments<'_>| few.map(half).is_err();
+    let is_full = |half| move |few: &Subsample<'_>| few.map(half).is_err();
     let first = { heaped }.find(is_full(None)).unwrap();
     assert!(!is_full(Some(0))(&first) && !is_full(Some(1))(&first));
     assert!(first.tell(None, 1).unwrap_err().to_string().contains("more fibre than can be counted"));

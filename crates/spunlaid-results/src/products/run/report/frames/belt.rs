@@ -16,7 +16,7 @@ const REPLICATES: usize = 8;
 const MOST_INSTANTS: usize = 1000;
 const LAID: usize = 8192;
 /// Length of belt that is shown behind the inlet: in distances from the inlet to the belt at least and at most, and in
-/// widths of the lay-down.
+/// widths of the laydown.
 const SHOWN: (f64, f64) = (0.6, 3.0);
 const WIDTHS: f64 = 4.0;
 
@@ -75,8 +75,8 @@ fn outline_shapes(trajectory: &Trajectory) -> Result<Replicate<'_>, Error> {
 
 /// Chooses and packs the shapes and laid points of a run of fed fibres.
 pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<Frames>, Error> {
-    let flown: Vec<&Trajectory> = results.trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
-    let Some(first) = flown.first() else { return Ok(None) };
+    let simulated: Vec<&Trajectory> = results.trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
+    let Some(first) = simulated.first() else { return Ok(None) };
     let shapes = &first.shapes;
     let (longest, mut deflection, mut first_root) = (shapes.most_nodes(), 0.0_f64, None);
     for shape in shapes.iter() {
@@ -91,7 +91,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<
     let nodes = longest / chosen.stride as usize + 1;
     let replicates = (POSITIONS / (nodes * INSTANTS)).clamp(1, REPLICATES);
     let trajectories: Vec<&Trajectory> =
-        flown.iter().filter(|t| t.shapes.len() == shapes.len()).take(replicates).copied().collect();
+        simulated.iter().filter(|t| t.shapes.len() == shapes.len()).take(replicates).copied().collect();
     let most = (POSITIONS / (nodes * trajectories.len())).clamp(2, MOST_INSTANTS);
     let fibres = trajectories.iter().map(|t| outline_shapes(t)).collect::<Result<Vec<_>, _>>()?;
     let instants = instants(&chosen, &fibres, most);

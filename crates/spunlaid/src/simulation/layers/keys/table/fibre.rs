@@ -46,7 +46,7 @@ pub(super) const LAYER: &[WebKey] = &[key("layer.name", Kind::Text("first beam")
 
 /// The numbers of a surrogate.
 pub(crate) const NUMBERS: [&str; 3] = ["laydown.sigma_md", "laydown.sigma_cd", "laydown.noise"];
-/// Filaments of which these numbers are known, so that none are flown.
+/// Filaments of which these numbers are known, so that none are simulated.
 const KNOWN: &Condition<WebSpec> = &Condition {
     words: "without a case",
     holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
@@ -65,7 +65,7 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .told(|_: &WebSpec| None)
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
-            "Path of the case of a fed fibre, relative to this file. It is flown, and its laid fibres \
+            "Path of the case of a fed fibre, relative to this file. It is simulated, and its laid fibres \
              make the web. Keys that stand in this file too, such as `air.velocity`, replace those of \
              the case.",
         ),

@@ -129,7 +129,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["holes per metre", "capillaries per metre"])
         .label("Filaments per metre"),
-    quantity("line.depth", Dimension::Length, Sign::NotNegative, (1e-4, 1.0))
+    quantity("line.slot_gap", Dimension::Length, Sign::NotNegative, (1e-4, 1.0))
         .access(Access {
             get: |web| match layer(web)?.filaments {
                 Filaments::Slot { depth, .. } => Some(depth.into()),

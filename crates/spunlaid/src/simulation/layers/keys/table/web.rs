@@ -8,10 +8,10 @@ use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::{Flown, WantedError};
 use crate::web::Edges;
 
-/// How many filaments are flown: as many as it takes, or all.
+/// How many filaments are simulated: as many as it takes, or all.
 const AUTO: &str = "auto";
 const ALL: &str = "all";
-/// No number is a guess.
+/// No number is an assumed value.
 const NONE: &str = "none";
 /// The names in a text, with commas between them.
 fn names(value: &Value) -> Result<Vec<String>, Fault> {
@@ -75,18 +75,18 @@ pub(super) const KEYS: &[WebKey] = &[
         .meaning(
             "What becomes of fibre beyond the edges in cross direction. `periodic`: it comes in at \
              the other edge. `cut`: it is cut off, and the thinner strips, up to 3 σ_CD inwards of \
-             the outermost filament, are left out of the unevenness.",
+             the outermost filament, are left out of the patch_cv.",
         )
         .label("Edges"),
-    key("web.flown", Kind::Whole(1, MOST_FILAMENTS))
+    key("web.simulated", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
-            get: |web| match web.flown {
+            get: |web| match web.simulated {
                 Flown::Auto => None,
                 Flown::All => Some(ALL.into()),
                 Flown::PerMetre(number) => Some(Value::Whole(number)),
             },
             set: |web, value| {
-                web.flown = match value {
+                web.simulated = match value {
                     Value::Text(word) if word == ALL => Flown::All,
                     Value::Text(_) => Flown::Auto,
                     value => Flown::PerMetre(whole(value)?),
@@ -97,11 +97,11 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[AUTO, ALL])
         .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
         .meaning(
-            "Filaments per metre of width that are flown; the others follow from them, because \
+            "Filaments per metre of width that are simulated; the others follow from them, because \
              neighbours come down almost alike. `all` flies every filament; `auto` as many as the \
              length scale of the air asks for, and up to four times as many if these are not enough.",
         )
-        .label("Filaments per metre that are flown"),
+        .label("Filaments per metre that are simulated"),
     quantity("web.error", Dimension::Ratio, Sign::Share, (1e-3, 1.0))
         .access(Access {
             get: |web| match web.error {
@@ -123,10 +123,10 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .or_words(&[AUTO, NONE])
         .fixed()
-        .follows("4 %; of a web so small that all of it is flown, what its own clouds give")
+        .follows("4 %; of a web so small that all of it is simulated, what its own clouds give")
         .meaning(
             "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in other airs are \
-             flown coarsely until it is reached. `none` flies one sheet only.",
+             simulated coarsely until it is reached. `none` flies one sheet only.",
         )
         .synonyms(&["precision", "uncertainty"])
         .label("Wanted error of the CV"),
@@ -155,21 +155,21 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .meaning(
             "Largest memory for the field of eddies of a web in one air. A web that needs more is \
-             refused before it is flown.",
+             refused before it is simulated.",
         )
         .label("Memory limit"),
-    key("web.guessed", Kind::Text("line.depth, air.length_factor"))
+    key("web.assumed", Kind::Text("line.slot_gap, air.length_factor"))
         .access(Access {
-            get: |web| (!web.guessed.is_empty()).then(|| web.guessed.join(", ").into()),
+            get: |web| (!web.assumed.is_empty()).then(|| web.assumed.join(", ").into()),
             set: |web, value| {
-                web.guessed = names(value)?;
+                web.assumed = names(value)?;
                 Ok(())
             },
         })
         .or_words(&[NONE])
         .follows("`none`: every number counts as known")
         .meaning(
-            "Keys of the web and of its cases whose numbers are guesses, with commas. `spunlaid web` \
+            "Keys of the web and of its cases whose numbers are assumed_values, with commas. `spunlaid web` \
              also gives the CV for half and twice of each. Take out what you have measured.",
         )
         .synonyms(&["assumed", "uncertain", "made up"])

@@ -130,7 +130,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(spun, spinline, air_change.follows_air))
         .value("false")
         .meaning(
-            "Whether the velocity along the filament ends with that of `air` where the flown fibre begins: cabin \
+            "Whether the velocity along the filament ends with that of `air` where the simulated fibre begins: cabin \
              pressure and air speed then change the whole spinline. A factor on the profile follows from it, in \
              place of `velocity_factor`.",
         ),

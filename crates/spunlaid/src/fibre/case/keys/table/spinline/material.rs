@@ -49,9 +49,15 @@ pub(super) const KEYS: &[Key] = &[
     constant!("activation_energy", MolarEnergy, NotNegative, activation_energy, (1000.0, 1e6))
         .meaning("Activation energy of the viscosity (Arrhenius).")
         .label("Activation energy *E*_{a}"),
-    constant!("freezing_temperature", Temperature, Positive, freezing_temperature, (200.0, 600.0))
-        .meaning("Temperature at which the thread is solid.")
-        .label("Freezing temperature *T*_{s}"),
+    constant!(
+        "solidification_temperature",
+        Temperature,
+        Positive,
+        solidification_temperature,
+        (200.0, 600.0)
+    )
+    .meaning("Temperature at which the thread is solid.")
+    .label("Solidification temperature *T*_{s}"),
     constant!("solid_density", Density, Positive, solid_density, (500.0, 3000.0))
         .meaning("Density of the cold filament.")
         .label("Density of the solid"),
@@ -150,5 +156,5 @@ pub(super) const KEYS: &[Key] = &[
         .label("Exponent of the hardening *b*"),
     constant!("freezing_share", Ratio, Share, crystals.freezing_share, (0.001, 1.0))
         .meaning("Transformed share at which the thread is solid. It was chosen.")
-        .label("Share at freezing *θ*_{s}"),
+        .label("Share at solidification *θ*_{s}"),
 ];

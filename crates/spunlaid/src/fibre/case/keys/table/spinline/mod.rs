@@ -136,7 +136,7 @@ const LINE: &[Key] = &[
         .access(of_spinline!(length))
         .required("1.6 m")
         .derived(no_spinline)
-        .meaning("Length from the die to the inlet of the flown fibre, or to the take-up.")
+        .meaning("Length from the die to the inlet of the simulated fibre, or to the take-up.")
         .label("Length of the spinline"),
 ];
 
@@ -149,7 +149,7 @@ const CURTAIN: &[Key] = &[
         .follows("one filament in the air as it is given")
         .meaning(
             "Rows of holes that the quench air crosses one after another; each warms and drags it. \
-             The first row gives the flown fibre.",
+             The first row gives the simulated fibre.",
         )
         .label("Rows of holes")
         .varies(),

@@ -1,4 +1,4 @@
-//! What the thread does on its way, how the melt stretches, freezes, cools and breaks; and what is known at its end.
+//! What the thread does on its way, how the melt stretches, solidifies, cools and breaks; and what is known at its end.
 
 use super::{known, of_spinline, spinline, spun};
 use crate::fibre::case::keys::row::{Access, change, choose, key, number, quantity, switch};
@@ -29,9 +29,9 @@ pub(super) const KEYS: &[Key] = &[
                     && let PolymerSource::Known(polymer) = line.polymer
                 {
                     let [before, after] = [line.crystallisation, crystallises]
-                        .map(|flag| polymer.material(flag).freezing_temperature);
-                    if line.material.freezing_temperature == before {
-                        line.material.freezing_temperature = after;
+                        .map(|flag| polymer.material(flag).solidification_temperature);
+                    if line.material.solidification_temperature == before {
+                        line.material.solidification_temperature = after;
                     }
                 }
                 line.crystallisation = crystallises;
@@ -149,7 +149,7 @@ pub(super) const END_KEYS: &[Key] = &[
         .value("0 N")
         .or_words(&[FLOWN])
         .meaning(
-            "Tension at a free end: the pull of the fibre below it. With \"flown\" some fibres fly, \
+            "Tension at a free end: the pull of the fibre below it. With \"simulated\" some fibres fly, \
              and the mean tension at their root is used, again and again until the speed changes by \
              less than 0.1 %.",
         )

@@ -1,9 +1,9 @@
-//! Guesses: what half and twice of a number that nobody has measured does to the CV.
+//! AssumedValues: what half and twice of a number that nobody has measured does to the CV.
 
 use crate::advice::cases;
 use spunlaid::experiment::Change;
 use spunlaid::experiment::advice::{advise, are_tried};
-use spunlaid::ground::{Control, Isa};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::Flyer;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
     let set: Vec<(String, String)> =
         set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
-    read_changes((text, &cases()), Overrides::new(&set, "--set"), Changes::OfGuesses).unwrap()
+    read_changes((text, &cases()), Overrides::new(&set, "--set"), Changes::OfAssumedValues).unwrap()
 }
 
 /// What each web changes: the keys, and their factors.
@@ -26,13 +26,13 @@ const BEAMS: &str = "
 case = \"spunbond_slot.toml\"
 [layer.line]
 filaments_per_metre = 3000
-depth = \"20 mm\"
+slot_gap = \"20 mm\"
 [[layer]]
 [layer.laydown]
 case = \"spunbond_slot.toml\"
 [layer.line]
 filaments_per_metre = 2000
-depth = \"20 mm\"
+slot_gap = \"20 mm\"
 [web]
 width = \"250 mm\"
 length = \"250 mm\"
@@ -41,10 +41,10 @@ length = \"250 mm\"
 /// What each says to set makes the very web that is tried, also beside what was set before.
 #[test]
 fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
-    let guessed = "line.depth, air.length_factor, air.intensity_factor";
-    let mut set = vec![("web.guessed", guessed), ("air.intensity_factor", "0.9")];
+    let assumed = "line.slot_gap, air.length_factor, air.intensity_factor";
+    let mut set = vec![("web.assumed", assumed), ("air.intensity_factor", "0.9")];
     let changes = read(BEAMS, &set);
-    let keys = ["line.depth", "air.length_factor", "air.intensity_factor"];
+    let keys = ["line.slot_gap", "air.length_factor", "air.intensity_factor"];
     let wanted: Vec<(&str, f64)> = keys.iter().flat_map(|key| [(*key, 0.5), (*key, 2.0)]).collect();
     assert_eq!(factors(&changes), wanted);
     for change in &changes {
@@ -66,7 +66,7 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
     assert!(
         cutoffs.iter().enumerate().all(|(i, cutoff)| *cutoff == cutoffs[0] * if i == 2 { 0.5 } else { 1.0 })
     );
-    // Nothing is a guess once it has been measured.
+    // Nothing is an assumed value once it has been measured.
     set[0].1 = "none";
     assert!(read(BEAMS, &set).is_empty());
 }
@@ -76,14 +76,14 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
 fn identical_a_guess_takes_the_place_of_what_was_set_before() {
     let one = BEAMS.split("[[layer]]").nth(1).unwrap().replace("[layer.", "[");
     let text = format!("{one}[web]\nwidth = \"250 mm\"\nlength = \"250 mm\"\n");
-    let changes = read(&text, &[("line.depth", "30 mm"), ("web.guessed", "line.depth")]);
-    assert_eq!(factors(&changes), [("line.depth", 0.5), ("line.depth", 2.0)]);
+    let changes = read(&text, &[("line.slot_gap", "30 mm"), ("web.assumed", "line.slot_gap")]);
+    assert_eq!(factors(&changes), [("line.slot_gap", 0.5), ("line.slot_gap", 2.0)]);
     for (change, depth) in changes.iter().zip(["15 mm", "60 mm"]) {
         let depths: Vec<&str> = change
             .experiment
             .set
             .iter()
-            .filter(|(key, _)| key == "line.depth")
+            .filter(|(key, _)| key == "line.slot_gap")
             .map(|(_, value)| &**value)
             .collect();
         assert_eq!(depths, [depth], "{:?}", change.experiment.set);
@@ -113,19 +113,19 @@ width = \"150 mm\"
 length = \"150 mm\"
 cell = \"1 mm\"
 patches = [\"2 mm\", \"10 mm\"]
-guessed = \"line.filaments_per_metre\"
+assumed = \"line.filaments_per_metre\"
 ";
     let (spec, changes) = (read_web((text, &cases()), &[]).unwrap().spec, read(text, &[]));
     assert_eq!(factors(&changes), [("line.filaments_per_metre", 0.5), ("line.filaments_per_metre", 2.0)]);
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let by = Control { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
-    let mut flown = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
-    let findings = flown.find(by).unwrap();
+    let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };
+    let mut simulated = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
+    let findings = simulated.find(by).unwrap();
     assert!(are_tried(&spec, &findings, &changes));
-    let guesses = advise(&spec, (&flown.web, &findings), changes, None, (None, by)).unwrap();
-    let ends = guesses.range(10e-3);
+    let assumed_values = advise(&spec, (&simulated.web, &findings), changes, None, (None, by)).unwrap();
+    let ends = assumed_values.range(10e-3);
     for (found, wanted) in ends.iter().zip([0.5_f64.sqrt(), 2.0_f64.sqrt()]) {
         assert!((found / wanted - 1.0).abs() < 1e-6, "{ends:?}");
     }
-    assert_eq!(guesses.range(7e-3), [1.0, 1.0]);
+    assert_eq!(assumed_values.range(7e-3), [1.0, 1.0]);
 }

@@ -4,7 +4,7 @@
 //! ```text
 //! flights → Flights (memory; beyond its room, the file) → Tables and the file, when the turn of a fibre has come
 //!
-//! .<folder>-<case>.flown   the file, from where the first fibre has landed until the results are complete
+//! .<folder>-<case>.simulated   the file, from where the first fibre has landed until the results are complete
 //! ```
 
 use super::tables::{Column, LAID, POINT, SAMPLE, point_of, tables};
@@ -18,7 +18,7 @@ use spunlaid::fibre::{Case, LaidPoint};
 use spunlaid::ground::threads::lock;
 use spunlaid::ground::{Error, Log, Value, Vec3};
 use spunlaid::simulation::ensemble::Sample;
-use spunlaid::simulation::{DECLARED, FibreMeasure, Keep, Recorder, Shapes, Trajectory};
+use spunlaid::simulation::{DECLARED, FibreMeasure, Recorded, Recorder, Shapes, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::fs::File;
@@ -27,7 +27,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// A run that fails leaves nothing if it has flown fewer steps of elements: flying them again takes seconds.
+/// A run that fails leaves nothing if it has simulated fewer steps of elements: flying them again takes seconds.
 /// They are counted, since the time would be another one on a busy machine.
 const FEW: f64 = 1e9;
 /// Bytes of all fibres that stay in memory until their turn. Beyond them a fibre with the rows of a record puts what it
@@ -58,8 +58,8 @@ pub struct Flights {
     /// The final path of the first table, and of the shapes, for messages.
     later: [PathBuf; 2],
     fed: bool,
-    keep: Keep<'static>,
-    /// Replicates that an earlier process has flown.
+    keep: Recorded<'static>,
+    /// Replicates that an earlier process has simulated.
     earlier: BTreeSet<u64>,
     /// What has been recorded of the others and is not in the file, and its bytes.
     held: Mutex<(BTreeMap<u64, Held>, usize)>,
@@ -151,21 +151,26 @@ impl Row for LaidPoint {
 }
 
 impl Flights {
-    /// Opens the file. What was flown of the same case for the same folder is in it.
+    /// Opens the file. What was simulated of the same case for the same folder is in it.
     ///
     /// * `keep` – what is kept of a fibre; none of flights that have landed before, which no process goes on with
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn open(staging: &Staging<'_>, case: &Case, keep: Option<Keep<'static>>) -> Result<Self, Failure> {
+    pub fn open(
+        staging: &Staging<'_>,
+        case: &Case,
+        keep: Option<Recorded<'static>>,
+    ) -> Result<Self, Failure> {
         let (results, scratch) = (staging.folder(), staging.scratch());
         let name = results.file_name().unwrap_or_default().to_string_lossy();
         let later = [staging.place("energy.parquet").1, staging.place(SHAPE).1];
         let (version, sum) = (env!("CARGO_PKG_VERSION"), Experiment::from(case.clone()).checksum());
-        let identity = format!("spunlaid-flown version={version} case={sum:08x} {keep:?}");
+        let identity = format!("spunlaid-simulated version={version} case={sum:08x} {keep:?}");
         // Flights of another case stay until that case goes on.
         let own = (identity.bytes()).fold(0_u32, |own, byte| own.wrapping_mul(31).wrapping_add(byte.into()));
-        let places = [scratch.join("flown"), results.with_file_name(format!(".{name}-{own:08x}.flown"))];
+        let places =
+            [scratch.join("simulated"), results.with_file_name(format!(".{name}-{own:08x}.simulated"))];
         // What another process uses stays its own.
         let earlier = keep.filter(|_| places[1].exists()).and_then(|_| Log::open(&places[1], &identity).ok());
         let is_kept = AtomicBool::new(earlier.is_some());
@@ -177,7 +182,7 @@ impl Flights {
             is_kept,
             later,
             fed: case.line.is_some(),
-            keep: keep.unwrap_or(Keep::NUMBERS),
+            keep: keep.unwrap_or(Recorded::NUMBERS),
             earlier: BTreeSet::new(),
             held: Mutex::default(),
             steps_of_each: case.run.steps as f64 * case.fibre.elements as f64,
@@ -196,12 +201,12 @@ impl Flights {
         (landed.get(..LANDED as usize)?.iter().copied().eq(counts)).then_some(())
     }
 
-    /// Number of replicates that an earlier process has flown.
+    /// Number of replicates that an earlier process has simulated.
     pub fn earlier(&self) -> u64 {
         self.earlier.len() as u64
     }
 
-    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is flown
+    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is simulated
     /// again.
     pub fn land(&self, trajectory: &Trajectory) {
         let replicate = trajectory.replicate;

@@ -1,4 +1,4 @@
-//! `spunlaid web`: what it says of numbers that are guesses.
+//! `spunlaid web`: what it says of numbers that are assumed_values.
 
 use crate::desk::{Desk, FED, success};
 use std::fs;
@@ -21,7 +21,7 @@ width = \"100 mm\"
 length = \"100 mm\"
 cell = \"1 mm\"
 patches = [\"2 mm\", \"10 mm\"]
-guessed = \"line.filaments_per_metre, line.throughput\"
+assumed = \"line.filaments_per_metre, line.throughput\"
 ";
 
 /// The CV of half and twice as many filaments at random places is 1.41 and 0.71 times that of the web; half
@@ -37,8 +37,8 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
         patches.iter().find(|patch| patch["patch_m"] == 0.01).unwrap()[cv].as_f64().unwrap()
     };
     let of_web = cv_over_10_mm(&summary["web"]["patches"], "cv");
-    let guesses = &summary["guesses"];
-    let values = guesses["values"].as_array().unwrap();
+    let assumed_values = &summary["assumed_values"];
+    let values = assumed_values["values"].as_array().unwrap();
     let ratios: Vec<f64> =
         values.iter().map(|value| cv_over_10_mm(&value["patches"], "cv") / of_web).collect();
     let keys: Vec<(&str, f64)> =
@@ -48,10 +48,10 @@ fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_lai
     assert!(
         (ratios[0] / 2.0_f64.sqrt() - 1.0).abs() < 1e-6 && (ratios[1] / 0.5_f64.sqrt() - 1.0).abs() < 1e-6
     );
-    let ranges = &guesses["ranges"];
+    let ranges = &assumed_values["ranges"];
     assert_eq!(cv_over_10_mm(ranges, "cv_to"), ratios[0] * of_web);
     // What cannot be laid, and why.
-    let failed = guesses["failed"].as_array().unwrap();
+    let failed = assumed_values["failed"].as_array().unwrap();
     assert_eq!(failed.len(), 1, "{failed:?}");
     let why = failed[0]["why"].as_str().unwrap();
     assert!(why.contains("would tear the fibre"), "{why}");

@@ -1,4 +1,4 @@
-//! Numbers that the file of a web says are guesses.
+//! Numbers that the file of a web says are assumed_values.
 
 use super::read::Reading;
 use super::{flies_none, is_of_case};
@@ -11,9 +11,9 @@ use crate::simulation::layers::keys::WEB;
 use crate::simulation::{SAME, WEB_KEYS, WebKey, WebSpec};
 
 /// The key whose value names them.
-const GUESSED: &str = "web.guessed";
+const GUESSED: &str = "web.assumed";
 
-/// A number that is a guess.
+/// A number that is an assumed value.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
     /// The full names of its keys: of a key that every layer has, those of all layers.
@@ -119,11 +119,11 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses guesses that are no numbers.
-    pub(super) fn check_guessed(&mut self, web: &WebSpec) {
+    /// Refuses assumed_values that are no numbers.
+    pub(super) fn check_assumed(&mut self, web: &WebSpec) {
         // What other problems hide is not known.
         if self.key_values.problems.is_empty()
-            && let Some(fault) = web.guessed.iter().find_map(|name| Guess::new(web, name).err())
+            && let Some(fault) = web.assumed.iter().find_map(|name| Guess::new(web, name).err())
         {
             self.key_values.reject(GUESSED, fault);
         }

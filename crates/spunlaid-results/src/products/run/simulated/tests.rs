@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::files::folder::ENTRIES;
-use spunlaid::ground::{Control, Isa, WIDTH};
+use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::input::read_case;
 use spunlaid::simulation::KeepShapes;
 use spunlaid::simulation::ensemble::fly;
@@ -63,31 +63,32 @@ struct Process {
 
 fn process(desk: &Path, case: &Case, until: u64) -> Process {
     let staging = Staging::new(&desk.join("r"), ENTRIES, true, &STOP).unwrap();
-    let keep = Keep { shapes: KeepShapes::within(case, 100_000), ..Keep::CURVES };
-    let flown = Flights::open(&staging, case, Some(keep)).unwrap();
-    let mut tables = Tables::create(&staging, &flown).unwrap();
+    let keep = Recorded { shapes: KeepShapes::within(case, 100_000), ..Recorded::CURVES };
+    let simulated = Flights::open(&staging, case, Some(keep)).unwrap();
+    let mut tables = Tables::create(&staging, &simulated).unwrap();
     let mut trajectories = Vec::new();
     let mut take = |trajectory: Trajectory| {
         if trajectory.replicate < until {
             tables.add(trajectory.replicate)?;
-            flown.land(&trajectory);
+            simulated.land(&trajectory);
             trajectories.push(trajectory);
         }
         Ok::<(), Failure>(())
     };
-    let (found, replicates) = (flown.earlier(), case.run.replicates);
+    let (found, replicates) = (simulated.earlier(), case.run.replicates);
     let flights = (0..replicates).step_by(WIDTH).map(|first| first..replicates.min(first + WIDTH as u64));
-    let recalled: Option<Vec<_>> = flights.map(|flight| flown.recall(flight, &flown).unwrap()).collect();
+    let recalled: Option<Vec<_>> =
+        flights.map(|flight| simulated.recall(flight, &simulated).unwrap()).collect();
     let is_recalled = recalled.is_some();
     match recalled {
         Some(all) => all.into_iter().flatten().try_for_each(&mut take).unwrap(),
         None => {
             let steps = AtomicU64::new(0);
-            let computing = Control { threads: 1, isa: Isa::detect(), stop: &STOP, done: &steps };
-            fly(case, Keep { recorder: Some(&flown), ..keep }, computing, take).unwrap();
+            let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &STOP, done: &steps };
+            fly(case, Recorded { recorder: Some(&simulated), ..keep }, computing, take).unwrap();
         }
     }
-    flown.interrupted.store(true, Ordering::Relaxed);
+    simulated.interrupted.store(true, Ordering::Relaxed);
     tables.finish().unwrap();
     let names = tables_of(case);
     Process {
@@ -144,7 +145,7 @@ fn identical_flights_when_an_earlier_process_has_flown_them() {
 /// The file of flights in a folder.
 fn kept(folder: &Path) -> PathBuf {
     let mut files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
-    files.find(|file| file.extension().is_some_and(|ending| ending == "flown")).unwrap()
+    files.find(|file| file.extension().is_some_and(|ending| ending == "simulated")).unwrap()
 }
 
 #[test]
@@ -198,8 +199,8 @@ fn identical_tables_whatever_stays_in_memory() {
     let written = |at_once: bool| {
         let desk = tempfile::tempdir().unwrap();
         let staging = Staging::new(&desk.path().join("r"), ENTRIES, false, &STOP).unwrap();
-        let flown = Flights::open(&staging, &case, None).unwrap();
-        let mut tables = Tables::create(&staging, &flown).unwrap();
+        let simulated = Flights::open(&staging, &case, None).unwrap();
+        let mut tables = Tables::create(&staging, &simulated).unwrap();
         let sample = |replicate: u64, instant: usize| {
             let time = instant as f64 * 1e-3;
             let kinetic = (time + replicate as f64).sin();
@@ -207,13 +208,13 @@ fn identical_tables_whatever_stays_in_memory() {
         };
         let record = |replicate, instants: Range<usize>| {
             let samples: Vec<_> = instants.map(|instant| sample(replicate, instant)).collect();
-            flown.samples(replicate, &samples).unwrap();
+            simulated.samples(replicate, &samples).unwrap();
         };
         if at_once {
             for first in (0..INSTANTS).step_by(77) {
                 (0..FIBRES).for_each(|replicate| record(replicate, first..INSTANTS.min(first + 77)));
             }
-            assert!(flown.log.keys().len() > 100, "many have gone to the file");
+            assert!(simulated.log.keys().len() > 100, "many have gone to the file");
         }
         for replicate in 0..FIBRES {
             if !at_once {
@@ -231,14 +232,14 @@ fn identical_tables_whatever_stays_in_memory() {
 fn what_is_forgotten_does_not_come_back() {
     let (desk, case) = (tempfile::tempdir().unwrap(), case(FED));
     let staging = Staging::new(&desk.path().join("r"), ENTRIES, false, &STOP).unwrap();
-    let flown = Flights::open(&staging, &case, None).unwrap();
+    let simulated = Flights::open(&staging, &case, None).unwrap();
     let points = |count: usize| vec![LaidPoint { fed: 1.0, time: 2.0, md: 3.0, cd: 4.0 }; count];
-    flown.lay(0, &points(ROOM / size_of::<LaidPoint>() + 1)).unwrap();
-    assert!(flown.log.count([POINTS, 0]) > 0);
-    flown.begin(0);
-    flown.lay(0, &points(1)).unwrap();
-    flown.settle(0, &flown.take(0).points, |_| Ok(())).unwrap();
-    assert_eq!(flown.log.count([POINTS, 0]), 4);
+    simulated.lay(0, &points(ROOM / size_of::<LaidPoint>() + 1)).unwrap();
+    assert!(simulated.log.count([POINTS, 0]) > 0);
+    simulated.begin(0);
+    simulated.lay(0, &points(1)).unwrap();
+    simulated.settle(0, &simulated.take(0).points, |_| Ok(())).unwrap();
+    assert_eq!(simulated.log.count([POINTS, 0]), 4);
 }
 
 /// The file is written only: what it had of flights that are in memory may be lost before their tables are made.
@@ -249,11 +250,11 @@ fn identical_tables_when_the_file_has_lost_what_memory_has() {
         (0..5000).map(|i| Sample { time: f64::from(i), kinetic: 1.0, ..Sample::default() }).collect();
     let written = |loses: bool| {
         let staging = Staging::new(&desk.path().join("r"), ENTRIES, true, &STOP).unwrap();
-        let flown = Flights::open(&staging, &case, None).unwrap();
-        let mut tables = Tables::create(&staging, &flown).unwrap();
-        samples.chunks(64).for_each(|some| flown.samples(0, some).unwrap());
+        let simulated = Flights::open(&staging, &case, None).unwrap();
+        let mut tables = Tables::create(&staging, &simulated).unwrap();
+        samples.chunks(64).for_each(|some| simulated.samples(0, some).unwrap());
         if loses {
-            File::options().write(true).open(&flown.places[0]).unwrap().set_len(0).unwrap();
+            File::options().write(true).open(&simulated.places[0]).unwrap().set_len(0).unwrap();
         }
         tables.add(0).unwrap();
         tables.finish().unwrap();

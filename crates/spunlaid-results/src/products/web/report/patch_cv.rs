@@ -5,9 +5,9 @@ use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::table::{Row, Table};
 use crate::page::words::millimetres;
 use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
-use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{Clouds, OF_PATCHES};
+use spunlaid::web::{Clouds, PATCH_MEASURES};
 
 pub(super) const PER_CENT: f64 = 100.0;
 
@@ -18,8 +18,8 @@ pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis we
 
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
 /// * `assumed` – what is to be said of assumed values, because the error is that of sampling alone
-pub(crate) fn headline(patch: Option<&Unevenness>, is_bound: bool, assumed: Option<String>) -> String {
-    let Some(Unevenness { cv, standard_error, patch, .. }) = patch else {
+pub(crate) fn headline(patch: Option<&PatchCv>, is_bound: bool, assumed: Option<String>) -> String {
+    let Some(PatchCv { cv, standard_error, patch, .. }) = patch else {
         return "CV not known: the web is smaller than the patches.".to_owned();
     };
     let at_least = if is_bound { "at least " } else { "" };
@@ -53,7 +53,7 @@ pub(crate) fn largest_clouds(clouds: &Clouds) -> Option<String> {
     ))
 }
 
-/// The unevenness over patches, a row for each size: what the map says, then every declared column that the web has.
+/// The CV over patches, a row for each size: what the map says, then every declared column that the web has.
 pub(super) fn patch_table(findings: &Findings) -> Table {
     // That of a web of few filaments holds what these do too.
     let of_map = match findings.patches.iter().any(|patch| patch.few.is_some()) {
@@ -79,7 +79,7 @@ fn columns(findings: &Findings) -> Vec<&'static Measure<PatchFindings>> {
     let is_shown = |measure: &&Measure<PatchFindings>| {
         !measure.terse().is_empty() && findings.patches.iter().any(measure.is_shown)
     };
-    OF_PATCHES.iter().flat_map(of_measure).skip(1).filter(is_shown).collect()
+    PATCH_MEASURES.iter().flat_map(of_measure).skip(1).filter(is_shown).collect()
 }
 
 /// A number with its unit, or a dash.
@@ -94,7 +94,7 @@ fn cell(number: Option<String>, unit: Unit) -> String {
 /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
 /// error by chance, and interval.
 fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
-    let told = patch.told_with_whole_error();
+    let told = patch.with_total_error();
     let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
     [
         format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),

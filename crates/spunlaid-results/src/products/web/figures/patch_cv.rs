@@ -3,7 +3,7 @@
 use super::{MM, PER_CENT, Weights};
 use crate::figures::joined;
 use crate::numbers::significant;
-use spunlaid::web::map::uniformity::Unevenness;
+use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings, straight_fibres};
 use spunlaid::web::{Edges, Map, Web, scan};
 use spunlaid_charts::palette::{BLUE, VERMILION};
@@ -19,14 +19,14 @@ pub(crate) fn empty_chart() -> Chart {
 }
 
 /// Side [mm], CV and its standard error [%].
-fn point(unevenness: &Unevenness) -> (f64, f64, Option<f64>) {
-    (unevenness.patch * MM, unevenness.cv * PER_CENT, unevenness.standard_error.map(|error| error * PER_CENT))
+fn point(patch_cv: &PatchCv) -> (f64, f64, Option<f64>) {
+    (patch_cv.patch * MM, patch_cv.cv * PER_CENT, patch_cv.standard_error.map(|error| error * PER_CENT))
 }
 
 /// The coefficient of variation of a scanned web over the size of the patches.
 pub(super) fn scanned(findings: &scan::Findings) -> Figure {
-    let found: Vec<_> = findings.patches.iter().map(|patch| point(&patch.unevenness)).collect();
-    let noise = findings.patches.iter().map(|patch| (patch.unevenness.patch * MM, patch.noise * PER_CENT));
+    let found: Vec<_> = findings.patches.iter().map(|patch| point(&patch.patch_cv)).collect();
+    let noise = findings.patches.iter().map(|patch| (patch.patch_cv.patch * MM, patch.noise * PER_CENT));
     let chart = empty_chart().line(Series::reference("noise of the pixels"), noise);
     let chart = joined(chart, Series::spots("this scan", BLUE), &found);
     Figure::new(
@@ -40,7 +40,7 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
 
 /// The coefficient of variation over the size of the patches.
 pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
-    let map = findings.patches.iter().filter_map(PatchFindings::told_with_whole_error);
+    let map = findings.patches.iter().filter_map(PatchFindings::with_total_error);
     let map: Vec<_> = map.map(|told| point(&told)).collect();
     let patches = || findings.patches.iter();
     let single =
@@ -84,9 +84,9 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     Figure::new(&chart, caption)
 }
 
-/// What is told below the figure of a web in one air.
+/// What is told below the figure of a web in shared turbulence.
 ///
-/// * `of_few` – whether a few filaments were flown for all
+/// * `of_few` – whether a few filaments were simulated for all
 fn shared_air(places: &str, of_few: bool) -> String {
     let bars = match of_few {
         true => "from the waves of the map of the simulated filaments, and from the size of this sample",
