@@ -52,10 +52,10 @@ fn a_spinline_of_the_repository_is_solved_in_one_command() {
     let command = format!("spin {} --out a", cases.join("spinline.toml").display());
     let said = success(&mut desk.spunlaid(&command));
     for part in [
-        "Diameter, cold                          24.89  µm",
-        "Line density                            4.405  dtex",
-        "Speed at the end                        18.92  m/s",
-        "Temperature at the solidification point         110  °C    (it freezes by its temperature)",
+        "Diameter, cold                           24.89  µm",
+        "Linear density (titre)                   4.405  dtex",
+        "Speed at the end                         18.92  m/s",
+        "Temperature at solidification              110  °C    (it solidifies by cooling)",
         "Young’s modulus, an estimate",
         "What decides the diameter",
         "% finer",
@@ -176,7 +176,7 @@ fn rejects_spinlines_without_a_steady_state_and_writes_nothing() {
         assert!(said.contains(message), "{change}: {said}");
     }
     let said = refusal(&mut desk.with("spin line.toml --out r", &TOO_SHORT), 1);
-    assert!(said.contains("at the end of the spinline and freezes at 110 °C"), "{said}");
+    assert!(said.contains("at the end of the spinline and solidifies at 110 °C"), "{said}");
     let said = refusal(&mut desk.spunlaid("spin brief.toml"), 1);
     assert!(said.contains("[spinline] is missing"), "{said}");
     let said = refusal(&mut desk.spunlaid("spin nowhere.toml"), 1);

@@ -12,7 +12,7 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
         .named("final_diameter")
         .main()
         .figure(&figure("final_diameter", "Diameter of the filament", "diameter of the filament")),
-    spun("linear_density_kg_m", "Line density", DECITEX, |found| found.linear_density)
+    spun("linear_density_kg_m", "Linear density (titre)", DECITEX, |found| found.linear_density)
         .meaning("mass per length of the filament: throughput over speed")
         .named("linear_density")
         .main()
@@ -29,7 +29,10 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     spun("solidification.distance_m", "Solidification point, below the die", MILLIMETRES, |found| {
         found.solidification.distance
     })
-    .meaning("from here on the filament is solid and keeps its speed")
+    .meaning(
+        "distance from the die at which the filament becomes solid; from there on its speed is \
+         constant",
+    )
     .kept("freezing_distance", "freezing_distance_m")
     .main()
     .figure(&figure(
@@ -39,59 +42,52 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     )),
     spun(
         "solidification.temperature_c",
-        "Temperature at the solidification point",
+        "Temperature at solidification",
         Unit { shown: "°C", ..KELVIN },
         |found| found.solidification.temperature,
     )
-    .meaning("temperature of the thread where it becomes solid")
+    .meaning("temperature of the filament where it becomes solid")
     .zero(ZERO_CELSIUS)
     .remark(|found| {
         let by = match found.solidification.by {
-            SolidificationCause::Temperature => "it freezes by its temperature",
-            SolidificationCause::Crystallisation => "it freezes by crystallisation",
+            SolidificationCause::Temperature => "it solidifies by cooling",
+            SolidificationCause::Crystallisation => "it solidifies by crystallisation",
         };
         Some(by.to_owned())
     })
     .kept("solidification_temperature", "freezing_temperature_k")
     .figure(&figure(
         "solidification_temperature",
-        "Temperature of the solidification point",
-        "temperature of the solidification point",
+        "Temperature at solidification",
+        "temperature at solidification",
     )),
-    spun("solidification.diameter_m", "Diameter at the solidification point", MICROMETRES, |found| {
+    spun("solidification.diameter_m", "Diameter at solidification", MICROMETRES, |found| {
         found.solidification.diameter
     })
-    .meaning("diameter of the thread where it becomes solid; it still shrinks"),
-    spun("solidification.stress_pa", "Stress at the solidification point", MEGAPASCALS, |found| {
+    .meaning("diameter of the filament where it becomes solid; it still shrinks"),
+    spun("solidification.stress_pa", "Stress at solidification", MEGAPASCALS, |found| {
         found.solidification.stress
     })
     .meaning("tensile stress where it becomes solid, which orients the polymer")
     .kept("freezing_stress", "freezing_stress_pa")
     .main()
-    .figure(&figure(
-        "freezing_stress",
-        "Stress at the solidification point",
-        "stress at the solidification point",
-    )),
-    spun(
-        "solidification.cooling_rate_k_s",
-        "Cooling rate at the solidification point",
-        KELVIN_PER_SECOND,
-        |found| found.solidification.cooling_rate,
-    )
-    .meaning("how fast the thread cools where it becomes solid")
+    .figure(&figure("freezing_stress", "Stress at solidification", "stress at solidification")),
+    spun("solidification.cooling_rate_k_s", "Cooling rate at solidification", KELVIN_PER_SECOND, |found| {
+        found.solidification.cooling_rate
+    })
+    .meaning("rate at which the filament cools where it becomes solid")
     .kept("cooling_rate", "cooling_rate_k_s")
-    .figure(&figure("cooling_rate", "Cooling rate at the solidification point", "cooling rate")),
+    .figure(&figure("cooling_rate", "Cooling rate at solidification", "cooling rate")),
     spun("largest_strain_rate_per_s", "Largest strain rate", PER_SECOND, |found| found.largest_strain_rate)
-        .meaning("strain rate where the thread is stretched the fastest")
+        .meaning("strain rate where the filament is stretched fastest")
         .named("largest_strain_rate")
         .figure(&figure("largest_strain_rate", "Largest strain rate", "largest strain rate")),
-    spun("largest_strain_rate_at_m", "Its place, below the die", MILLIMETRES, |found| {
+    spun("largest_strain_rate_at_m", "Its position, below the die", MILLIMETRES, |found| {
         found.largest_strain_rate_at
     })
     .meaning("distance of the largest strain rate from the die"),
     spun("force_at_die_n", "Tension at the die", MILLINEWTONS, |found| found.force_at_die)
-        .meaning("tension of the thread at the die, surface tension included")
+        .meaning("tension of the filament at the die, surface tension included")
         .named("force_at_die")
         .figure(&figure("force_at_die", "Tension at the die", "tension at the die")),
     spun("force_at_end_n", "Tension at the end", MILLINEWTONS, |found| {
@@ -99,7 +95,7 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
         const ZERO: f64 = 1e-9;
         if found.force_at_end.abs() < ZERO * found.force_at_die { 0.0 } else { found.force_at_end }
     })
-    .meaning("zero for a free end"),
+    .meaning("tension of the filament at the end of the line; zero for a free end"),
     spun("birefringence", "Birefringence", RATIO, |found| found.birefringence)
         .meaning(
             "birefringence of the solid by the stress-optical law; 3 to 5 times too low for polypropylene",
@@ -122,12 +118,12 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     .named("modulus_estimate")
     .main()
     .figure(&figure("modulus_estimate", "Estimate of Young’s modulus", "estimate of Young’s modulus")),
-    spun("momentum_residual", "Balance of momentum", RATIO, |found| found.momentum_residual)
-        .meaning("how far the balance of momentum fails over the line, over the largest tension")
+    spun("momentum_residual", "Residual of the momentum balance", RATIO, |found| found.momentum_residual)
+        .meaning("residual of the momentum balance over the line, divided by the largest tension")
         .digits(1)
         .short(""),
-    spun("energy_residual", "Balance of energy", RATIO, |found| found.energy_residual)
-        .meaning("how far the balance of energy fails over the line, over the heat that the air takes")
+    spun("energy_residual", "Residual of the energy balance", RATIO, |found| found.energy_residual)
+        .meaning("residual of the energy balance over the line, divided by the heat that the air takes up")
         .digits(1)
         .short(""),
 ];

@@ -90,7 +90,10 @@ fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
     let faster = free.map_or(String::new(), |free| {
         format!(": without a godet it runs at {}", Dimension::Velocity.pretty(free))
     });
-    let message = format!("is slower than the filament gets by its weight and the air alone{faster}");
+    let message = format!(
+        "is lower than the speed that the filament reaches by its weight and the air \
+         alone{faster}",
+    );
     let remedy = "raise it, or leave out spinline.end, which makes the end free";
     Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
 }
@@ -101,7 +104,7 @@ fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
     let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
     let solidification = line.material.solidification_temperature;
     if line.die_temperature <= solidification {
-        let message = format!("is not above {}, at which the polymer freezes", celsius(solidification));
+        let message = format!("is not above {}, at which the polymer solidifies", celsius(solidification));
         let remedy = "raise it, or correct spinline.material.solidification_temperature";
         let value = Some(line.die_temperature);
         return Some(Failure::new("spinline.die_temperature", value, Fault::new(message, remedy)));
@@ -110,7 +113,7 @@ fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
     if coldest >= solidification && !line.crystallisation {
         let (key, value) = key_of_air(thread.air, coldest, "spinline.temperature");
         let message = format!(
-            "leaves the air nowhere colder than {}, and the polymer freezes at {}",
+            "leaves the air nowhere colder than {}, and the polymer solidifies at {}",
             celsius(coldest),
             celsius(solidification)
         );
@@ -142,11 +145,11 @@ fn key_of_air(air: &Surroundings, value: f64, key: &'static str) -> (&'static st
 }
 
 const NO_THREAD: &str =
-    "has no steady state: with any tension at the die the thread is either slack or faster than 2000 m/s";
+    "has no steady state: with any tension at the die the filament is either slack or faster than 2000 m/s";
 
 const NOT_FOUND: &str = "is not solved: no steady state was found, and it is not known whether there is one";
-const STAYS_LIQUID: &str = "has no steady state: followed from slower lines, the melt cools no further before it \
-    is solid";
+const STAYS_LIQUID: &str = "has no steady state: in the solutions followed from slower lines, the melt \
+    stops cooling before it is solid";
 const CHECK_PULL: &str = "check the viscosity of the melt, the air and the throughput";
 
 /// Why no tension at the die meets the end of the line.
@@ -158,7 +161,8 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
             "spinline.law",
             None,
             Fault::new(
-                "makes the melt too elastic for this speed: the thread would be as fast as its own elastic wave",
+                "makes the melt too elastic for this speed: the filament would be as fast as its own \
+                 elastic wave",
                 "raise spinline.material.modulus, or leave spinline.law out",
             ),
         ),
@@ -201,13 +205,14 @@ fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
         (Miss::TurnsBack(speed), End::TakeUp(_)) => {
             let speed = Dimension::Velocity.pretty(speed);
             format!(
-                "has no steady state: followed from slower ones, the threads end at {speed} and turn back"
+                "has no steady state: the solutions followed from slower lines end at {speed} and turn back"
             )
         }
         (Miss::TurnsBack(tension), _) => {
             let tension = Dimension::Force.pretty(tension);
             format!(
-                "has no steady state: followed from slower ones, the threads end with {tension} and turn back"
+                "has no steady state: the solutions followed from slower lines end with {tension} and \
+                 turn back"
             )
         }
         _ => NO_THREAD.to_owned(),
@@ -231,7 +236,8 @@ fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
     let (reached, solid) = (celsius(temperature), celsius(line.material.solidification_temperature));
     let message = format!(
-        "is too short: the polymer is still at {reached} at the end of the spinline and freezes at {solid}"
+        "is too short: the polymer is still at {reached} at the end of the spinline and solidifies at \
+         {solid}"
     );
     Failure::new(
         "spinline.length",

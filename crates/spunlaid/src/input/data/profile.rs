@@ -63,8 +63,8 @@ const PROFILE: [ColumnRule; 5] = [
 ];
 const SPINLINE_AIR: [ColumnRule; 4] = [
     column("of distances from the die", "z distance x", Length, "z_mm", NotNegative),
-    column("of velocities along the thread", "velocity u speed", Velocity, "velocity_m_s", Any),
-    column("of velocities across the thread", ACROSS, Velocity, "cross_velocity_m_s", NotNegative),
+    column("of velocities along the filament", "velocity u speed", Velocity, "velocity_m_s", Any),
+    column("of velocities across the filament", ACROSS, Velocity, "cross_velocity_m_s", NotNegative),
     column("of temperatures", "temperature air_temperature", Temperature, "temperature_c", Positive),
 ];
 const ACROSS: &str = "cross_velocity quench_velocity v_c";

@@ -58,7 +58,7 @@ pub(super) const KEYS: &[Key] = &[
         .gives("spinline.")
         .follows("the same air everywhere")
         .meaning(
-            "Table of the air over the distance from the die: `z_mm`, `velocity_m_s` along the thread, \
+            "Table of the air over the distance from the die: `z_mm`, `velocity_m_s` along the filament, \
              `cross_velocity_m_s`, `temperature_c`.",
         ),
     key("spinline.field", Kind::Switch)
@@ -90,13 +90,13 @@ pub(super) const KEYS: &[Key] = &[
     quantity("spinline.velocity", Dimension::Velocity, Any, (1e-3, 340.0))
         .access(of_air!(velocity))
         .value("0 m/s")
-        .meaning("Velocity of the air along the thread, downwards, if it is the same everywhere.")
-        .label("Air velocity along the thread *u*")
+        .meaning("Velocity of the air along the filament, downwards, if it is the same everywhere.")
+        .label("Air velocity along the filament *u*")
         .slider(0.0, 100.0),
     quantity("spinline.cross_velocity", Dimension::Velocity, NotNegative, (1e-3, 50.0))
         .access(of_air!(cross_velocity))
         .value("0 m/s")
-        .meaning("Velocity of the quench air across the thread, if it is the same everywhere.")
+        .meaning("Velocity of the quench air across the filament, if it is the same everywhere.")
         .label("Quench velocity *v*_{c}")
         .slider(0.0, 3.0),
     quantity("spinline.temperature", Dimension::Temperature, Positive, (233.15, 673.15))
@@ -130,9 +130,9 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(spun, spinline, air_change.follows_air))
         .value("false")
         .meaning(
-            "Whether the velocity along the filament ends with that of `air` where the simulated fibre begins: cabin \
-             pressure and air speed then change the whole spinline. A factor on the profile follows from it, in \
-             place of `velocity_factor`.",
+            "Whether the velocity along the filament ends with that of `air` where the simulated fibre \
+             begins. Cabin pressure and air speed then change the whole spinline. A factor on the \
+             profile follows from it, in place of `velocity_factor`.",
         ),
     quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(Access {
@@ -145,7 +145,8 @@ pub(super) const KEYS: &[Key] = &[
             set: |case, value| {
                 let line = spinline(case)?;
                 if line.air_change.follows_air {
-                    let remedy = "the air at the slot gives it; change air.cabin_pressure or air.speed_factor";
+                    let remedy =
+                        "the air at the slot gives it; change air.cabin_pressure or air.speed_factor";
                     return Err(Fault::excludes("spinline.follows_air = true", remedy));
                 }
                 if !matches!(line.air, Surroundings::Table(_) | Surroundings::Field { .. }) {
@@ -158,8 +159,11 @@ pub(super) const KEYS: &[Key] = &[
         })
         .read_after(&["spinline.follows_air"])
         .value("1.0")
-        .meaning("Factor on the velocity along the thread of a profile or a field: more or less drawing air.")
-        .label("Air velocity along the thread *u*, factor")
+        .meaning(
+            "Factor on the velocity along the filament of a profile or a field: more or less drawing \
+             air.",
+        )
+        .label("Air velocity along the filament *u*, factor")
         .slider(0.2, 2.0),
     quantity("spinline.cross_velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(of_air_change!(
@@ -169,7 +173,10 @@ pub(super) const KEYS: &[Key] = &[
             "spinline.cross_velocity"
         ))
         .value("1.0")
-        .meaning("Factor on the velocity across the thread of a profile or a field: more or less quench air.")
+        .meaning(
+            "Factor on the velocity across the filament of a profile or a field: more or less quench \
+             air.",
+        )
         .label("Quench velocity *v*_{c}, factor")
         .slider(0.2, 3.0),
     quantity("spinline.temperature_offset", Dimension::TemperatureDifference, Any, (0.1, 200.0))

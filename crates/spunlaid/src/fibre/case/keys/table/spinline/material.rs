@@ -56,7 +56,7 @@ pub(super) const KEYS: &[Key] = &[
         solidification_temperature,
         (200.0, 600.0)
     )
-    .meaning("Temperature at which the thread is solid.")
+    .meaning("Temperature at which the filament is solid.")
     .label("Solidification temperature *T*_{s}"),
     constant!("solid_density", Density, Positive, solid_density, (500.0, 3000.0))
         .meaning("Density of the cold filament.")
@@ -102,8 +102,8 @@ pub(super) const KEYS: &[Key] = &[
         (200.0, 700.0)
     )
     .meaning(
-        "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to \
-             1/T. Left out, it is the same at every temperature.",
+        "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. If \
+             it is left out, the coefficient is the same at every temperature.",
     )
     .label("Temperature of the stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence, (0.001, 1.0))
@@ -155,6 +155,6 @@ pub(super) const KEYS: &[Key] = &[
         .meaning("Exponent b of the viscosity's rise by crystals. It was chosen.")
         .label("Exponent of the hardening *b*"),
     constant!("freezing_share", Ratio, Share, crystals.freezing_share, (0.001, 1.0))
-        .meaning("Transformed share at which the thread is solid. It was chosen.")
-        .label("Share at solidification *θ*_{s}"),
+        .meaning("Transformed fraction at which the filament is solid. It was chosen.")
+        .label("Transformed fraction at solidification *θ*_{s}"),
 ];

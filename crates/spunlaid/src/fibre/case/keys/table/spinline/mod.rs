@@ -81,7 +81,7 @@ const LINE: &[Key] = &[
         .derived(no_spinline)
         .meaning(
             "One of these, or a file with all constants of a polymer in a table [spinline.material]. \
-             Single constants may stand in [spinline.material] of the case.",
+             Single constants may be written in [spinline.material] of the case.",
         )
         .label("Polymer")
         .varies(),
@@ -99,7 +99,7 @@ const LINE: &[Key] = &[
         .follows("the viscosity of the polymer")
         .meaning(
             "Melt flow rate of the grade in g/10 min, with 2.16 kg at \
-             `spinline.material.viscosity_temperature`. It gives the viscosity within some 20 %, in \
+             `spinline.material.viscosity_temperature`. It gives the viscosity within about 20 %, in \
              place of `spinline.material.viscosity`.",
         )
         .synonyms(&["MFR", "MFI", "melt flow index"])
@@ -122,7 +122,7 @@ const LINE: &[Key] = &[
     quantity("spinline.die_swell", Dimension::Ratio, Positive, (0.8, 3.0))
         .access(of_spinline!(die_swell))
         .value("1.0")
-        .meaning("Diameter of the thread below the die over that of the hole.")
+        .meaning("Diameter of the filament below the die over that of the hole.")
         .label("Die swell"),
     quantity("spinline.throughput", Dimension::MassFlow, Positive, (1e-8, 1e-3))
         .access(of_spinline!(throughput))
@@ -148,8 +148,8 @@ const CURTAIN: &[Key] = &[
         .access(at!(curtain_of, curtain, rows))
         .follows("one filament in the air as it is given")
         .meaning(
-            "Rows of holes that the quench air crosses one after another; each warms and drags it. \
-             The first row gives the simulated fibre.",
+            "Rows of holes that the quench air crosses one after another; each row warms and drags the \
+             air. The simulated fibre belongs to the first row.",
         )
         .label("Rows of holes")
         .varies(),

@@ -40,35 +40,38 @@ pub(super) const KEYS: &[Key] = &[
         })
         .value("false")
         .meaning(
-            "Whether crystallisation is computed. How much orientation speeds it up was chosen and \
-             not measured, so its places are no predictions.",
+            "Whether crystallisation is computed. The factor by which orientation speeds it up was \
+             chosen, not measured, so its positions are not predictions.",
         )
         .label("Crystallisation")
         .varies(),
     quantity("spinline.emissivity", Dimension::Ratio, Share, (0.01, 1.0))
         .access(of_spinline!(emissivity))
         .value("0.0")
-        .meaning("Emissivity of the thread, from 0, which leaves radiation out, to 1.")
+        .meaning("Emissivity of the filament, from 0, which leaves radiation out, to 1.")
         .label("Emissivity *ε*"),
     key("spinline.dissipation", Kind::Switch)
         .access(at!(spun, spinline, dissipation))
         .value("false")
-        .meaning("Whether the work of stretching heats the thread.")
+        .meaning("Whether the work of stretching heats the filament.")
         .label("Dissipation")
         .varies(),
     quantity("spinline.nusselt_factor", Dimension::Ratio, Positive, (0.2, 5.0))
         .access(of_spinline!(nusselt_factor))
         .value("1.0")
-        .meaning("Factor on the Nusselt number of Kase and Matsuo. Measurements leave a doubt of some 20 %.")
+        .meaning(
+            "Factor on the Nusselt number of Kase and Matsuo. Measurements leave an uncertainty of \
+             about 20 %.",
+        )
         .label("Factor on the Nusselt number")
         .slider(0.5, 1.5),
     quantity("spinline.drag_factor", Dimension::Ratio, Positive, (0.3, 3.0))
         .access(of_spinline!(drag_factor))
         .value("1.0")
         .meaning(
-            "Factor on the drag of the air along the filament. It is not known of any line: the laws of \
-             `drag.along` alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` finds the one with \
-             which the filament has the measured titre.",
+            "Factor on the drag of the air along the filament. It is not known for any line: the laws of \
+             `drag.along` alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` \
+             finds the one with which the filament has the measured titre.",
         )
         .synonyms(&["calibration", "titre"])
         .label("Factor on the drag of the spinline")
@@ -76,7 +79,7 @@ pub(super) const KEYS: &[Key] = &[
     quantity("spinline.break_stress", Dimension::Pressure, Positive, (1e5, 1e9))
         .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
-        .meaning("Stress at which the thread breaks; a line that reaches it is refused.")
+        .meaning("Stress at which the filament breaks; a line that reaches it is refused.")
         .label("Stress at break"),
 ];
 
@@ -102,7 +105,7 @@ pub(super) const END_KEYS: &[Key] = &[
             },
         })
         .value("free")
-        .meaning("What is known at the end: `free`, the tension, or `take-up`, the speed of a godet.")
+        .meaning("What is given at the end: `free`, the tension, or `take-up`, the speed of a godet.")
         .label("End of the spinline"),
     quantity("spinline.take_up_speed", Dimension::Velocity, Positive, (0.1, 200.0))
         .access(Access {
@@ -149,9 +152,9 @@ pub(super) const END_KEYS: &[Key] = &[
         .value("0 N")
         .or_words(&[FLOWN])
         .meaning(
-            "Tension at a free end: the pull of the fibre below it. With \"simulated\" some fibres fly, \
-             and the mean tension at their root is used, again and again until the speed changes by \
-             less than 0.1 %.",
+            "Tension at a free end: the pull of the fibre below it. With `\"simulated\"` some fibres are \
+             simulated and the mean tension at their root is used; this is repeated until the speed \
+             changes by less than 0.1 %.",
         )
         .label("Tension at the end"),
 ];
