@@ -27,13 +27,13 @@ pub(super) fn encoding(message: &str) -> Fault {
 pub(super) fn too_large(most: u64) -> Fault {
     Fault::new(
         format!("contains more than {}, and no more is read from a file", memory(most as f64)),
-        "cut out the part where the fibres fly",
+        "cut out the region of the fibres",
     )
 }
 
 /// There are more tetrahedra or points than are allowed.
 pub(super) fn too_many(most: u64, parts: &str) -> Fault {
-    Fault::new(format!("has more than {most} {parts}"), "cut out the part where the fibres fly, or thin it")
+    Fault::new(format!("has more than {most} {parts}"), "cut out the region of the fibres, or thin it")
 }
 
 /// The file is a surface.

@@ -431,7 +431,7 @@ pub enum Description {
 impl fmt::Display for Description {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Lattice { points: [x, y, z] } => write!(f, "a lattice of {x} × {y} × {z} points"),
+            Self::Lattice { points: [x, y, z] } => write!(f, "a structured grid of {x} × {y} × {z} points"),
             Self::Mesh { points, cells } => write!(f, "a mesh of {points} points and {cells} cells"),
             Self::Points { points } => write!(f, "{points} scattered points"),
         }

@@ -24,8 +24,8 @@ impl<T> PerLane<T> {
             0 => Err(Error::no_fibre()),
             1..=WIDTH => Ok(Self(entries)),
             fibres => Err(Error::flight(
-                format!("{fibres} fibres cannot fly in one flight"),
-                format!("it takes at most {WIDTH}"),
+                format!("{fibres} fibres cannot be simulated together"),
+                format!("at most {WIDTH} are possible"),
             )),
         }
     }
@@ -80,8 +80,11 @@ impl<T> PerLane<T> {
         for (lane, other) in self.0.iter().enumerate().skip(1) {
             if let Some(what) = first.difference(&setting(other)) {
                 return Err(Error::flight(
-                    format!("fibre {} cannot fly beside the first: they differ in {what}", lane + 1),
-                    "fibres of one flight must agree in it",
+                    format!(
+                        "fibre {} cannot be simulated together with the first: they differ in {what}",
+                        lane + 1
+                    ),
+                    "fibres that are simulated together must agree in it",
                 ));
             }
         }

@@ -24,7 +24,7 @@ type Row = (Removed, &'static str, &'static str, &'static str);
 const AT_ONCE: &str = "lay the sheet at once on one machine, by spunlaid.web(file)";
 
 const NO_HOLES: &str =
-    "leave it out: every web has its bare area, and thin places say where a fabric is weak";
+    "leave it out: every web has its bare area, and thin spots show where a fabric is weak";
 
 /// Every removed name.
 pub const REMOVED: &[Row] = &[
@@ -32,19 +32,20 @@ pub const REMOVED: &[Row] = &[
         Removed::Key,
         "line.charge_pairs",
         "0.1.0",
-        "leave it out: line.charge drives filaments apart in the mean field of all of them",
+        "leave it out: line.charge drives filaments apart by the mean field of all of them",
     ),
     (
         Removed::Key,
         "neighbours",
         "0.1.0",
-        "lay a web of this case (spunlaid web), which says how far neighbours come down together",
+        "lay a web of this case (spunlaid web), which reports over which distance neighbours land alike",
     ),
     (
         Removed::Command,
         "run --until",
         "0.1.0",
-        "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part has the same bits",
+        "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part is \
+         bit-identical",
     ),
     (
         Removed::Command,
@@ -64,14 +65,15 @@ pub const REMOVED: &[Row] = &[
         Removed::Key,
         "web.method",
         "0.1.0",
-        "leave it out: filaments of a case hang in one air, and known numbers in [laydown] make independent ones",
+        "leave it out: filaments of a case are in shared turbulence, and known numbers in [laydown] make \
+         independent ones",
     ),
     (
         Removed::Key,
         "laydown.results",
         "0.1.0",
-        "name the case of that run (laydown.case), or write the spreads σ₁ and σ₂ and the noise A that it gives as \
-         laydown.sigma_md, laydown.sigma_cd and laydown.noise",
+        "name the case of that run (laydown.case), or write the standard deviations σ₁ and σ₂ and the \
+         noise A that it reports as laydown.sigma_md, laydown.sigma_cd and laydown.noise",
     ),
     (Removed::Command, "web --for holes", "0.1.0", "write --for 2mm, the patches that it judged by"),
     (Removed::Python, "spunlaid.fly_web", "0.1.0", AT_ONCE),

@@ -163,7 +163,7 @@ const DEEPEST: usize = 32;
 
 const TOO_DEEP: &str =
     "inside too many other lists; at most 32 may lie in each other: name the grids in fewer lists";
-const MISSING: &str = "which is not there; copy it to that place beside the list, or write the list again";
+const MISSING: &str = "which is not there; copy it to that path next to the list, or write the list again";
 const OUTSIDE: &str = "which is outside of the list’s own folder; put it into that folder or one below, and \
     write its path from there";
 const ITSELF: &str = "which is this list itself or a list that names it; name files with grids";

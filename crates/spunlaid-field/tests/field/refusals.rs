@@ -114,7 +114,7 @@ fn rejects_grids_with_place_and_way_out() {
         ("0 99 0 99 0 99", "a.vtu:9: U: has 24 numbers and needs 3000000; is the file complete?"),
         (
             "0 9999 0 9999 0 9999",
-            "a.vtu: has more than 4294967295 points; cut out the part where the fibres fly, or thin it",
+            "a.vtu: has more than 4294967295 points; cut out the region of the fibres, or thin it",
         ),
         (
             "0 -5 0 1 0 1",
@@ -292,8 +292,8 @@ fn table(heads: &str, row: impl Fn([f64; 3]) -> String) -> String {
 #[test]
 fn rejects_columns_that_stand_twice_and_a_missing_component() {
     for (heads, said) in [
-        ("x,y,z,u,v,w,U", "column u: stands twice, in columns 4 and 7; leave one of them"),
-        ("x,y,z,u,v,w,Z", "column z: stands twice, in columns 3 and 7"),
+        ("x,y,z,u,v,w,U", "column u: occurs twice, in columns 4 and 7; leave one of them"),
+        ("x,y,z,u,v,w,Z", "column z: occurs twice, in columns 3 and 7"),
     ] {
         let said_of_it = refused(table(heads, |_| "1,2,3,4".to_owned()).as_bytes());
         assert!(said_of_it.contains(said), "{said_of_it}");

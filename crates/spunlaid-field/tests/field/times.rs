@@ -94,7 +94,7 @@ fn rejects_columns_at_several_times() {
     assert_eq!(said(&text("0.1")), format!("a.csv: has columns at t=0 and at t=0.1: {WAY_OUT}"));
     let one = text("0").replace("% x   y", "% x  y");
     let twice = Field::parse(one.as_bytes(), "a.txt").unwrap_err().to_string();
-    assert!(twice.contains("column u (m/s) @ t=0: stands twice, in columns 3 and 5"), "{twice}");
+    assert!(twice.contains("column u (m/s) @ t=0: occurs twice, in columns 3 and 5"), "{twice}");
 }
 
 #[test]

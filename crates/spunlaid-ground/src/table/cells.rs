@@ -284,7 +284,7 @@ impl Digits {
         let whole = parted.replace(['.', ','], "");
         let fault = Fault::new(
             format!(
-                "\"{parted}\" stands in a column with \"{small}\", and every sign in this column is followed \
+                "\"{parted}\" is in a column with \"{small}\", and every sign in this column is followed \
                 by three digits: it looks like a sign between thousands"
             ),
             format!("write {whole} without a sign if that is meant, or all numbers with the same decimals"),

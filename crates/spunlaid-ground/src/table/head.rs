@@ -123,7 +123,7 @@ pub fn refuse_twice(heads: &[Head], read: &[usize]) -> Result<(), FileError> {
         let Some(other) = other.filter(|_| !heads[column].text.is_empty()) else { continue };
         let (first, second) = (column.min(other) + 1, column.max(other) + 1);
         let fault = Fault::new(
-            format!("stands twice, in columns {first} and {second}"),
+            format!("occurs twice, in columns {first} and {second}"),
             "leave one of them, or give them different names",
         );
         return Err(FileError::from(fault).column(&heads[column].text));

@@ -151,10 +151,10 @@ fn rejects_columns_with_one_name_also_in_other_spellings() {
         refuse_twice(&heads.map(Head::new), read).map_err(|error| error.to_string()).err().unwrap_or_default()
     };
     for heads in [["t_s", "u_m_s", "u [m/s]", "v_m_s"], ["t_s", "U (mm/s)", "u_m_s", "v_m_s"]] {
-        assert!(refused(heads, &[1, 2]).contains("stands twice, in columns 2 and 3"), "{heads:?}");
+        assert!(refused(heads, &[1, 2]).contains("occurs twice, in columns 2 and 3"), "{heads:?}");
         // One of them alone is read.
         assert_eq!(refused(heads, &[0, 1]), "", "{heads:?}");
     }
-    assert!(refused(["t", "u", "v", "U"], &[1]).contains("stands twice, in columns 2 and 4"));
+    assert!(refused(["t", "u", "v", "U"], &[1]).contains("occurs twice, in columns 2 and 4"));
     assert_eq!(refused(["t", "U [i]", "U [j]", "w"], &[1, 2]), "");
 }

@@ -155,7 +155,7 @@ pub(super) fn comma(text: &str) -> Fault {
     let remedy = match readings(number).map(|reading| reading.map(quoted)) {
         [Some(thousands), Some(decimal)] => {
             format!(
-                "write {thousands} if the comma stands between thousands, or {decimal} if it is a decimal sign"
+                "write {thousands} if the comma separates thousands, or {decimal} if it is a decimal sign"
             )
         }
         [Some(thousands), None] => {
@@ -238,8 +238,8 @@ mod tests {
         let told = |text| comma(text).to_string();
         assert_eq!(
             told("1,500 MPa"),
-            "has a comma; write \"1500 MPa\" if the comma stands between thousands, or \"1.500 MPa\" if it is a \
-             decimal sign"
+            "has a comma; write \"1500 MPa\" if the comma separates thousands, or \"1.500 MPa\" if it is \
+             a decimal sign"
         );
         assert_eq!(
             told("0,6 g/min"),

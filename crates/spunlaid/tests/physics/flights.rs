@@ -25,7 +25,7 @@ fn rejects_jobs_that_cannot_fly_together() {
     };
     for (cases, message) in [
         (&[][..], "a flight needs at least one fibre"),
-        (&[&case; 9], "9 fibres cannot fly in one flight; it takes at most 8"),
+        (&[&case; 9], "9 fibres cannot be simulated together; at most 8 are possible"),
     ] {
         let error = fault(cases);
         assert!(matches!(error, Error::Flight(_)));

@@ -274,7 +274,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
             match fly_together(&jobs, KEPT, computing(&stop, &steps)) {
                 Err(Error::Flight(fault))
-                    if fault.message.starts_with("fibre 2 cannot fly beside the first") => {}
+                    if fault.message.starts_with("fibre 2 cannot be simulated together with the first") => {}
                 Err(other) => panic!("{other}"),
                 Ok(simulated) => {
                     for (simulated, i) in simulated.iter().zip(order) {
