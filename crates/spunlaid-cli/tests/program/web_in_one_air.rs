@@ -15,12 +15,12 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = desk::success(&mut desk.spunlaid("web web.toml --out w"));
-    assert!(table.contains("independent turbulence") && !table.contains("few fibres"), "{table}");
+    assert!(table.contains("independent turbulence") && !table.contains("filament sample"), "{table}");
     let summary = desk.summary("w");
     // Advice takes such a web for each change, and has to be asked for.
     assert!(
         table.contains(
-            "\nChange first\nWhat would make it more uniform was not computed: spunlaid web with --advice"
+            "\nChange first\nWhat would make it more even was not tried: spunlaid web with --advice"
         ),
         "{table}"
     );
@@ -61,9 +61,9 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         ["flights_s", "flights_in_parallel_s"].map(|name| summary["performance"][name].as_f64().unwrap());
     assert!(0.0 < parallel && parallel <= flights, "{flights} {parallel}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
-    assert!(page.contains("In independent turbulence the same filaments would give"), "no headline sentence");
+    assert!(page.contains("In airs of their own the same filaments would give"), "no headline sentence");
     assert!(!page.contains("Cabin pressure") && summary["layers"][0].get("cabin_pressure_pa").is_none());
-    assert!(page.contains("the same filaments in independent turbulence"), "no curve of them");
+    assert!(page.contains("the same filaments in airs of their own"), "no curve of them");
     assert!(page.contains("Correlation of neighbours"), "no figure of neighbours");
     let lines = String::from_utf8(desk.read("w/fibres.vtp")).unwrap_or_default();
     assert!(lines.contains("NumberOfLines") && !lines.contains("NumberOfLines=\"0\""), "single fibres");
@@ -99,7 +99,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     );
     fs::write(desk.path("web.toml"), web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --no-advice --threads 3"));
-    assert!(table.contains("independent turbulence") && table.contains("few fibres"), "{table}");
+    assert!(table.contains("independent turbulence") && table.contains("filament sample"), "{table}");
     let summary = desk.summary("w");
     let number = |summary: &serde_json::Value, path: &str| {
         summary
@@ -131,7 +131,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
     assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
-    let sentence = "40 filaments were simulated, evenly spaced across, on a sheet of \
+    let sentence = "Of all filaments, 40 were simulated, evenly across, on a sheet of \
         160\u{202f}mm × 625\u{202f}mm, and as many";
     assert!(page.contains(sentence), "no {sentence}");
 
@@ -175,13 +175,13 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
-    let unknown = "CV not known: too few filaments simulated.";
+    let unknown = "The CV of the web is not known: too few filaments were simulated.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
-    let remedy = "Leave web.simulated out to simulate as many as needed, 500 or more for each metre";
+    let remedy = "Leave web.simulated out: then as many fly as it takes, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
         assert!(text.contains(unknown) && text.contains(remedy), "{text}");
-        assert!(!text.contains(" patches.") && !text.contains("times less"), "{text}");
+        assert!(!text.contains("The weight varies by") && !text.contains("times less"), "{text}");
     }
     let summary = desk.summary("w");
     let layer = &summary["layers"][0];
@@ -191,12 +191,12 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     assert!(page.contains("Cabin pressure") && page.contains(&pressure), "no {pressure}");
     for patch in summary["web"]["patches"].as_array().unwrap() {
         assert!(patch.get("cv").is_some_and(serde_json::Value::is_null), "{patch}");
-        assert_eq!(patch["no_interval"], "too few filaments simulated");
+        assert_eq!(patch["no_interval"], "too few filaments were simulated");
         assert!(patch.get("cv_total_error").is_none() && patch.get("own_share").is_none(), "{patch}");
     }
     let fabric = summary["fabric"]["patches"].as_array().unwrap();
     assert!(fabric.iter().all(|patch| patch["formation"].is_null()), "{fabric:?}");
     success(&mut desk.spunlaid("web web.toml --out other --quiet --set web.seed=2"));
     let compared = success(&mut desk.spunlaid("compare w other"));
-    assert!(compared.contains("too few filaments simulated"), "{compared}");
+    assert!(compared.contains("too few filaments were simulated"), "{compared}");
 }

@@ -45,7 +45,7 @@ impl<'a> Belt<'a> {
                     (longest.max(0.0) * 1e3).floor(),
                     (sheet.length * 1e3).ceil()
                 ),
-                "fly the filaments for longer, or make the sheet shorter (web.length)",
+                "simulate the filaments for longer, or make the sheet shorter (web.length)",
             ));
         }
         Ok(Self { sheet, window, back: back_of_start - sheet.length })

@@ -75,8 +75,8 @@ impl FlownCurves {
         if points == 0 || curves.len() != places.len() {
             let (places, curves) = (places.len(), curves.len());
             return Err(Fault::plain(format!(
-                "{curves} simulated curves, the shortest of {points} points, for {places} places say nothing of \
-                the filaments between them"
+                "{curves} simulated curves for {places} positions, the shortest of {points} points, are \
+                too few to fill in the filaments between them"
             )));
         }
         let finite = curves.iter().flatten().flatten().all(|value| value.is_finite());

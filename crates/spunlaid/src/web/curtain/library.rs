@@ -97,7 +97,7 @@ impl Library {
         let Some(turn) = simulated.turn() else {
             return Err(Fault::new(
                 "a sheet of tiles is made from filaments with periodic edges, and these end at edges that cut",
-                "fly the filaments with web.edges = \"periodic\"",
+                "simulate the filaments with web.edges = \"periodic\"",
             ));
         };
         let half_lag = half_lag(simulated);
@@ -106,12 +106,12 @@ impl Library {
             let spacing = simulated.spacing();
             return Err(Fault::new(
                 format!(
-                    "the simulated curves are {:.2} m long and forget half of what they do in {:.3} m; pieces of \
-                    them would resemble each other",
+                    "the simulated curves are {:.2} m long, and their correlation falls to one half over \
+                    {:.3} m; pieces of them would resemble each other",
                     points as f64 * spacing,
                     half_lag * spacing
                 ),
-                format!("fly {:.2} m of fibre or more", SHORTEST * half_lag * spacing),
+                format!("simulate {:.2} m of fibre or more", SHORTEST * half_lag * spacing),
             ));
         }
         let covariances = Covariances::fit(simulated, threads);
@@ -120,12 +120,12 @@ impl Library {
         if turn < NARROWEST * fade_across {
             return Err(Fault::new(
                 format!(
-                    "the simulated curtain is {:.0} mm wide, and filaments are correlated by half over {:.0} mm; \
-                    tiles of it would resemble each other",
+                    "the simulated curtain is {:.0} mm wide, and filaments are correlated by half over \
+                    {:.0} mm; tiles of it would resemble each other",
                     turn * 1e3,
                     half[0].max(half[1]) * 1e3
                 ),
-                format!("fly a width of {:.0} mm or more", NARROWEST * fade_across * 1e3),
+                format!("simulate a width of {:.0} mm or more", NARROWEST * fade_across * 1e3),
             ));
         }
         let columns = (turn / (COLUMN * simulated.mean_distance())).ceil() as usize;

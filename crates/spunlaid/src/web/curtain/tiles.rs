@@ -75,7 +75,7 @@ impl Library {
         let level = |place: &Inlet| {
             self.levels.around(place.y).ok_or_else(|| {
                 Fault::plain(format!(
-                    "a filament hangs {:.3} mm from the middle of the slot, where no row was simulated",
+                    "a filament is {:.3} mm from the middle of the slot, where no row was simulated",
                     place.y * 1e3
                 ))
             })
@@ -415,7 +415,7 @@ mod tests {
         let short = Field { points: 60, ..field }.simulated(row(field.turn, 32));
         assert!(message(&short).contains("of fibre or more"), "{}", message(&short));
         let narrow = Field { turn: 0.04, ..field }.simulated(row(0.04, 20));
-        assert!(message(&narrow).contains("fly a width of"), "{}", message(&narrow));
+        assert!(message(&narrow).contains("simulate a width of"), "{}", message(&narrow));
         let simulated = field.simulated(row(field.turn, 32));
         let library = Library::new(&simulated, 1).unwrap();
         let elsewhere = vec![Inlet { y: 5e-3, z: 0.0 }];

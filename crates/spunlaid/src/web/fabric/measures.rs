@@ -13,7 +13,7 @@ type OfPlace = Measure<Marked>;
 type OfStreak = Measure<Streak>;
 
 const THIN_PLACES: Figure =
-    figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin places");
+    figure("thin_places", "Patches lighter than 80 % of the mean", "number of thin spots");
 const WEAKEST: Figure =
     Figure { from_zero: false, ..figure("weakest_section", "Weakest section of a strip", "weakest section") };
 
@@ -43,7 +43,7 @@ pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
         PERCENT,
         Told(|fabric| Some(Exact(fabric.usable?.trim))),
     )
-    .meaning("what is cut off for it, as a share of the web"),
+    .meaning("what is cut off for it, as a fraction of the web"),
     OfFabric::new(
         "stiffness_ratio",
         "Stiffness MD/CD, of the directions alone",
@@ -58,15 +58,15 @@ pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
     .named("stiffness_ratio"),
     OfFabric::new("bare_area", "Bare area", PERCENT, Told(|fabric| fabric.bare))
         .meaning(
-            "share of the area that no fibre covers, of round fibres that lie independently within 2 mm: \
-         bonds lower it, ropes raise it",
+            "fraction of the area that no fibre covers, for round fibres that lie independently within 2 \
+         mm: bonds lower it, ropes raise it",
         )
         .named("bare_area")
         .main()
         .figure(&figure("bare_area", "Bare area", "bare area")),
     OfFabric::new(
         "solid_fraction",
-        "Share of the volume that is fibre",
+        "Fibre volume fraction",
         PERCENT,
         Told(|fabric| Some(Exact(fabric.air?.solid))),
     )
@@ -79,32 +79,32 @@ pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
         Told(|fabric| Some(fabric.air?.permeability)),
     )
     .meaning(
-        "mean speed of the air at the pressure of the test, over places of 2 mm, from half the \
-         permeability of the formulas of Davies and of Jackson and James to twice theirs; trust the \
-         ratio of two webs, not the number",
+        "mean speed of the air at the pressure of the test, over patches of 2 mm, from half to twice the \
+         permeability by the formulas of Davies and of Jackson and James. Trust the ratio of two webs, \
+         not the number",
     )
     .named("air_permeability")
     .figure(&figure("air_permeability", "Air permeability", "air permeability")),
     OfFabric::new(
         "air_permeability_cv",
-        "Spread of the air permeability over 20 cm²",
+        "CV of the air permeability over 20 cm²",
         PERCENT,
         Told(|fabric| fabric.air?.spread),
     )
-    .short("Its spread over 20 cm²")
-    .meaning("coefficient of variation of the speed of the air over areas of 20 cm², by the clouds")
+    .short("Its CV over 20 cm²")
+    .meaning("coefficient of variation of the speed of the air over areas of 20 cm², because of the clouds")
     .named("air_permeability_cv"),
     OfFabric::new("opacity", "Opacity", PERCENT, Told(|fabric| Some(fabric.opacity?.mean)))
         .meaning("mean opacity of patches of 2 mm, from the measured one")
         .named("opacity"),
     OfFabric::new(
         "opacity_spread",
-        "Spread of the opacity over 2 mm",
+        "Standard deviation of the opacity over 2 mm",
         PERCENT,
         Told(|fabric| Some(fabric.opacity?.spread)),
     )
-    .short("Its spread over 2 mm")
-    .meaning("standard deviation of the opacity over patches of 2 mm, by the clouds")
+    .short("Its standard deviation over 2 mm")
+    .meaning("standard deviation of the opacity over patches of 2 mm, because of the clouds")
     .named("opacity_spread"),
 ];
 
@@ -121,7 +121,7 @@ pub const FABRIC_PATCH_MEASURES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch| Some(patch.thin.lighter[0])),
     )
-    .meaning("patches lighter than this share of the mean, per area")
+    .meaning("patches lighter than this fraction of the mean, per area")
     .kept("lighter_than_50_percent_#_mm", "lighter_than_50_percent_#_mm_per_m2"),
     OfPatch::new(
         "lighter_than_70_percent_per_m2",
@@ -129,7 +129,7 @@ pub const FABRIC_PATCH_MEASURES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch| Some(patch.thin.lighter[1])),
     )
-    .meaning("patches lighter than this share of the mean, per area")
+    .meaning("patches lighter than this fraction of the mean, per area")
     .kept("lighter_than_70_percent_#_mm", "lighter_than_70_percent_#_mm_per_m2"),
     OfPatch::new(
         "lighter_than_80_percent_per_m2",
@@ -137,7 +137,7 @@ pub const FABRIC_PATCH_MEASURES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch| Some(patch.thin.lighter[2])),
     )
-    .meaning("patches lighter than this share of the mean, per area")
+    .meaning("patches lighter than this fraction of the mean, per area")
     .kept("lighter_than_80_percent_#_mm", "lighter_than_80_percent_#_mm_per_m2")
     .main()
     .figure(&THIN_PLACES)
@@ -148,29 +148,29 @@ pub const FABRIC_PATCH_MEASURES: &[Measure<FabricPatch>] = &[
         PER_SQUARE_METRE,
         Told(|patch| Some(patch.thin.heavier)),
     )
-    .meaning("patches heavier than this share of the mean, per area")
+    .meaning("patches heavier than this fraction of the mean, per area")
     .kept("heavier_than_130_percent_#_mm", "heavier_than_130_percent_#_mm_per_m2"),
     OfPatch::new("weight_of_1_percent", "Lightest 1 %", PERCENT, Told(|patch| Some(patch.thin.quantiles[0])))
-        .meaning("weight over the mean below which this share of the patches lies")
+        .meaning("weight over the mean below which this fraction of the patches lies")
         .kept("weight_of_1_percent_#_mm", "weight_of_1_percent_#_mm"),
     OfPatch::new("weight_of_5_percent", "Lightest 5 %", PERCENT, Told(|patch| Some(patch.thin.quantiles[1])))
-        .meaning("weight over the mean below which this share of the patches lies"),
+        .meaning("weight over the mean below which this fraction of the patches lies"),
     OfPatch::new("median_weight", "Median", PERCENT, Told(|patch| Some(patch.thin.quantiles[2])))
-        .meaning("weight over the mean below which this share of the patches lies"),
+        .meaning("weight over the mean below which this fraction of the patches lies"),
     OfPatch::new(
         "weight_of_95_percent",
         "Heaviest 5 %",
         PERCENT,
         Told(|patch| Some(patch.thin.quantiles[3])),
     )
-    .meaning("weight over the mean below which this share of the patches lies"),
+    .meaning("weight over the mean below which this fraction of the patches lies"),
     OfPatch::new(
         "weight_of_99_percent",
         "Heaviest 1 %",
         PERCENT,
         Told(|patch| Some(patch.thin.quantiles[4])),
     )
-    .meaning("weight over the mean below which this share of the patches lies"),
+    .meaning("weight over the mean below which this fraction of the patches lies"),
 ];
 
 /// The numbers of the strips in one direction.
@@ -187,13 +187,8 @@ pub const STRIP_MEASURES: &[Measure<Strips>] = &[
         .main()
         .figure(&WEAKEST)
         .series("#"),
-    OfStrips::new(
-        "weakest_section_cv",
-        "Scatter of the weakest section",
-        PERCENT,
-        Told(|strips| strips.scatter),
-    )
-    .meaning("standard deviation of the weakest section over its mean, from strip to strip"),
+    OfStrips::new("weakest_section_cv", "CV of the weakest section", PERCENT, Told(|strips| strips.scatter))
+        .meaning("standard deviation of the weakest section over its mean, from strip to strip"),
     OfStrips::new(
         "weakest_section_of_5_percent",
         "5 % of strips are below",
@@ -201,7 +196,7 @@ pub const STRIP_MEASURES: &[Measure<Strips>] = &[
         Told(|strips| strips.low),
     )
     .meaning("the weakest section below which one strip in twenty is"),
-    OfStrips::new("sections_cv", "Scatter of all sections", PERCENT, Told(|strips| Some(strips.sections)))
+    OfStrips::new("sections_cv", "CV of all sections", PERCENT, Told(|strips| Some(strips.sections)))
         .meaning("standard deviation of a section about the mean of its strip, over that mean")
         .kept("sections_cv_#", "sections_cv_#"),
 ];
@@ -222,20 +217,22 @@ pub const THINNEST_PATCH_MEASURES: &[Measure<Marked>] = &[
 
 /// The numbers of the streak that a defect of the line leaves.
 pub const STREAK_MEASURES: &[Measure<Streak>] = &[
-    OfStreak::new("place_m", "Place", MILLIMETRES, Told(|streak| Some(Exact(streak.place))))
+    OfStreak::new("place_m", "Position", MILLIMETRES, Told(|streak| Some(Exact(streak.place))))
         .meaning("middle of the streak across the sheet"),
     OfStreak::new("holes", "Holes", RATIO, Told(|streak| Some(Exact(streak.holes as f64))))
         .meaning("holes that make it"),
     OfStreak::new("band_m", "Band", MILLIMETRES, Told(|streak| Some(Exact(streak.band))))
         .meaning("width over which it is looked for"),
     OfStreak::new("dip", "Dip", PERCENT, Told(|streak| Some(Exact(streak.dip)))).meaning(
-        "share by which the band is lighter than the web beside it, by the missing filaments; below \
-         zero where it is heavier",
+        "fraction by which the band is lighter than the web next to it, because of the missing filaments; \
+         below zero where it is heavier",
     ),
-    OfStreak::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak| streak.found))
-        .meaning("the same in this map, with its error by chance; a dip of more than two errors can be seen"),
+    OfStreak::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak| streak.found)).meaning(
+        "the same in this map, with its sampling error; a dip of more than two standard errors \
+             can be seen",
+    ),
     OfStreak::new("length_m", "Shows from a length of", METRES, Told(|streak| streak.length)).meaning(
-        "length of a scan from which on the dip exceeds the 95 % bound of chance; none where the \
-             web has streaks of its own as large, or is too small",
+        "length of a scan from which on the dip is significant at 95 %; none where the web has other \
+             streaks as large, or is too small",
     ),
 ];

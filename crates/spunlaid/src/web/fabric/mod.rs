@@ -81,18 +81,19 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["pinhole", "pin hole", "hole", "pore", "bare", "hydrohead", "hydrostatic head"],
-        "Holes and hydrohead are not given, because bonds and the calender make them: `spunlaid web` gives the bare \
-        area and thin places (docs/fabric.md).",
+        "Holes and hydrohead are not given, because bonds and the calender make them: `spunlaid web` \
+        gives the bare area and thin spots (docs/fabric.md).",
     ),
     (
         &["thin spot", "thin place", "thick place", "thick spot"],
-        "Thin and thick places are results, not keys: `spunlaid web` gives the patches per square metre that are \
-        lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
+        "Thin and thick spots are results, not keys: `spunlaid web` gives the patches per square metre \
+        that are lighter than 50, 70 and 80 % or heavier than 130 % of the mean (docs/fabric.md).",
     ),
     (
         &["strength", "tensile", "tenacity", "elongation", "tear"],
-        "The strength of the fabric is not known here: it is made by the bonds. `spunlaid web` gives the \
-        weakest section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
+        "The strength of the fabric is not computed, because the bonds make it. `spunlaid web` gives the \
+        weakest section of strips and the MD/CD ratio of stiffness of the directions alone \
+        (docs/fabric.md).",
     ),
     (
         &["permeability", "porosity", "breathability"],
@@ -101,13 +102,12 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["bond", "bonding", "calender", "calendering", "thermal bonding"],
-        "There is nothing for bonds and calender: the web ends on the belt. What they make of it, strength, softness \
-        and holes, is not known here.",
+        "Bonds and calender are not modelled: the web ends on the belt. Strength, softness and holes, \
+        which they cause, are not computed.",
     ),
     (
         &["softness", "drape", "handle", "hand feel", "linting", "abrasion", "shrinkage"],
-        "There is nothing for this: in a fabric it depends on bonds, finish and polymer, of which the \
-        program knows nothing.",
+        "This is not computed: in a fabric it depends on bonds, finish and polymer, which are not modelled.",
     ),
 ];
 

@@ -249,8 +249,8 @@ fn directions_of(orientation: &Orientation) -> String {
 }
 
 fn unknown_neck_in() -> String {
-    "the neck-in is not known: filaments at the edge are taken to come down as those in the middle, about the \
-    places at which they are fed"
+    "the neck-in is not known: filaments at the edge are assumed to land as those in the middle do, about \
+    the positions at which they are fed"
         .to_owned()
 }
 
@@ -378,8 +378,8 @@ fn unknown(laid: &Laid<'_>) -> Vec<String> {
     ];
     let note = |(sides, reason): (String, &str)| {
         format!(
-            "thin places, weights, strips, bare area and light have no error where they follow from patches of \
-            {sides}: {reason}"
+            "thin spots, weights, strips, bare area and light have no error where they follow from \
+            patches of {sides}: {reason}"
         )
     };
     reasons.into_iter().filter(|(sides, _)| !sides.is_empty()).map(note).collect()
@@ -433,7 +433,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         permeability{formation}"
     )];
     if let Some(guess) = findings.guess {
-        fabric.notes.push(format!("thin places and strips have no errors, because {guess}"));
+        fabric.notes.push(format!("thin spots and strips have no errors, because {guess}"));
     }
     fabric
 }

@@ -86,34 +86,37 @@ impl Display for Doubt {
         match self {
             Self::Lost { filaments, of } => write!(
                 f,
-                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the web \
-                is lighter by that, and a little more uneven",
+                "{filaments} of {of} filaments {} lost in flight, and each is missing from then on: the \
+                web is lighter by that, and slightly less uniform",
                 if *filaments == 1 { "was" } else { "were" }
             ),
             Self::Subsample { sides, why, pitch, enough } => write!(
                 f,
-                "the CV over patches of {} is not known, because {}: too few filaments were simulated to know \
-                what all do. The map, the picture and all that follows from them are no better. Fly {}",
+                "the CV over patches of {} is not known, because {}: too few filaments were simulated. \
+                The map, the image and all that follows from them are no better. Simulate {}",
                 millimetres(sides),
                 reason(*why, *pitch),
                 match enough {
                     Some(enough) => format!(
-                        "as many as it takes: leave web.simulated out, which flies {enough} or more for each metre"
+                        "as many as needed: leave web.simulated out, which simulates {enough} or more for \
+                         each metre"
                     ),
                     None => "all of them, web.simulated = \"all\"".to_owned(),
                 }
             ),
             Self::StrongField { field } => write!(
                 f,
-                "the charge of the filaments gives a field of {} at the edge of the curtain, and air breaks down at \
-                {}, at edges of metal long before: a line would lose a part of this charge (line.charge)",
+                "the charge of the filaments gives a field of {} at the edge of the curtain. Air breaks \
+                down at {}, and at edges of metal long before, so a line would lose a part of this \
+                charge (line.charge)",
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
             ),
             Self::Unsure { wanted, reached, area } => write!(
                 f,
-                "the CV is known to {} % of itself after {} m², and {} % were wanted (web.error), which takes some {} \
-                times the area; raise web.time if it ended the flights",
+                "the standard error of the CV is {} % of the CV after {} m², and {} % were wanted \
+                (web.error), which needs about {} times the area; raise web.time if it ended the \
+                simulation",
                 per_cent(*reached, 2),
                 Dimension::Ratio.pretty_to(*area, 2),
                 per_cent(*wanted, 2),
@@ -121,34 +124,34 @@ impl Display for Doubt {
             ),
             Self::FilledIn { missing, sides, apart } => write!(
                 f,
-                "{} % of the variance of the filaments between the simulated ones is not known, so the map, and what \
-                follows from it (picture, thin places, strips, light), {}; the CV in the headline is not. Fly \
-                more filaments for the map (web.simulated)",
+                "{} % of the variance of the filaments between the simulated ones is not known, so the \
+                map, and what follows from it (image, thin spots, strips, light), {}; the CV in the \
+                headline is not affected. Simulate more filaments for the map (web.simulated)",
                 per_cent(*missing, 2),
                 match sides.is_empty() {
-                    true => "is too uneven over small patches".to_owned(),
+                    true => "has too high a CV over small patches".to_owned(),
                     false => too_uneven(sides, *apart),
                 }
             ),
             Self::Pieces { sides, apart } => write!(
                 f,
-                "the map is made of pieces of the sheet that was simulated, shifted at random, and {}; picture, thin \
-                places, strips and light follow from it, the CV in the headline does not. Another web.seed draws \
-                other pieces",
+                "the map is made of pieces of the simulated sheet, shifted at random, and {}; image, thin \
+                spots, strips and light follow from it, the CV in the headline does not. Another \
+                web.seed draws other pieces",
                 too_uneven(sides, *apart)
             ),
             Self::SmallSheet { sides } => write!(
                 f,
-                "the few filaments that were simulated do not tell the CV over patches of {}: their sheet is too \
-                small for such patches, or all filaments of another layer were simulated. It is that of the map, \
-                which is made of pieces of that sheet, and it has no error",
+                "the CV over patches of {} cannot be estimated from the simulated filaments: their sheet \
+                is too small for such patches, or all filaments of another layer were simulated. It is \
+                the CV of the map, which is made of pieces of that sheet, and it has no error",
                 millimetres(sides)
             ),
             Self::NothingFlown => write!(
                 f,
-                "no fibre was simulated for every layer of this web, so the errors are by chance only, and it is \
-                not known how far a surrogate with these numbers is from real fibres. Compared with simulated \
-                curves, its CV was up to 20 % wrong (docs/web.md)"
+                "no layer of this web has simulated fibres, so the errors are sampling errors only, and \
+                it is not known how far a surrogate with these numbers is from real fibres. Compared \
+                with simulated curves, its CV was up to 20 % wrong (docs/web.md)"
             ),
             Self::CutOff { share } => write!(
                 f,
@@ -159,9 +162,9 @@ impl Display for Doubt {
                 let [first, last] = margins.map(|margin| digits(1e3 * margin, 3));
                 write!(
                     f,
-                    "the first {first} mm and the last {last} mm across the web are left out of CV, clouds \
-                    and autocorrelation, because the web is thinner at its edges, which reach 3 σ_CD inwards \
-                    from the outermost filament (web.edges = \"cut\")"
+                    "the first {first} mm and the last {last} mm across the web are left out of CV, \
+                    clouds and autocorrelation. The web is thinner at its edges, which reach 3 σ_CD \
+                    inwards from the outermost filament (web.edges = \"cut\")"
                 )
             }
             Self::NoError { sides } => write!(
@@ -177,8 +180,8 @@ impl Display for Doubt {
 /// How far a map is from what is reported.
 fn too_uneven(sides: &[f64], apart: f64) -> String {
     format!(
-        "is too {} over patches of {}, by up to {} % of the CV",
-        if apart > 0.0 { "uneven" } else { "even" },
+        "has too {} a CV over patches of {}, by up to {} % of the CV",
+        if apart > 0.0 { "high" } else { "low" },
         listed(sides),
         per_cent(apart.abs(), 2)
     )
@@ -188,18 +191,18 @@ fn too_uneven(sides: &[f64], apart: f64) -> String {
 fn reason(why: SubsampleWarning, pitch: f64) -> String {
     match why {
         SubsampleWarning::Halves(patch, off) => format!(
-            "every second one of the simulated filaments would give a CV over patches of {} that is {} % {}",
+            "every second simulated filament alone would give a CV over patches of {} that is {} % {}",
             millimetres(&[patch]),
             per_cent(off.abs(), 2),
             if off > 0.0 { "higher" } else { "lower" }
         ),
         SubsampleWarning::Own(patch) => format!(
-            "over patches of {} nearly all of the patch_cv is what each simulated filament makes for itself, \
-            and what is left for all cannot be distinguished from zero",
+            "over patches of {} nearly all of CV² comes from each simulated filament by itself, and what \
+            is left for all filaments cannot be distinguished from zero",
             millimetres(&[patch])
         ),
         SubsampleWarning::Neighbours(correlation) => format!(
-            "the simulated filaments are {} mm apart, and the places where such neighbours come down have a \
+            "the simulated filaments are {} mm apart, and the positions where such neighbours land have a \
             correlation of {}",
             digits(1e3 * pitch, 3),
             digits(correlation, 2)
@@ -246,25 +249,25 @@ mod tests {
         };
         let said = few(Some(1000.0));
         assert!(
-            said.starts_with("the CV over patches of 10, 20 mm is not known, because every second one"),
+            said.starts_with("the CV over patches of 10, 20 mm is not known, because every second"),
             "{said}"
         );
         assert!(
             said.contains("over patches of 20 mm that is 8 % lower")
-                && said.ends_with("leave web.simulated out, which flies 1000 or more for each metre"),
+                && said.ends_with("leave web.simulated out, which simulates 1000 or more for each metre"),
             "{said}"
         );
-        assert!(few(None).ends_with("Fly all of them, web.simulated = \"all\""), "{}", few(None));
+        assert!(few(None).ends_with("Simulate all of them, web.simulated = \"all\""), "{}", few(None));
         let filled = |sides: Vec<f64>| Doubt::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
         let said = filled(vec![0.01, 0.02]);
         assert!(
-            said.contains("is too uneven over patches of 10 and 20 mm, by up to 13 % of the CV"),
+            said.contains("has too high a CV over patches of 10 and 20 mm, by up to 13 % of the CV"),
             "{said}"
         );
-        assert!(filled(Vec::new()).contains("is too uneven over small patches; the CV"));
+        assert!(filled(Vec::new()).contains("has too high a CV over small patches; the CV"));
         let pieces = Doubt::Pieces { sides: vec![0.05], apart: -0.07 }.to_string();
         assert!(
-            pieces.contains("and is too even over patches of 50 mm, by up to 7 % of the CV; picture"),
+            pieces.contains("and has too low a CV over patches of 50 mm, by up to 7 % of the CV; image"),
             "{pieces}"
         );
         assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));

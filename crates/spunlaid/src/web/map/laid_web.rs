@@ -96,7 +96,8 @@ impl LaidWeb {
 /// The fault of a cell that holds more fibre than can be counted.
 pub(super) fn too_full(cell: f64) -> Fault {
     let message = format!(
-        "a cell of {cell:e} m holds more fibre than can be counted, since the filaments lie in few places"
+        "a cell of {cell:e} m holds more fibre than can be counted, because the filaments lie in too \
+         small an area"
     );
     Fault::new(message, "choose smaller cells (web.cell)")
 }
@@ -243,6 +244,6 @@ impl Curves {
 fn no_curves() -> Fault {
     Fault::new(
         "there are no laid curves, or they are too short: each needs more than 16 points at a spacing above zero",
-        "fly the case for longer (run.duration)",
+        "simulate the case for longer (run.duration)",
     )
 }

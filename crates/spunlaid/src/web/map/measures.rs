@@ -17,23 +17,25 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         .meaning("coefficient of variation of the basis weight of the map over square patches")
         .kept("cv_#_mm", "cv_#_mm")
         .main()
-        .figure(&figure("cv", "PatchCv of the web, CV", "CV of the web"))
+        .figure(&figure("cv", "CV of the basis weight", "CV of the web"))
         .errors(&[
-            share("cv_standard_error", "Error of the CV by chance", |patch| patch.map.standard_error)
+            share("cv_standard_error", "Sampling error of the CV", |patch| patch.map.standard_error)
                 .meaning("standard error of the CV: another piece of the same web would have another CV")
                 .kept("cv_#_mm_chance", "cv_#_mm_chance")
                 .role(OfOne),
             OfPatch::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
-                .meaning("degrees of freedom of the error by chance"),
-            share("cv_sample_error", "Error of the CV by the few fibres", |patch| patch.total_error().flight)
-                .meaning("standard error of the CV because only a few fibres were simulated")
-                .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
-                .short("few fibres")
-                .digits(2)
-                .shown_if(|patch| patch.few.is_some())
-                .role(Further),
+                .meaning("degrees of freedom of the sampling error"),
+            share("cv_sample_error", "Error of the CV by the sample of filaments", |patch| {
+                patch.total_error().flight
+            })
+            .meaning("standard error of the CV because only a sample of the filaments was simulated")
+            .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
+            .short("filament sample")
+            .digits(2)
+            .shown_if(|patch| patch.few.is_some())
+            .role(Further),
             share("cv_total_error", "", |patch| patch.total_error().whole())
-                .meaning("error of the CV by all causes together"),
+                .meaning("total standard error of the CV"),
         ]),
     share("cv_of_map", "", |patch| patch.few.map(|_| patch.of_map))
         .meaning("CV of the map itself, in which filaments are filled in"),
@@ -43,18 +45,19 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         RATIO,
         Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
     )
-    .meaning("part of CV² that each filament of a web in one air makes for itself"),
-    share("cv_independent", "CV of the same filaments in airs of their own", PatchFindings::independent)
+    .meaning("part of CV² that each filament of a web in shared turbulence contributes by itself"),
+    share("cv_independent", "CV of the same filaments in independent turbulence", PatchFindings::independent)
         .meaning(
-            "CV that the filaments of a web in one air would give in airs of their own, by their surrogate",
+            "CV that the filaments of a web in shared turbulence would give in independent turbulence, by \
+             their surrogate",
         )
         .kept("cv_#_mm_independent", "cv_#_mm_independent")
         .figure(&figure(
             "cv_independent",
-            "CV of the same filaments in airs of their own",
-            "CV in airs of their own",
+            "CV of the same filaments in independent turbulence",
+            "CV in independent turbulence",
         ))
-        .short("airs of their own")
+        .short("independent turbulence")
         .shown_if(|patch| patch.evidence != Evidence::Known),
     share("cv_one_fibre", "CV expected from single fibres", |patch| Some(of_known(patch)?.0))
         .meaning("CV that is expected of independent filaments of known numbers")
@@ -66,7 +69,7 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
             .meaning("its standard error")
             .role(OfOne)]),
     share("cv_straight_fibres", "CV of straight fibres", |patch| Some(patch.straight_fibres))
-        .meaning("CV of straight fibres in all directions of the same mass")
+        .meaning("CV of straight fibres of the same mass in all directions")
         .kept("cv_#_mm_straight_fibres", "cv_#_mm_straight_fibres")
         .figure(&figure("cv_straight_fibres", "CV of straight fibres", "CV of straight fibres"))
         .short("straight fibres")
@@ -114,14 +117,24 @@ pub const WEB_MEASURES: &[Measure<Findings>] = &[
         .named("md_cd_ratio")
         .main()
         .figure(&figure("md_cd_ratio", "Ratio of fibre along MD and CD", "MD/CD ratio")),
-    OfWeb::new("sigma_md_m", "Spread in MD", MILLIMETRES, Known(|found| Some(found.surrogate?.sigma_md)))
-        .meaning("spread of a filament in machine direction, of the first layer")
-        .named("sigma_md")
-        .elsewhere(),
-    OfWeb::new("sigma_cd_m", "Spread in CD", MILLIMETRES, Known(|found| Some(found.surrogate?.sigma_cd)))
-        .meaning("spread of a filament in cross direction, of the first layer")
-        .named("sigma_cd")
-        .elsewhere(),
+    OfWeb::new(
+        "sigma_md_m",
+        "Standard deviation in MD",
+        MILLIMETRES,
+        Known(|found| Some(found.surrogate?.sigma_md)),
+    )
+    .meaning("standard deviation of a filament in machine direction, of the first layer")
+    .named("sigma_md")
+    .elsewhere(),
+    OfWeb::new(
+        "sigma_cd_m",
+        "Standard deviation in CD",
+        MILLIMETRES,
+        Known(|found| Some(found.surrogate?.sigma_cd)),
+    )
+    .meaning("standard deviation of a filament in cross direction, of the first layer")
+    .named("sigma_cd")
+    .elsewhere(),
     OfWeb::new(
         "noise_per_sqrt_m",
         "Noise of the direction",

@@ -46,7 +46,9 @@ impl<'a> Plan<'a> {
         let sheet = &web.sheet;
         let fed = layer.fed_length(sheet);
         let Fibres::Surrogate(surrogate) = layer.fibres else {
-            return Err(Fault::plain("filaments in one air lay the web as they fly".to_owned()));
+            return Err(Fault::plain(
+                "filaments in shared turbulence lay the web while they are simulated".to_owned(),
+            ));
         };
         let least = surrogate.sigma_md.min(surrogate.sigma_cd);
         let longest = (LONGEST_PIECE[0] * least).min(LONGEST_PIECE[1] / (surrogate.noise * surrogate.noise));
