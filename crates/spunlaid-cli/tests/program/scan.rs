@@ -171,16 +171,16 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     // The lamp is not known.
     let command = command.replace(" --white 60000 --keep-shading", "");
     let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out assumed")));
-    assert!(told.contains("none: the level of the lamp is a guess"), "{told}");
+    assert!(told.contains("none: the level of the lamp is an assumed value"), "{told}");
     let headline = told.lines().next().unwrap();
-    assert!(headline.ends_with(" mm patches: the level of the lamp is a guess."), "{headline}");
+    assert!(headline.ends_with(" mm patches: the level of the lamp is an assumed value."), "{headline}");
     assert!(headline.starts_with("CV at least ") && !headline.contains('±'), "{headline}");
     let notes = desk.summary("assumed")["notes"].to_string();
     assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid assumed --out assumed_values"));
     assert!(
         told.contains(" 0 of 1 measures differ")
-            && told.contains("the level of the lamp is a guess (assumed)"),
+            && told.contains("the level of the lamp is an assumed value (assumed)"),
         "{told}"
     );
     let curves = String::from_utf8(desk.read("both/figures/web_cv.csv")).unwrap();

@@ -7,7 +7,7 @@ use spunlaid::ground::Dimension;
 
 /// Words of the warnings about samples that are no velocities.
 const WORDS: [&str; 6] =
-    ["spike", "dropouts", "clip", "frozen", "each value stands", "equal to the one before"];
+    ["spike", "dropouts", "clip", "frozen", "each value occurs", "equal to the one before"];
 
 /// The mean velocity of all records here [m/s].
 const MEAN: f64 = 10.0;
@@ -150,7 +150,7 @@ fn dropouts_are_not_called_clipping_and_clipping_is() {
             (50..9900).step_by(every).for_each(|at| values[at..at + long].fill(value));
             let analysis = analysed(&values, rate);
             holds_the_air(&analysis, &whole, "dropouts", 0.06);
-            assert!(artefacts(&analysis)[0].contains("which make the rms too large"));
+            assert!(artefacts(&analysis)[0].contains("make the rms too large"));
         }
         for (low, high) in [(-9.0, 1.5), (-1.2, 9.0), (-9.0, 2.5)] {
             let limits = [low, high].map(|z| MEAN + z * rms);
@@ -168,7 +168,7 @@ fn held_values_are_told_with_their_rate() {
         let whole =
             |hold: f64| -> Vec<f64> { (0..10_000).map(|i| air[(f64::from(i) / hold) as usize]).collect() };
         for (hold, words) in
-            [(10.0, "stands 10 times in a row,"), (2.0, "stands 2 times in a row,"), (1.5, "on average")]
+            [(10.0, "occurs 10 times in a row,"), (2.0, "occurs 2 times in a row,"), (1.5, "on average")]
         {
             let named = artefacts(&analysed(&whole(hold), rate));
             assert!(named.len() == 1 && named[0].contains(words), "{hold}: {named:?}");
@@ -211,8 +211,8 @@ fn rejects_numbers_that_stand_for_missing_values() {
                 parse_csv(text(sentinel, unit, per).as_bytes(), "a.csv", &Layout::default()).unwrap();
             let said = analyse(&record, &Settings::default()).unwrap_err().to_string();
             let wanted = format!(
-                "a.csv: column u: 7 samples are {shown}, the first in data row 601 (at 600 ms): this number stands for \
-                 a missing value and is no velocity; leave these cells empty"
+                "a.csv: column u: 7 samples are {shown}, the first in data row 601 (at 600 ms): this \
+                 number means a missing value and is not a velocity; leave these cells empty"
             );
             assert_eq!(said, wanted);
         }

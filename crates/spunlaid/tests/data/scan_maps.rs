@@ -177,5 +177,8 @@ fn identical_a_table_of_points_is_its_map() {
     assert!(said.contains("2 mm wide and 3 mm high"), "{said}");
     let text: String = (0..400).map(|i| format!("{},{},{i}\n", i * i % 397, i * 31 % 389)).collect();
     let said = parse(format!("x,y,g\n{text}").as_bytes(), "gauge.csv", 1e-3).unwrap_err().to_string();
-    assert!(said.contains("no lattice of square cells") && said.contains("a line for each row"), "{said}");
+    assert!(
+        said.contains("not a structured grid of square cells") && said.contains("a line for each row"),
+        "{said}"
+    );
 }

@@ -186,7 +186,7 @@ impl TimeGrid {
     pub(super) fn doubt(self) -> Fault {
         Fault::new(
             format!(
-                "the times are rounded to {}, which is so coarse that they do not tell which samples are missing",
+                "the times are rounded to {}, which is too coarse to show which samples are missing",
                 Dimension::Time.pretty_to(self.size, 3)
             ),
             "write the times with more digits, or give the sampling rate if no sample is missing",

@@ -200,7 +200,7 @@ fn few_of_changes(
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
         })?;
-        let all_are_flown = || Err("its filaments are so few that all of them are simulated".to_owned());
+        let all_are_flown = || Err("it has so few filaments that all of them are simulated".to_owned());
         tried.push(alone.into_iter().flatten().next().unwrap_or_else(all_are_flown));
     }
     Ok(Some(tried))

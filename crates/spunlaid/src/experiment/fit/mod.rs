@@ -177,7 +177,8 @@ fn check(question: Question<'_>) -> Result<(), Fault> {
         return Err(Fault::new(message, "name the keys that you know least"));
     }
     if question.webs < FEWEST_WEBS {
-        let message = format!("{} webs are too few to see a difference beyond chance", question.webs);
+        let message =
+            format!("{} webs are too few for a difference that is significant at 95 %", question.webs);
         return Err(Fault::new(message, format!("ask for {FEWEST_WEBS} or more")));
     }
     if numbers < keys {

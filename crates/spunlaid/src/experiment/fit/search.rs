@@ -138,7 +138,7 @@ pub(super) fn weights_at(webs: &Webs<'_>, trial: usize) -> Result<Matrix, Error>
     weights(webs.trials[trial].webs.iter(), &webs.target.camera).ok_or_else(|| {
         Error::Flight(Fault::new(
             "the simulated webs do not differ from each other",
-            "lay more of them, or larger sheets, so that a difference can be seen beyond chance",
+            "lay more of them, or larger sheets, so that a difference can be significant at 95 %",
         ))
     })
 }

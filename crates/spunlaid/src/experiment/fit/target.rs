@@ -103,9 +103,9 @@ impl Target {
             };
             return Err(Fault::new(
                 format!(
-                    "has {known}, and none of them is sharp (a pixel of blur would lower its CV by less than \
-                    10 %), a whole number of cells of {}, and at most a quarter of the {} that the scan and \
-                    the simulated sheet have in common",
+                    "has {known}; none can be compared. A patch must be sharp (a pixel of blur would \
+                    lower its CV by less than 10 %) and a whole number of cells of {}. It must be at \
+                    most a quarter of the {} that the scan and the simulated sheet have in common",
                     Dimension::Length.pretty(cell),
                     Dimension::Length.pretty(shorter)
                 ),

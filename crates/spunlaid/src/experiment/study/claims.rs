@@ -80,7 +80,7 @@ pub fn judge(
                         let told = [(more, more_effect), (less, less_effect)];
                         matters(study, &study.quantities[quantity], told, times)
                     }
-                    None => open("these effects cannot be told apart"),
+                    None => open("these effects cannot be separated"),
                 }
             }
             (Some(quantity), Statement::Follows(factor, way)) => {
@@ -224,7 +224,7 @@ fn follows(
     let Some((turn, turn_ends)) = at else { return Ok((told, Verdict::Open)) };
     let [before, after] = turn_ends.map(|difference| in_words(quantity, difference));
     let evidence =
-        format!("at {}: {before} beside {}, {after} beside {}", place(turn), place(0), place(last));
+        format!("at {}: {before} relative to {}, {after} relative to {}", place(turn), place(0), place(last));
     let overall = significance(ends);
     let is_monotone = goes((ends, &steps), overall.signum()).0 <= CHANCE;
     let verdict = match most {

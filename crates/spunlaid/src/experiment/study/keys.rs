@@ -37,20 +37,19 @@ const KEYS: &[Key<Study>] = &[
         .told(|study: &Study| base(study, "web.toml"))
         .alternative_to(&["case"], ONE_BASE)
         .follows("a case varies")
-        .meaning("The file of a web to vary, in place of a case."),
+        .meaning("The file of a web to vary, instead of a case."),
     key("spinline", Kind::Text("spinline.toml"))
         .told(|study: &Study| base(study, "spinline.toml"))
         .alternative_to(&["case", "web"], ONE_BASE)
         .follows("a case varies")
-        .meaning("The file of a spinline to vary alone, in place of a case."),
+        .meaning("The file of a spinline to vary alone, instead of a case."),
     choose("design", || Design::all(1).map(Design::name).to_vec())
         .told(|study: &Study| Some(study.design.name().into()))
         .fixed()
         .required("\"grid\"")
         .meaning(
-            "How the values are combined to points: every combination; one key at a time around the \
-             base; the first values of all lists, then the second ones; or points drawn at random in \
-             slices of the ranges.",
+            "How the values are combined: every combination; one key at a time around the base; first \
+             values of all lists, then second ones; or points drawn at random in slices of the ranges.",
         ),
     key("points", Kind::Whole(1, MOST_POINTS))
         .told(|study: &Study| match study.design {
@@ -101,7 +100,7 @@ const KEYS: &[Key<Study>] = &[
         .meaning("Most replicates of a point."),
     key("replicates.until.*", Kind::Quantity(Dimension::Ratio, Sign::Positive))
         .told(|_: &Study| None)
-        .follows("required beside `at_least` and `at_most`, like `amplitude_y = \"5 %\"`")
+        .follows("required next to `at_least` and `at_most`, like `amplitude_y = \"5 %\"`")
         .meaning(
             "A result, as its column is called, and the standard error, as a fraction of its mean, \
              below which a point gets no more replicates.",

@@ -65,7 +65,7 @@ impl Quantity {
             name: format!("{name}_error"),
             column: format!("{name}_error{unit}"),
             label: format!("Error of: {}", known.label),
-            meaning: "standard error by chance, from the places of one web",
+            meaning: "sampling error: standard error from the positions on one web",
             is_main: false,
             figure: NONE,
             series: String::new(),

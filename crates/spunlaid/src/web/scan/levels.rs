@@ -75,7 +75,7 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
         "give the level of the lamp without web, in reflected light of a web too thick to see through";
     let Some(largest) = picture.full_scale else {
         let message = "holds numbers without a largest grey level, so the level of the lamp is not known, \
-            and with a guess every CV would be wrong by the same factor";
+            and with an assumed value every CV would be wrong by the same factor";
         return Err(
             Fault::new(message, format!("{advice}, or a picture of the lamp")).option("--white, --lamp")
         );
@@ -84,11 +84,11 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
     let possible = (1u32 << bits) - 1;
     Err(Fault::new(
         format!(
-            "has no level above {possible}, though the file has 16 bits, so it is not known whether a camera \
-            of {bits} bits made it or the picture is dark, and with a wrong level of the lamp every CV would \
+            "has no level above {possible}, though the file has 16 bits: it is not known whether a camera \
+            of {bits} bits made it or the picture is dark. With a wrong level of the lamp every CV would \
             be wrong by the same factor"
         ),
-        format!("{advice}: {possible} if the camera has {bits} bits, else {largest}"),
+        format!("{advice}: {possible} if the camera has {bits} bits, otherwise {largest}"),
     )
     .option("--white"))
 }
@@ -112,11 +112,11 @@ pub(super) fn believed_shading(
             [libm::expm1(shading.range()), MOST_SHADING - 1.0].map(|share| (100.0 * share).round());
         return Err(Fault::new(
             format!(
-                "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a lens \
-                make {most} % at most: the bare lamp may be visible beside the web, or the web itself \
-                changes, and the picture does not show which"
+                "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a \
+                lens make {most} % at most. The bare lamp may be visible next to the web, or the web \
+                itself changes; the picture does not show which"
             ),
-            "give a picture of the lamp without web, or cut out the web, or say that the lamp is even",
+            "give a picture of the lamp without web, or cut out the web, or say that the lamp is uniform",
         )
         .option("--lamp, --keep-shading"));
     }

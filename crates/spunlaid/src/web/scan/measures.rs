@@ -25,7 +25,7 @@ pub const SCAN_MEASURES: &[Measure<Findings>] = &[
         PERCENT,
         Known(|scan| scan.shading),
     )
-    .meaning("brightest over darkest place of the lamp, if shading was taken out")
+    .meaning("brightest over darkest part of the lamp, if shading was taken out")
     .digits(2),
     OfScan::new("noise", "", RATIO, Known(|scan| scan.noise))
         .meaning("standard deviation of the noise of a pixel, in levels, if it was given and taken out"),
@@ -37,14 +37,14 @@ pub const SCAN_MEASURES: &[Measure<Findings>] = &[
         .meaning("pixels lighter than the lamp, which count as empty"),
     OfScan::new(
         "cut_off_m2",
-        "Cut off beside the web",
+        "Cut off next to the web",
         SQUARE_MILLIMETRES,
         Number(|scan| scan.aside.cut_off),
     )
-    .meaning("area beside the web that was cut off")
+    .meaning("area next to the web that was cut off")
     .digits(3),
     OfScan::new("bare_lamp", "", RATIO, Known(|scan| scan.aside.bare))
-        .meaning("median grey level of the bare lamp beside the web"),
+        .meaning("median grey level of the bare lamp next to the web"),
     OfScan::new("dark_spots", "", RATIO, Count(|scan| scan.aside.spots.len() as u64))
         .meaning("dark spots on the web, which count for no patch"),
     OfScan::new("dark_spots_m2", "", SQUARE_MILLIMETRES, Number(|scan| scan.aside.masked))
@@ -57,7 +57,7 @@ pub const SCANNED_PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         .meaning("coefficient of variation of the basis weight over square patches")
         .errors(&[OfPatch::new(
             "cv_standard_error",
-            "Error of the CV by chance",
+            "Sampling error of the CV",
             PERCENT,
             Known(|patch| patch.patch_cv.standard_error),
         )
@@ -68,7 +68,7 @@ pub const SCANNED_PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         .short("pixel noise")
         .digits(2),
     OfPatch::new("blur_of_a_pixel", "Lost by one more pixel of blur", PERCENT, Known(|patch| patch.blur))
-        .meaning("share by which one more pixel of blur lowers the CV")
+        .meaning("fraction by which one more pixel of blur lowers the CV")
         .short("lost by blur")
         .digits(2),
 ];
@@ -78,7 +78,7 @@ pub const SCAN_STREAK_MEASURES: &[Measure<ScanStreak>] = &[
     OfStreak::new("place_m", "Position", MILLIMETRES, Told(|streak| Some(What::Exact(streak.place))))
         .meaning("middle of the streak, from the left edge of the web"),
     OfStreak::new("amplitude", "Amplitude", PERCENT, Told(|streak| Some(streak.height())))
-        .meaning("how much heavier the web is there than beside it; below zero where it is lighter"),
+        .meaning("how much heavier the web is there than next to it; below zero where it is lighter"),
     OfStreak::new("width_m", "Width", MILLIMETRES, Told(|streak| Some(What::Exact(WIDTH * streak.sigma))))
         .meaning("width at half of the amplitude of the normal profile that fits best"),
     OfStreak::new(
@@ -89,7 +89,7 @@ pub const SCAN_STREAK_MEASURES: &[Measure<ScanStreak>] = &[
     )
     .meaning("widths of normal profiles that fit hardly worse"),
     OfStreak::new("chance", "p-value", PERCENT, Told(|streak| Some(What::AtMost(streak.chance))))
-        .meaning("probability that clouds alone make a streak as clear, of any width at any place")
+        .meaning("probability that clouds alone make a streak as clear, of any width at any position")
         .digits(2),
 ];
 
@@ -98,7 +98,7 @@ pub const SCAN_PERIOD_MEASURES: &[Measure<ScanPeriod>] = &[
     OfPeriod::new("period_m", "Period", MILLIMETRES, Told(|wave| Some(What::Exact(wave.period))))
         .meaning("distance of streaks that repeat"),
     OfPeriod::new("amplitude", "Amplitude", PERCENT, Told(|wave| Some(wave.height())))
-        .meaning("half of the way from the lightest to the heaviest place of the wave"),
+        .meaning("half of the way from the lightest to the heaviest part of the wave"),
     OfPeriod::new("chance", "p-value", PERCENT, Told(|wave| Some(What::AtMost(wave.chance))))
         .meaning("probability that clouds alone make a wave as strong, of any length")
         .digits(2),

@@ -98,15 +98,15 @@ named! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum Doubt {
         /// The level of the lamp without web is an assumed value: all CVs may be wrong by the same factor.
-        White = "the level of the lamp is a guess",
+        White = "the level of the lamp is an assumed value",
         /// The shading of the lamp is an assumed value: a polynomial took it out, with what the web varies as smoothly.
-        Shading = "the shading of the lamp is a guess",
+        Shading = "the shading of the lamp is an assumed value",
         /// The picture of the lamp is clipped.
         ClippedLamp = "the picture of the lamp is clipped",
         /// The picture of the lamp is darker than that of the web.
         DarkLamp = "the picture of the lamp is darker than that of the web",
         /// What is taken as basis weights may be grey levels.
-        GreyLevels = "the numbers may be grey levels and no basis weights",
+        GreyLevels = "the numbers may be grey levels and not basis weights",
         /// The blur of the camera has lowered the CV.
         Blur = "below the blur of the scan",
         /// The sheet holds too few such patches.

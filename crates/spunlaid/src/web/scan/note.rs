@@ -65,9 +65,9 @@ pub(super) fn notes(
     }
     if matches!(settings.light, Light::Reflected { .. }) {
         notes.push(Fault::plain(
-            "the basis weight follows from the light that is thrown back by Kubelka’s law, for fibres that \
-            scatter light and absorb none on a black ground; colour, gloss and a grey ground make it wrong, \
-            and the picture cannot show that",
+            "the basis weight follows from the reflected light by Kubelka’s law, for fibres that scatter \
+            light and absorb none on a black ground. Colour, gloss and a grey ground make it wrong, and \
+            the picture cannot show that",
         ));
     }
     if !weighed.mean_known {
@@ -83,18 +83,19 @@ pub(super) fn notes(
     if let Some(shading) = &weighed.shading {
         notes.push(Fault::new(
             format!(
-                "the lamp is brighter by {} at its brightest place than at its darkest. A polynomial of \
-                second order was taken out. It also took out what the web itself varies as smoothly over the \
-                whole picture, and it left what a polynomial cannot follow, so no interval is given",
+                "the lamp is brighter by {} in its brightest part than in its darkest. A polynomial of \
+                second order was taken out. It also took out what the web itself varies as smoothly over \
+                the whole picture, and it left what a polynomial cannot follow, so no interval is given",
                 per_cent(libm::expm1(shading.range()))
             ),
-            "take a picture of the lamp without web, or say that the lamp is even",
+            "take a picture of the lamp without web, or say that the lamp is uniform",
         ));
     }
     notes.extend(bare_lamp(aside, settings, light != settings.light));
     if is_even && !settings.keep_shading && settings.lamp.is_none() {
         notes.push(Fault::plain(
-            "the border has the same level on all its sides, so the light is taken as even: no shading is taken out",
+            "the border has the same level on all its sides, so the light is taken as uniform: no shading \
+             is taken out",
         ));
     }
     notes.extend(dark_spots(aside));
@@ -164,7 +165,7 @@ fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
             "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and \
             its largest level is {largest}, every CV is wrong by the same factor"
         ),
-        "take a picture of the lamp with the same bits",
+        "take a picture of the lamp with the same number of bits",
     ))
 }
 
@@ -198,7 +199,7 @@ fn assumed_thickest(white: f64) -> Fault {
 fn bare_lamp(aside: &ForeignParts, settings: &Settings, is_used: bool) -> Option<Fault> {
     let level = aside.bare?;
     let message = format!(
-        "the bare lamp is visible beside the web, so the largest rectangle of web was cut out, without {}",
+        "the bare lamp is visible next to the web, so the largest rectangle of web was cut out, without {}",
         square(aside.cut_off)
     );
     // Over a picture of the lamp the level is relative to it.

@@ -40,7 +40,8 @@ impl Teller<'_> {
         let place = self.place(samples.first().copied().unwrap_or(0));
         Fault::new(
             format!(
-                "{} {be} {written}, {first} {place}: this number stands for a missing value and is no velocity",
+                "{} {be} {written}, {first} {place}: this number means a missing value and is not a \
+                 velocity",
                 counted(count, "sample")
             ),
             "leave these cells empty",
@@ -52,8 +53,8 @@ impl Teller<'_> {
         let values =
             if low == high { number(low) } else { format!("between {} and {}", number(low), number(high)) };
         let message = format!(
-            "{} samples ({} %), the first in {}, are all {values} m/s, apart from all others: these are dropouts and \
-             no velocities, which make the rms too large",
+            "{} samples ({} %), the first in {}, are all {values} m/s, apart from all others: these are \
+             dropouts and not velocities, and make the rms too large",
             apart.samples.len(),
             self.share(apart.samples.len()),
             self.place(apart.samples.first().copied().unwrap_or(0)),
@@ -96,15 +97,15 @@ impl Teller<'_> {
             self.share(samples),
             listed(&places),
         );
-        self.fault(&message, "cut the record before and behind them")
+        self.fault(&message, "cut the record before and after them")
     }
 
     pub(super) fn held(&self, times: f64) -> Fault {
         let (written, rate) = (1.0 / self.record.interval, 1.0 / (self.record.interval * times));
         let on_average = if times.fract() == 0.0 { "" } else { " on average" };
         let message = format!(
-            "each value stands {} times in a row{on_average}, so the true sampling rate is {} and not {}: a staircase \
-             has another spectrum and another integral time than the air",
+            "each value occurs {} times in a row{on_average}, so the true sampling rate is {} and not {}: \
+             a staircase has another spectrum and another integral time than the air",
             number(times),
             hertz(rate),
             hertz(written),
@@ -114,9 +115,9 @@ impl Teller<'_> {
 
     pub(super) fn irregular(&self, share: f64, explained: f64) -> Fault {
         let message = format!(
-            "{} % of the samples are equal to the one before, where the resolution of the values explains {} %: values \
-             are held until the next one comes, and a staircase has another spectrum and another integral time than \
-             the air",
+            "{} % of the samples are equal to the one before, where the resolution of the values explains \
+             {} %. Values are held until the next one comes, and a staircase has another spectrum and \
+             another integral time than the air",
             number(100.0 * share),
             number(100.0 * explained),
         );
@@ -135,9 +136,9 @@ impl Teller<'_> {
                  result"
             ),
             count => format!(
-                "{count} spikes ({} %): samples that leap away and back, {} to {far} standard deviations \
-                 from the median, the farthest {at}; they are not turbulence, make the rms too large and the integral \
-                 time too short, and raise the end of the spectrum",
+                "{count} spikes ({} %): samples that jump away and back, {} to {far} standard deviations \
+                 from the median, the farthest {at}. They are not turbulence, make the rms too large and \
+                 the integral time too short, and raise the end of the spectrum",
                 self.share(count),
                 number(nearest),
             ),

@@ -159,8 +159,8 @@ fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> f6
 pub enum Refusal {
     /// The fit would pass through all points.
     #[error(
-        "{points} points cannot rank {keys} keys: the fit would pass through every point, whatever the results; fly at \
-         least {needed} points"
+        "{points} points cannot rank {keys} keys: the fit would pass through every point, whatever the \
+         results; simulate at least {needed} points"
     )]
     TooFewPoints {
         /// Number of points.
@@ -178,8 +178,8 @@ pub enum Refusal {
     },
     /// Two factors vary together.
     #[error(
-        "{first} and {second} vary together (correlation {correlation:.2}), so their effects cannot be told \
-        apart; vary them independently, for example with design = \"grid\""
+        "{first} and {second} vary together (correlation {correlation:.2}), so their effects cannot be \
+        separated; vary them independently, for example with design = \"grid\""
     )]
     Together {
         /// Key of the one.

@@ -36,11 +36,12 @@ fn of_points(raw: &RawPicture, heads: &[Head]) -> Result<RawPicture, Fault> {
     let no_lattice = || {
         Fault::new(
             format!(
-                "has three columns, as x, y and the value at each point, and its {} points are no lattice of square \
-                 cells",
+                "has three columns, as x, y and the value at each point, and its {} points are not a \
+                 structured grid of square cells",
                 raw.rows
             ),
-            "write a line for each row of the map, or the value at each point of a square lattice",
+            "write a line for each row of the map, or the value at each point of a structured grid of \
+             square cells",
         )
     };
     let along = |column: usize| Positions::new(raw.values.iter().skip(column).step_by(POINT).copied());
@@ -104,7 +105,7 @@ fn square(steps: [f64; 2], unit: Option<f64>) -> Result<Option<[f64; 2]>, Fault>
             unit.map_or_else(|| shortest(step), |unit| Dimension::Length.pretty_to(step * unit, 4))
         });
         return Err(Fault::new(
-            format!("has cells that are {wide} wide and {high} high, by the positions beside them"),
+            format!("has cells that are {wide} wide and {high} high, by the positions next to them"),
             "write the map in square cells: join cells along the direction in which they are shorter",
         ));
     }
