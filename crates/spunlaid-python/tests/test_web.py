@@ -113,7 +113,7 @@ def test_keys_of_the_flown_case() -> None:
     near, far = (spunlaid.web(web, set={**short, "belt.distance": at}, threads=2) for at in ("0.1 m", "0.15 m"))
     assert near.map.mean() > 0
     assert near.summary["layers"][0]["sigma_cd_m"] != far.summary["layers"][0]["sigma_cd_m"]
-    with pytest.raises(spunlaid.CaseError, match="is a key of a filament that flies, and this web flies none"):
+    with pytest.raises(spunlaid.CaseError, match="is a key of a simulated filament, and this web simulates none"):
         spunlaid.web(CASES / "web_known.toml", set={"belt.distance": "0.4 m"})
 
 

@@ -69,7 +69,7 @@ fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
     std::fs::write(desk.path("duct.toml"), case).unwrap();
     let said = success(&mut desk.spunlaid("check duct.toml"));
     for part in [
-        "#   a lattice of 2 × 2 × 2 points",
+        "#   a structured grid of 2 × 2 × 2 points",
         "#     x from 0 m to 1 m",
         "#   velocity 8 to 8.06 m/s, 8.03 m/s on average",
         "#   k 1 to 1 m²/s², 1 m²/s² on average",

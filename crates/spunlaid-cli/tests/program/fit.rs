@@ -120,7 +120,7 @@ fn what_cannot_be_sought_is_refused_with_the_way_out() {
         ("--to truth --vary laydown.noise=7", "write FROM..TO"),
         ("--to nowhere --vary laydown.noise", "it is not a folder"),
         ("--to . --vary laydown.noise", "holds no scanned or laid web"),
-        ("--to truth --vary air.velocity", "this web flies none"),
+        ("--to truth --vary air.velocity", "this web simulates none"),
         ("--to truth --vary laydown.noise --webs 3", "--webs"),
     ] {
         let message = refusal(&mut desk.spunlaid(&format!("fit web.toml {arguments} --out fit")), 1);

@@ -94,8 +94,8 @@ fn a_check_flies_nothing_and_says_so() {
     let desk = desk("10 mm", "duration = '0.2 s'\n");
     let output = desk.spunlaid("check line.toml").output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
-    let note = "spinline.end_tension is found by flights when the case flies; until then, all that follows \
-        from it is that of a tension of 0 N";
+    let note = "spinline.end_tension is found when the case is simulated; until then, all that follows \
+        from it belongs to a tension of 0 N";
     assert!(said(&output).contains(note), "{}", said(&output));
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("end_tension = \"simulated\""), "{shown}");

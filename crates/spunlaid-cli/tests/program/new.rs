@@ -63,7 +63,7 @@ fn new_writes_a_fed_fibre_that_can_be_run() {
     }
     assert!(!said.contains("eddies of"), "{said}");
     let said = success(&mut desk.with("run line.toml", &["run.duration=30 ms", "run.replicates=2"]));
-    assert!(said.contains("Spread in machine direction"), "{said}");
+    assert!(said.contains("Standard deviation in machine direction"), "{said}");
     // Lines that are commented out show the default.
     let written = String::from_utf8(desk.read("line.toml")).unwrap();
     let optional = |line: &&str| {

@@ -327,7 +327,10 @@ fn points_of_a_belt_at_several_speeds_are_those_of_runs_alone() {
         'belt.speed' = ['1 m/s', '3 m/s', '8 m/s']\n";
     let place = StudyFolder::new(case, study);
     let output = said(&place.swept("out", &[]));
-    assert!(output.contains("Spread in machine direction (mm)") && !output.contains("Amplitude"), "{output}");
+    assert!(
+        output.contains("Standard deviation in machine direction (mm)") && !output.contains("Amplitude"),
+        "{output}"
+    );
     let rows = csv(&place, "out");
     let column = |name: &str| rows[0].iter().position(|head| head == name).unwrap();
     for (number, row) in rows.iter().enumerate().skip(1) {

@@ -24,8 +24,8 @@ fn rejects_bad_webs_with_the_command_that_helps() {
         ),
         (
             "web brief.toml",
-            "error: brief.toml:5: [fibre] belongs to a case, and the file says nothing of a web; add [line] \
-            and [web], or read it as a case (`spunlaid run`)\n",
+            "error: brief.toml:5: [fibre] belongs to a case, and the file does not describe a web; add \
+            [line] and [web], or read it as a case (`spunlaid run`)\n",
         ),
         (
             "web web.toml --set line.belt_speed=60m/s",

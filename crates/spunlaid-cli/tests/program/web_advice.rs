@@ -133,7 +133,8 @@ fn keys_of_the_flown_case_are_set_and_advice_can_be_pasted() {
     let said = refusal(&mut desk.spunlaid("check known.toml --set belt.distance=0.4m"), 1);
     assert!(
         said.contains(
-            "--set belt.distance = \"0.4m\" is a key of a filament that flies, and this web flies none; leave it out"
+            "--set belt.distance = \"0.4m\" is a key of a simulated filament, and this web simulates \
+             none; leave it out"
         ),
         "{said}"
     );

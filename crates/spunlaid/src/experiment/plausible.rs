@@ -60,8 +60,8 @@ pub(crate) const LIMITS: &[Limit] = &[
         unit: ("times the speed of its fastest air", 1.0),
         range: [0.0, 0.9],
         is_law: true,
-        advice: "air draws no filament as fast as it blows: check the speed of the air, throughput and titre; of a \
-            filament that begins at the die ([spinline]) the titre follows",
+        advice: "air draws no filament as fast as it blows: check the speed of the air, throughput and \
+            titre; for a filament that begins at the die ([spinline]) the titre follows",
         of: |_, layer| {
             let case = layer.source.case().filter(|case| case.spinline.is_none())?;
             Some(layer.feed_speed / case.fastest_air()?)
@@ -126,7 +126,7 @@ impl Implausible {
             meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
         let (found, range) = self.words();
         let what = Remark::doubt(format!(
-            "is doubtful: a {words} of {found}, where spunbond lines have {range}; {advice}"
+            "is outside the usual range: a {words} of {found}, where spunbond lines have {range}; {advice}"
         ))
         .outside_by(self.excess());
         Note { place: Place::Code, key: (*key).to_owned(), value: None, what }

@@ -223,7 +223,7 @@ impl<'a, T> Document<'a, T> {
         if self.layered && full == table && self.list_of(table).is_some() && !self.keys.is_common(table) {
             let remedy = format!("write [layer.{table}] below the [[layer]] that it belongs to");
             entry.shown = None;
-            self.reject(&header, &entry, Fault::new("cannot stand beside [[layer]]", remedy));
+            self.reject(&header, &entry, Fault::new("cannot be combined with [[layer]]", remedy));
             return;
         }
         let what = match (&entry.place, std::mem::replace(&mut entry.value, DeValue::Boolean(false))) {

@@ -142,8 +142,9 @@ fn values_of_case(
 fn open_values(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenCase, Error> {
     if spinline::is_spinline_alone(&key_values) {
         let fault = Fault::new(
-            "stands alone in this file, so that no fibre flies",
-            "solve the spinline alone, or add [belt], [air] and [run] for the fibre that flies on below it",
+            "is alone in this file, so no fibre is simulated",
+            "solve the spinline alone, or add [belt], [air] and [run] for the fibre that is simulated \
+             below it",
         );
         key_values.reject("[spinline]", fault.option("`spunlaid spin`"));
         return Err(key_values.problems.into());

@@ -28,7 +28,7 @@ impl Relative {
         match (share, kind) {
             (Some(share), Kind::Quantity(..) | Kind::Whole(..)) => match share.parse::<f64>() {
                 Ok(percent) if percent.is_finite() => Ok(Some(Self::Share(0.01 * percent))),
-                _ => Err(Fault::new("is no share", "write one like \"+20 %\" or \"-5 %\"")),
+                _ => Err(Fault::new("is not a relative change", "write one like \"+20 %\" or \"-5 %\"")),
             },
             (None, Kind::Quantity(dimension, _)) => Ok(Some(Self::Amount(dimension.parse(&text)?))),
             _ => Ok(None),

@@ -112,8 +112,8 @@ impl Resources {
             return open.resolve_with(*found);
         }
         let (case, mut notes) = open.clone().resolve_at_once()?;
-        let text = "is found by flights when the case flies; until then, all that follows from it is that of a \
-            tension of 0 N";
+        let text = "is found when the case is simulated; until then, all that follows from it belongs to \
+            a tension of 0 N";
         notes.push(open.note_of_end(Remark::note(text)));
         let mut wanted = lock(&self.wanted);
         if !wanted.iter().any(|(other, _)| is_it(other)) {
@@ -176,8 +176,8 @@ impl OpenCase {
     fn resolve_with(mut self, found: Option<FlownTension>) -> Result<(Case, Vec<Note>), Error> {
         let Some(FlownTension { tension, change }) = found else {
             let what = Fault::new(
-                format!("does not settle within {MOST_ROUNDS} rounds of flights"),
-                "write a tension, as the run of this case with \"0 N\" says it, and look again",
+                format!("does not settle within {MOST_ROUNDS} rounds of simulations"),
+                "write the tension that a run of this case with \"0 N\" reports, and try again",
             );
             let problem = Finding { value: None, ..keys::finding(END_TENSION, 0.0, what) };
             return Err(vec![self.key_values.placed(problem)].into());
@@ -187,8 +187,8 @@ impl OpenCase {
         let (case, mut notes) = self.resolve_at_once()?;
         let speed = case.line.map_or(f64::NAN, |line| line.feed_speed);
         let text = format!(
-            "was found by flights: the mean tension at the root, {}, with a feed speed of {} that changed by {} \
-            in the last round",
+            "was found by simulation: the mean tension at the root, {}, with a feed speed of {} that \
+            changed by {} in the last round",
             Dimension::Force.pretty(tension),
             Dimension::Velocity.pretty(speed),
             Dimension::Ratio.pretty_to(change, 2)

@@ -80,7 +80,7 @@ pub(super) fn slip(line: &str) -> Option<Fault> {
     let what = if short {
         "has a number without a digit before or behind its point, or with a zero before it"
     } else if thousands.is_some() {
-        "has a comma, which is a decimal sign or stands between thousands"
+        "has a comma, which is a decimal sign or separates thousands"
     } else if has_comma {
         "has a decimal comma"
     } else if written.starts_with(['"', '\'']) || written.ends_with(['"', '\'']) {

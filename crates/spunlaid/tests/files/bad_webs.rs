@@ -17,7 +17,7 @@ fn rejects_a_web_without_a_filament_that_is_read_as_a_case() {
     let text = fs::read_to_string("../../cases/web_known.toml").unwrap();
     let said = read_case((&text, "web_known.toml"), &[]).unwrap_err().to_string();
     assert!(
-        said.contains("[laydown] flies no filament: how its fibres lie is known; to lay the web"),
+        said.contains("[laydown] simulates no filament: how its fibres lie is known; to lay the web"),
         "{said}"
     );
 }
@@ -72,8 +72,8 @@ fn rejects_overrides_by_their_name() {
         (
             "line.rows.1.pitch",
             "1 mm",
-            "override line.rows.1.pitch = \"1 mm\" is of a row of nozzles that the file does not have; write a list of \
-             rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
+            "override line.rows.1.pitch = \"1 mm\" is of a row of holes that the file does not have; \
+             write a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
         ),
     ] {
         assert_eq!(refusal(&known, key, value), message);

@@ -319,7 +319,14 @@ fn rejects_what_no_line_can_be() {
         line.turned(&turns, &Resources::default()).unwrap_err().to_string()
     };
     let all: [(Turns<'_>, &[&str]); 6] = [
-        (&[("titre", 2e-7)], &["knob titre is no knob of this line", "turn one of throughput, holes, "]),
+        (
+            &[("titre", 2e-7)],
+            &[
+                "knob titre is not a setting of this line",
+                "change one of throughput, \
+             holes, ",
+            ],
+        ),
         (&[("throughput", f64::NAN)], &["line.throughput"]),
         (&[("throughput", -1e-5)], &["knob line.throughput = -0.6 g/min is not positive", "above zero"]),
         (&[("holes", 0.2)], &["knob line.filaments_per_metre = 0 "]),
@@ -337,9 +344,10 @@ fn rejects_what_no_line_can_be() {
     // A file that is as far outside itself is turned all the same.
     let light =
         opened(&SPUN.replace("20 g/m²", "0.25 g/m²").replace("5000", "500"), &beside_cases("line.toml"));
-    assert!(
-        turned(&light, &[("distance", 0.4)]).notes.iter().any(|note| note.to_string().contains("doubtful"))
-    );
+    assert!(turned(&light, &[("distance", 0.4)]).notes.iter().any(|note| note.to_string().contains(
+        "outside \
+             the usual range"
+    )));
 }
 
 #[test]
@@ -350,7 +358,7 @@ fn a_tension_that_flights_have_to_find_is_said() {
     let resources = Resources::default();
     let turned = line.turned(&[turn("distance", 0.4)], &resources).unwrap();
     assert!(turned.needs_flights && resources.wanted() == 1);
-    assert!(turned.notes.iter().any(|note| note.to_string().contains("is found by flights")));
+    assert!(turned.notes.iter().any(|note| note.to_string().contains("is found when the case is simulated")));
 }
 
 #[test]

@@ -162,7 +162,7 @@ fn layers_have_in_common_what_stands_above_them() {
     assert_eq!(case(&read(&own, &[("fibre.youngs_modulus", "3 GPa")]), 1).fibre.youngs_modulus, 3e9);
     // One filament is simulated alone, so that it must be known which.
     let said = read_case((BEAMS, PLACE), &[]).unwrap_err().to_string();
-    assert!(said.contains("have different filaments, and one is simulated"), "{said}");
+    assert!(said.contains("have different filaments, and only one can be simulated"), "{said}");
     assert!(read_case((BEAMS, PLACE), &set(&[("layer.2.line.throughput", "0.5 g/min")])).is_ok());
 }
 
@@ -175,8 +175,8 @@ fn what_a_web_says_takes_the_place_of_what_its_case_says() {
     let alone = read_case("../../cases/spunbond.toml", &set(&values)).unwrap().0;
     assert_eq!(case(&file, 0), &in_one_air(alone));
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
-    let note = "line.toml:6: fibre.linear_density = \"1 dtex\" is laid with fibre.diameter = 11.83 µm in \
-        place of the 18 µm of ";
+    let note = "line.toml:6: fibre.linear_density = \"1 dtex\" is laid with fibre.diameter = 11.83 µm \
+        instead of the 18 µm of ";
     assert!(said.iter().any(|said| said.contains(note)), "{said:?}");
 }
 
@@ -210,7 +210,7 @@ fn rejects_what_is_said_twice_or_is_missing() {
         ),
         (
             format!("{LINE}[laydown]\nsigma_md = \"10 mm\"\nsigma_cd = \"10 mm\"\nnoise = \"12 m^-0.5\"\n"),
-            "cannot be combined with laydown.sigma_md; keep one of a filament to fly",
+            "cannot be combined with laydown.sigma_md; keep either the filament to be simulated or",
         ),
     ] {
         let said = refusal(&text, &[]);

@@ -378,9 +378,9 @@ fn rejects_guesses_that_have_no_half() {
         (
             KNOWN,
             "line.filaments_per_meter",
-            "no key of the web or of its cases; did you mean line.filaments_per_metre?",
+            "not a key of the web or of its cases; did you mean line.filaments_per_metre?",
         ),
-        (KNOWN, "belt.distance", "it is a key of a filament that flies, and this web flies none"),
+        (KNOWN, "belt.distance", "it is a key of a simulated filament, and this web simulates none"),
         (KNOWN, "line.slot_gap", "names line.slot_gap, which is zero or not written here"),
         (KNOWN, "web.edges", "names web.edges, of which there is no half and no twice"),
         (

@@ -169,8 +169,8 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     assert_eq!([layer.feed_speed, layer.belt_speed], speeds);
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     for note in [
-        "line.throughput = \"0.5 g/min\" is laid with feed.speed = 35.99 m/s in place of the 50 m/s of ",
-        "line.basis_weight = \"20 g/m²\" is laid with belt.speed = 2.083 m/s in place of the 3 m/s of ",
+        "line.throughput = \"0.5 g/min\" is laid with feed.speed = 35.99 m/s instead of the 50 m/s of ",
+        "line.basis_weight = \"20 g/m²\" is laid with belt.speed = 2.083 m/s instead of the 3 m/s of ",
     ] {
         assert!(said.iter().any(|said| said.contains(note)), "{said:?}");
     }
@@ -190,7 +190,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     // What the case has itself is no change.
     let file =
         read("whole_line_fibre", &[("line.throughput", "0.5 g/min"), ("line.basis_weight", "13.9 g/m²")]);
-    assert!(!file.notes.iter().any(|note| note.to_string().contains("in place of")), "{:?}", file.notes);
+    assert!(!file.notes.iter().any(|note| note.to_string().contains("instead of")), "{:?}", file.notes);
 }
 
 /// A note tells which number of the named case is replaced, and by what: 19 µm stand in this file, and are no case's.
@@ -199,10 +199,10 @@ fn a_note_names_the_layer_that_replaces_a_number_of_its_case() {
     let text = "[fibre]\ndiameter = \"19 µm\"\n[[layer]]\nlaydown.case = \"spunbond.toml\"\n\
         fibre.diameter = \"17 µm\"\nline.filaments_per_metre = 5000\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"\n";
     let file = read_web((text, "../../cases/line.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
-    let said = file.notes.iter().map(ToString::to_string).filter(|note| note.contains("in place of the"));
+    let said = file.notes.iter().map(ToString::to_string).filter(|note| note.contains("instead of the"));
     let said: Vec<String> = said.collect();
     let wanted =
-        "layer.1.fibre.diameter = \"17 µm\" is laid with fibre.diameter = 17 µm in place of the 18 µm of ";
+        "layer.1.fibre.diameter = \"17 µm\" is laid with fibre.diameter = 17 µm instead of the 18 µm of ";
     assert!(matches!(&said[..], [said] if said.contains(wanted)), "{said:?}");
 }
 
@@ -216,8 +216,14 @@ fn doubted(file: &WebFile) -> Vec<&'static str> {
     let words =
         ["basis weight", "spinning speed", "speed of the belt", "throughput of a hole", "titre", "filament"];
     let all = file.notes.iter().filter(|note| note.what.is_doubt()).map(|note| note.what.to_string());
-    let word =
-        |text: String| words.into_iter().find(|word| text.starts_with(&format!("is doubtful: a {word} of ")));
+    let word = |text: String| {
+        words.into_iter().find(|word| {
+            text.starts_with(&format!(
+                "is outside the usual \
+             range: a {word} of "
+            ))
+        })
+    };
     all.map(|text| word(text).unwrap()).collect()
 }
 
@@ -245,7 +251,7 @@ fn a_value_may_be_a_change_of_the_one_before() {
     for (key, change, message) in [
         ("line.feed_speed", "+20 %", "is a change of a value that is not given; write the value itself"),
         ("line.throughput", "-100 %", "is not positive"),
-        ("line.throughput", "+x %", "is no share; write one like \"+20 %\" or \"-5 %\""),
+        ("line.throughput", "+x %", "is not a relative change; write one like \"+20 %\" or \"-5 %\""),
         ("line.throughput", "+1 m/s", "is a velocity"),
     ] {
         let values = set(key, change);
@@ -332,7 +338,7 @@ fn analytic_the_pressure_of_the_cabin_is_a_velocity_of_the_air() {
     }
     let set = set("line.cabin_pressure", "3500 Pa");
     let said = read_web((LINE, "../../cases/line.toml"), &set).unwrap_err().to_string();
-    assert!(said.contains("has no effect without a filament that flies; leave it out"), "{said}");
+    assert!(said.contains("has no effect without a simulated filament; leave it out"), "{said}");
 }
 
 #[test]
@@ -370,8 +376,8 @@ fn numbers_that_no_spunbond_line_has_are_doubted() {
     let said = note(&read_line(&[("line.throughput", "2 g/min")]));
     assert!(
         said.ends_with(
-            "line.feed_speed is doubtful: a spinning speed of 10000 m/min, where spunbond lines have 500 to 8000 \
-            m/min; it follows from throughput and titre, so check both"
+            "line.feed_speed is outside the usual range: a spinning speed of 10000 m/min, where spunbond \
+            lines have 500 to 8000 m/min; it follows from throughput and titre, so check both"
         ),
         "{said}"
     );

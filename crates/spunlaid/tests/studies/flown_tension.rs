@@ -86,8 +86,12 @@ fn identical_tension_when_the_rounds_are_flown_by_hand_and_for_any_number_of_thr
     assert_eq!(settled_case(3, &[]), (case.clone(), notes.clone()));
     let (file, _) = settled(2, |known| read_spinline((&self::case(), NAME), known));
     assert_eq!(Some(&file.spec.spinline), case.spinline.as_deref());
-    let said = notes.iter().map(Note::to_string).find(|note| note.contains("was found by flights")).unwrap();
-    assert!(said.starts_with("../../cases/case.toml:8: spinline.end_tension was found by flights"), "{said}");
+    let said =
+        notes.iter().map(Note::to_string).find(|note| note.contains("was found by simulation")).unwrap();
+    assert!(
+        said.starts_with("../../cases/case.toml:8: spinline.end_tension was found by simulation"),
+        "{said}"
+    );
 
     // Each round is a case with the tension of the round before.
     let (mut speed, mut by_hand) = (f64::NAN, 0.0);
@@ -112,7 +116,7 @@ fn a_reader_flies_nothing_and_tells_what_has_to_be_flown() {
     assert!(case.waits_for_flights() && resources.wanted() == 1);
     let (zero, _) = read(&[("spinline.end_tension", "0 N")]).unwrap();
     assert_eq!(number(&case, "feed.speed"), number(&zero, "feed.speed"));
-    assert!(notes.iter().any(|note| note.to_string().contains("is found by flights when the case flies")));
+    assert!(notes.iter().any(|note| note.to_string().contains("is found when the case is simulated")));
     // The bar ends where it should, whichever round was the last.
     let (stop, steps, most) = (AtomicBool::new(false), AtomicU64::new(0), resources.most_steps());
     resources.fly(by(1, &stop, &steps)).unwrap();
@@ -160,7 +164,7 @@ fn identical_points_of_a_study_whose_tensions_are_flown_at_once() {
         let (alone, _) = settled_case(1, &[("spinline.throughput", throughput)]);
         assert_eq!(point.experiment.case().unwrap(), &alone);
     }
-    let note = whole.notes.iter().find(|note| note.to_string().contains("was found by flights")).unwrap();
+    let note = whole.notes.iter().find(|note| note.to_string().contains("was found by simulation")).unwrap();
     assert_eq!(note.points, 2);
 }
 
@@ -198,7 +202,9 @@ fn rejects_flights_in_a_study_of_a_spinline_alone() {
     let read = parse_study(text, "study.toml", None, |_, _| Ok((case(), NAME.to_owned())));
     let said = read.unwrap_err().to_string();
     assert!(
-        said.contains("spinline.end_tension = \"simulated\" needs flights, and a study of a spinline"),
+        said.contains(
+            "spinline.end_tension = \"simulated\" needs simulated fibres, and a study of a spinline"
+        ),
         "{said}"
     );
 }

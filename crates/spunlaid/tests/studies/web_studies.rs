@@ -265,11 +265,15 @@ fn rejects_what_cannot_vary() {
             "study.toml:4: line.belt_sped = ['4 m/s'] cannot be set by a study; did you mean line.belt_speed?",
         ),
         (vary("'laydown.case' = ['a.toml']"), "take a key whose value is a number or one of a few words"),
-        (vary("'air.velocity' = ['4 m/s']"), "it is a key of a filament that flies, and this web flies none"),
+        (
+            vary("'air.velocity' = ['4 m/s']"),
+            "it is a key of a simulated filament, and this web simulates \
+             none",
+        ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\nrun.replicates = 4"),
-            "study.toml: [set] run.replicates = 4 is a key of a filament that flies, and this web flies \
-            none; leave it out",
+            "study.toml: [set] run.replicates = 4 is a key of a simulated filament, and this web \
+            simulates none; leave it out",
         ),
         (
             vary("layer.2.line.belt_speed = ['4 m/s']"),

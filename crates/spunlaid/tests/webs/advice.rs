@@ -277,7 +277,7 @@ fn a_web_says_which_settings_are_turned_while_it_runs() {
     assert_eq!(turned(&named), [Turned::Stopped, Turned::Running, Turned::Rebuilt]);
     let set = [("web.turnable".to_owned(), "distanse".to_owned())];
     let error = read_web((EQUAL_BEAMS, &*cases()), &set).unwrap_err().to_string();
-    assert!(error.contains("names distanse, which is no setting; did you mean distance?"), "{error}");
+    assert!(error.contains("names distanse, which is not a setting; did you mean distance?"), "{error}");
 }
 
 #[test]

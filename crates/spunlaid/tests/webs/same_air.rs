@@ -87,6 +87,6 @@ fn rejects_webs_whose_common_air_does_not_fit_into_the_memory() {
     let flyer = Flyer::new(1, &stop, &unwatched);
     web.spec.memory_limit = 1e6;
     let said = flyer.few_in_same_air((&[&web.spec, &farther.spec], ALL), &steps).unwrap_err().to_string();
-    let begin = "the field of eddies in which the changed webs fly beside each other takes ";
+    let begin = "the field of eddies in which the changed webs are simulated together takes ";
     assert!(said.starts_with(begin) && said.contains("more than web.memory_limit = 1 MB; write "), "{said}");
 }

@@ -393,9 +393,9 @@ impl Check<'_> {
     fn shared_record(&mut self) {
         let lateral = self.case.air.lateral;
         if lateral != Lateral::Uniform && !self.case.air.records.is_empty() {
-            let remedy = "a record is measured at one point and does not tell how the air differs across the \
-                flow; write air.lateral = \"uniform\", or take the numbers and the spectrum of the record \
-                (spunlaid analyse) instead of it";
+            let remedy = "a record is measured at one point, so the variation across the flow is not \
+                known; write air.lateral = \"uniform\", or use the numbers and the spectrum of the \
+                record (spunlaid analyse) instead of it";
             let fault = Fault::excludes("air.record", remedy);
             self.blame_key("air.lateral", format!("\"{}\"", lateral.name()), fault);
         }

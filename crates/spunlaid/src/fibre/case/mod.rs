@@ -304,9 +304,9 @@ impl Case {
         let stretched = self.line.filter(|line| line.belt_speed > line.feed_speed);
         let cause = match (stretched, limits.min_by(|a, b| a.limit.total_cmp(&b.limit))) {
             (Some(line), _) => format!(
-                "the belt is faster than the feed ({} and {}) and stretches the fibre that it holds; lower \
-                belt.speed, or let the fibre slide on all of its length (belt.contact = \"friction\", with a \
-                belt.kept_length as long as what is fed) and lower run.time_step",
+                "the belt is faster than the feed ({} and {}) and stretches the fibre that it holds. \
+                Lower belt.speed, or let the fibre slide on all of its length (belt.contact = \
+                \"friction\", with a belt.kept_length as long as what is fed) and lower run.time_step",
                 Dimension::Velocity.pretty(line.belt_speed),
                 Dimension::Velocity.pretty(line.feed_speed)
             ),

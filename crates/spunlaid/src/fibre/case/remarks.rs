@@ -166,9 +166,10 @@ impl Case {
         (to < LEAST_SLOWING * from).then(|| {
             let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
             Remark::warning(format!(
-                "lays filaments that have simulated in air that slows from {from} to {to} and does not widen. A channel \
-                 in which air slows widens, and carries the filaments apart along the machine direction, so that the \
-                 web is more even; write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
+                "lays filaments in air that slows from {from} to {to} and does not widen. Air slows in a \
+                 channel that widens, and carries the filaments apart along the machine direction, so \
+                 the web is more uniform. Write widening = \"md\" in [air] of the case, or \"none\" if \
+                 it is meant"
             ))
         })
     }
@@ -211,10 +212,10 @@ impl Case {
         let cross = placed.axes()[2].name();
         (share > MOST_ACROSS).then(|| {
             Remark::warning(format!(
-                "lets the air change by {} % of its mean speed along the cross direction ({cross} of the field), over \
-                 the {} of the web around the root; a web is laid as if its air were the same across. If {cross} is \
-                 the machine direction, write it here; otherwise choose root and width where the air is even, or make \
-                 a plane flow of the middle",
+                "lets the air change by {} % of its mean speed along the cross direction ({cross} of the \
+                 field), over the {} of the web around the root. A web is laid as if its air were the \
+                 same across. If {cross} is the machine direction, write it here; otherwise choose root \
+                 and width where the air is uniform, or make a plane flow of the middle",
                 Dimension::Ratio.pretty_to(100.0 * share, 2),
                 Dimension::Length.pretty_to(width, 3)
             ))
@@ -239,7 +240,7 @@ impl Case {
             }
             false => format!("feeds filaments at {} along the machine direction", shown(from)),
         };
-        let remedy = "choose the place in the middle of the slot, at its upper end (air.field_root)";
+        let remedy = "choose the position in the middle of the slot, at its upper end (air.field_root)";
         if [from, to].into_iter().any(|y| speed(y).is_none()) {
             return Some(Remark::warning(format!(
                 "{fed}, some of them outside of the region where the flow is known, where they meet the air of its \

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// The limit that the feed sets, see [`Line::fewest_steps`].
 pub(super) const FEEDING: &str = "feed of an element";
 const STRING: &str = "waves of the taut string";
-const GUSTS: &str = "gusts that turn an element";
+const GUSTS: &str = "eddies that turn an element";
 const AXIAL: &str = "axial waves";
 const BENDING: &str = "bending waves";
 
@@ -32,12 +32,12 @@ impl StepLimit {
         match self.cause {
             AXIAL => {
                 "sound crosses an element in this time, all along the fibre; run.scheme = \
-                \"implicit-tension\" knows no such limit, and longer elements (fibre.element_length) \
+                \"implicit-tension\" has no such limit, and longer elements (fibre.element_length) \
                 lengthen it"
             }
             BENDING => {
-                "the shortest bending wave swings once in this time, at the root first; longer elements \
-                (fibre.element_length) or a thinner or softer fibre lengthen it"
+                "the shortest bending wave oscillates once in this time, at the root first; longer \
+                elements (fibre.element_length) or a thinner or softer fibre lengthen it"
             }
             STRING => {
                 "a wave of the taut fibre crosses an element in this time at the root, where the tension is \
@@ -48,8 +48,8 @@ impl StepLimit {
                 lower feed.speed lengthen it"
             }
             GUSTS => {
-                "gusts may turn an element only a little in a step; longer elements (fibre.element_length) \
-                or weaker turbulence lengthen it"
+                "eddies may turn an element only a little in a step; longer elements \
+                (fibre.element_length) or weaker turbulence lengthen it"
             }
             _ => "",
         }
@@ -79,7 +79,7 @@ impl StepChoice {
             Self::Error => "it keeps the error tolerance",
             Self::Stability => "it is at most half the stability limit",
             Self::Duration => "the run is one step long",
-            Self::Feed => "an element is fed in as few steps as can be",
+            Self::Feed => "an element is fed in as few steps as possible",
         }
     }
 }

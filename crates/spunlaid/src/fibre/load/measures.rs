@@ -14,16 +14,20 @@ const KILOGRAMS_PER_SECOND_AND_METRE: Unit = Unit { shown: "kg/s/m", per_si: 1.0
 
 /// The measures of a load, in the order of its table.
 pub const LOAD_MEASURES: &[Measure<Load>] = &[
-    OfLoad::new("filaments_per_m", "Filaments per metre of width", PER_METRE, Number(|load| {
-        load.filaments_per_metre
-    }))
+    OfLoad::new(
+        "filaments_per_m",
+        "Filaments per metre of width",
+        PER_METRE,
+        Number(|load| load.filaments_per_metre),
+    )
     .meaning("filaments of all rows, per metre of width")
     .digits(4),
-    OfLoad::new("slot_m", "Size of the slot in machine direction", MILLIMETRES, Known(|load| {
-        Some(load.air?.slot)
-    }))
-    .meaning("line.slot_gap, through which the filaments and their air come")
-    .digits(4),
+    OfLoad::new("slot_m", "Slot gap", MILLIMETRES, Known(|load| Some(load.air?.slot)))
+        .meaning(
+            "line.slot_gap: the gap along the machine direction through which the filaments and their air \
+         pass",
+        )
+        .digits(4),
     OfLoad::new(
         "air_kg_s_m",
         "Air from the slot",
@@ -40,17 +44,23 @@ pub const LOAD_MEASURES: &[Measure<Load>] = &[
         .digits(3),
     OfLoad::new("eddy_damping", "Damping of the eddies, at most", RATIO, Known(|load| load.damping))
         .meaning(
-            "upper bound of how the filaments damp the eddies down to the belt: their amplitude falls by less than \
-             the factor exp(−this number)",
+            "upper bound of the damping of the eddies by the filaments, down to the belt: their amplitude \
+             falls by less than the factor exp(−this number)",
         )
         .digits(2),
-    OfLoad::new("heat_w_per_m", "Heat of the filaments", KILOWATTS_PER_METRE, Known(|load| {
-        Some(load.heat?.given)
-    }))
+    OfLoad::new(
+        "heat_w_per_m",
+        "Heat of the filaments",
+        KILOWATTS_PER_METRE,
+        Known(|load| Some(load.heat?.given)),
+    )
     .meaning("heat given up between the die and the end of the spinline, per metre of width")
     .remark(|load| {
         let left_out = load.heat.as_ref().and_then(|heat: &Heat| heat.of_crystals)?;
-        Some(format!("without up to {:.1} kW/m of crystallisation, which this spinline leaves out", left_out * 1e-3))
+        Some(format!(
+            "without up to {:.1} kW/m of crystallisation, which this spinline leaves out",
+            left_out * 1e-3
+        ))
     })
     .digits(3),
     OfLoad::new("warming_k", "Warming of the slot's air, at most", KELVIN, Known(|load| load.heat?.warming))
@@ -61,7 +71,7 @@ pub const LOAD_MEASURES: &[Measure<Load>] = &[
 /// The measures of a load between the inlet and a place, in the order of its table.
 pub const LOAD_POSITION_MEASURES: &[Measure<LoadPlace>] = &[
     OfPlace::new("x_m", "Distance from the inlet", MILLIMETRES, Number(|place| place.distance))
-        .meaning("place on the way from the inlet to the belt")
+        .meaning("position between the inlet and the belt")
         .digits(4),
     OfPlace::new(
         "force_n_per_m",
@@ -82,7 +92,7 @@ pub const LOAD_POSITION_MEASURES: &[Measure<LoadPlace>] = &[
         PERCENT,
         Known(LoadPlace::change_of_velocity),
     )
-    .meaning("share by which a free stream of the same width would be faster than the given air")
+    .meaning("fraction by which a free stream of the same width would be faster than the given air")
     .digits(2),
     OfPlace::new("pressure_pa", "Pressure between walls", PASCALS, Known(|place| place.pressure))
         .meaning("rise of pressure between the inlet and here if walls keep the given velocity")

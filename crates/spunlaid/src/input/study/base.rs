@@ -157,7 +157,7 @@ impl CaseBase {
 /// A study of a spinline alone flies no fibre whose tension it could take.
 fn no_flights(at: &Place) -> Vec<Problem> {
     let what = Fault::new(
-        "needs flights, and a study of a spinline flies no fibre",
+        "needs simulated fibres, and a study of a spinline simulates none",
         "write a tension, or let the study vary the case: case = \"…\" in place of spinline = \"…\"",
     );
     let (key, value) = ("spinline.end_tension".to_owned(), Some("\"simulated\"".to_owned()));

@@ -84,7 +84,7 @@ const COMPUTATION: [&str; 3] = ["web.", "run.", "fibre.element_length"];
 /// A key that is sought, with its range.
 fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Parameter, Fault> {
     if COMPUTATION.iter().any(|start| key.name.starts_with(start)) {
-        let remedy = "seek a key of the line: of its air, fibres, lay-down or rows";
+        let remedy = "seek a key of the line: of its air, fibres, laydown or rows";
         return Err(Fault::new(
             "cannot be sought: it says how the web is computed, not how it is made",
             remedy,
@@ -105,12 +105,12 @@ fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Para
         Some(range) => {
             let ends = range
                 .split_once("..")
-                .ok_or_else(|| Fault::new("is no range", "write FROM..TO, as in 5 mm..40 mm"))?;
+                .ok_or_else(|| Fault::new("is not a range", "write FROM..TO, as in 5 mm..40 mm"))?;
             let [from, to] = [ends.0, ends.1].map(|end| dimension.parse(end.trim().trim_matches('"')));
             let (from, to) = (from?, to?);
             if !(from < to && from.is_finite() && to.is_finite()) {
                 return Err(Fault::new(
-                    "is no range",
+                    "is not a range",
                     "write the smaller value first, and two values that differ",
                 ));
             }

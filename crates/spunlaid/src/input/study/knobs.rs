@@ -173,7 +173,8 @@ impl LineFile {
         for Turn { name, value } in turns {
             let knob = self.knobs.iter().find(|knob| knob.name() == *name).ok_or_else(|| {
                 let all: Vec<String> = self.knobs.iter().map(LineKnob::name).collect();
-                let what = Fault::new("is no knob of this line", format!("turn one of {}", all.join(", ")));
+                let what =
+                    Fault::new("is not a setting of this line", format!("change one of {}", all.join(", ")));
                 vec![Finding { place: place.clone(), key: name.clone(), value: None, what }]
             })?;
             let Some(KnownKey { key, from, .. }) = knob.known.first() else { continue };

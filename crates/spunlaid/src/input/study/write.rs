@@ -155,7 +155,7 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
     }
     if vary.is_empty() {
         let fault =
-            Fault::new("has no key that a first study varies", "write a study by hand: docs/studies.md");
+            Fault::new("has no key that a first study varies", "write the study yourself: docs/studies.md");
         return Err(Error::folder(path, fault));
     }
     Ok(study(&vary))

@@ -96,7 +96,7 @@ fn keys_of_web(web: &WebSpec, name: &str) -> Result<(Vec<String>, &'static WebKe
             Some(near) => format!("did you mean {near}?"),
             None => "spunlaid keys --web and spunlaid keys list them".to_owned(),
         };
-        Fault::new(format!("names {name}, which is no key of the web or of its cases"), remedy)
+        Fault::new(format!("names {name}, which is not a key of the web or of its cases"), remedy)
     })?;
     Ok((keys, key))
 }
@@ -115,7 +115,7 @@ impl Reading<'_> {
                 None => format!("write some of {}", all.join(", ")),
             };
             self.key_values
-                .reject(TURNABLE, Fault::new(format!("names {name}, which is no setting"), remedy));
+                .reject(TURNABLE, Fault::new(format!("names {name}, which is not a setting"), remedy));
         }
     }
 

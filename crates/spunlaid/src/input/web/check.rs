@@ -38,8 +38,11 @@ impl Reading<'_> {
                 if !has_numbers || !self.is_written(key) {
                     continue;
                 }
-                let fault =
-                    Fault::needs("laydown.case", "leave it out: filaments of known numbers do not fly");
+                let fault = Fault::needs(
+                    "laydown.case",
+                    "leave it out: filaments of known numbers are not \
+                         simulated",
+                );
                 self.key_values.reject(key, fault);
             }
             return;
@@ -54,14 +57,15 @@ impl Reading<'_> {
             match &layer.source {
                 LaydownSource::Case { case, path } if !case.air.records.is_empty() => {
                     let message = format!(
-                        "follows a recorded wind ({}, air.record), which says nothing of how the air differs from \
-                        place to place across the flow, and all filaments of a web hang in one air",
+                        "uses a velocity record ({}, air.record), which does not contain how the air \
+                        varies across the flow, and all filaments of a web are in shared turbulence",
                         path.display()
                     );
                     let remedy = format!(
-                        "give it the spectrum of the record (air.spectrum) in place of the record; or let \
-                        `spunlaid run` fly it, and write the spreads σ₁ and σ₂ and the noise A that it gives as \
-                        {laydown}.sigma_md, {laydown}.sigma_cd and {laydown}.noise in place of the case"
+                        "give it the spectrum of the record (air.spectrum) instead of the record. Or \
+                        simulate it with `spunlaid run`, and write the standard deviations σ₁ and σ₂ and \
+                        the noise A that it reports as {laydown}.sigma_md, {laydown}.sigma_cd and \
+                        {laydown}.noise instead of the case"
                     );
                     let key = self.says(prefix, "air.record").unwrap_or_else(|| format!("{laydown}.case"));
                     self.key_values.reject(&key, Fault::new(message, remedy));
@@ -70,10 +74,12 @@ impl Reading<'_> {
                     let key = NUMBERS.iter().map(|name| format!("{prefix}{name}"));
                     let key = key.into_iter().find(|key| self.is_written(key)).unwrap_or_default();
                     let fault = Fault::new(
-                        "is a known number, and another layer flies: the filaments of a web all fly, or none does",
+                        "is a known number, and another layer is simulated: all filaments of a web are \
+                         simulated, or none",
                         format!(
-                            "name a case there ({laydown}.case); or let `spunlaid run` fly the case of the other \
-                            layer, and write the spreads and the noise that it gives in its [laydown]"
+                            "name a case there ({laydown}.case). Or simulate the case of the other layer \
+                            with `spunlaid run`, and write the standard deviations and the noise that it \
+                            reports in its [laydown]"
                         ),
                     );
                     self.key_values.reject(&key, fault);
@@ -177,13 +183,13 @@ impl Reading<'_> {
         let fault = if defect.from.is_some_and(|from| from > width) {
             let width = Dimension::Length.pretty(width);
             Fault::new(
-                format!("lies beside the web, which goes from 0 mm to {width}"),
-                "write a place on the web",
+                format!("lies outside of the web, which extends from 0 mm to {width}"),
+                "write a position on the web",
             )
         } else if count == 0 {
             Fault::new(
                 "has no hole: none of this row lies between from and to",
-                "write places on the web with from below to, and a row that is there",
+                "write positions on the web with from below to, and a row that exists",
             )
         } else if count == of(&Defect::USUAL)
             && *defect == (Defect { from: defect.from, to: defect.to, row: defect.row, ..Defect::USUAL })
@@ -224,7 +230,8 @@ impl Reading<'_> {
             let [offset, last, width] = [offset, last, width].map(|size| Dimension::Length.pretty(size));
             let fault = Fault::new(
                 format!(
-                    "begins a row from {offset} to {last}, beside the web, which goes from 0 mm to {width}"
+                    "begins a row from {offset} to {last}, outside of the web, which extends from 0 mm to \
+                     {width}"
                 ),
                 "move the row, or widen the web",
             );
@@ -239,8 +246,8 @@ impl Reading<'_> {
         let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));
         if layer.charged().is_some() && !web.flies() {
             let fault = Fault::new(
-                "is that of filaments of known numbers, which do not fly",
-                "leave it out, or name a case in [laydown] in place of the numbers",
+                "is that of filaments of known numbers, which are not simulated",
+                "leave it out, or name a case in [laydown] instead of the numbers",
             );
             self.key_values.reject(&charge, fault);
             return;

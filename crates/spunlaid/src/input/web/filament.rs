@@ -160,7 +160,7 @@ impl Reading<'_> {
         if matches!(read, Err(Error::Rejected(_))) && self.is_written(&named) && self.is_written(&throughput)
         {
             let message =
-                format!("cannot be simulated by {} (the message about that file says why)", path.display());
+                format!("cannot be simulated with {} (the message about that file says why)", path.display());
             let fault = Fault::new(message, "write another throughput, or change the case");
             self.key_values.reject(&throughput, fault);
         }
@@ -201,7 +201,7 @@ impl Reading<'_> {
             let [used, own] = [used, own].map(|value| dimension.pretty(value));
             let (case, of_case) = (path.display(), key.name);
             let what =
-                Remark::note(format!("is laid with {of_case} = {used} in place of the {own} of {case}"));
+                Remark::note(format!("is laid with {of_case} = {used} instead of the {own} of {case}"));
             let note = Note { place: self.key_values.whole(), key: by, value: None, what };
             self.note(vec![self.key_values.placed(note)]);
         }
@@ -256,7 +256,7 @@ impl Reading<'_> {
                 (of_feed, Fault::new(message, "add [feed] and [belt]"))
             }
             Some(line) if line.belt_speed <= 0.0 => {
-                let message = "has a belt that stands still (belt.speed = 0 m/s), on which no web is laid";
+                let message = "has a belt that does not move (belt.speed = 0 m/s), on which no web is laid";
                 (of_belt, Fault::new(message, "give the belt of the case a speed"))
             }
             Some(_) => {

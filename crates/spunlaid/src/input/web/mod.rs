@@ -163,7 +163,7 @@ pub(super) fn is_of_case(name: &str, flies: bool) -> bool {
 
 /// Why a key of a filament cannot be set or varied, in words.
 pub(super) fn flies_none() -> String {
-    "is a key of a filament that flies, and this web flies none".to_owned()
+    "is a key of a simulated filament, and this web simulates none".to_owned()
 }
 
 /// What is written of the filament of a web, as the values of a case.
@@ -180,7 +180,7 @@ pub(super) fn filament(
     let place = web.values.whole();
     open::open(web, resources).filament()?.ok_or_else(|| {
         let fault = Fault::new(
-            "flies no filament: how its fibres lie is known",
+            "simulates no filament: how its fibres lie is known",
             "to lay the web, read the file as that of a web",
         );
         let what = fault.option("`spunlaid web`");
@@ -199,7 +199,7 @@ fn values(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<WrittenValues
         Some((full, written_value)) => {
             let (table, place) = (full.split('.').next().unwrap_or(full), written_value.place.clone());
             let fault = Fault::new(
-                "belongs to a case, and the file says nothing of a web",
+                "belongs to a case, and the file does not describe a web",
                 "add [line] and [web], or read it as a case",
             );
             let what = fault.option("`spunlaid run`");

@@ -109,7 +109,8 @@ impl OpenWeb<'_> {
         if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
             let fault = Fault::new(
                 format!(
-                    "have different filaments, and one is simulated (the first and the {}. that fly)",
+                    "have different filaments, and only one can be simulated (the first and the {}. of \
+                     the simulated ones)",
                     number + 1
                 ),
                 "write the filament of one layer in a file of its own, without [[layer]], [line] and [web]",
@@ -195,9 +196,10 @@ impl Reading<'_> {
             [] if self.key_values.is_excused(&format!("{prefix}laydown.")) => return Way::Unknown,
             [] => {
                 let fault = Fault::new(
-                    "says nothing of how the fibres lie",
-                    "write [feed], [belt], [air] and [run] for a filament to fly, or in [laydown] case = \
-                    \"spunbond.toml\" (it stands in that file), or sigma_md, sigma_cd and noise",
+                    "does not say how the fibres lie",
+                    "write [feed], [belt], [air] and [run] for a filament to be simulated, or in \
+                    [laydown] case = \"spunbond.toml\" (it is in that file), or sigma_md, sigma_cd and \
+                    noise",
                 );
                 self.key_values.reject(&format!("{prefix}laydown"), fault);
                 return Way::Unknown;

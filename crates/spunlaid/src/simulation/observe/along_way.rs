@@ -22,8 +22,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
-                caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where the \
-                    fibre swings and folds.",
+                caption: "Mean velocity of the fibre towards the belt. It is below the feed speed where \
+                    the fibre oscillates and folds.",
                 ..figure("speed_along_way", "Velocity towards the belt", "velocity towards the belt")
             },
             ..Measure::NUMBER
@@ -115,8 +115,9 @@ pub(super) const FORCES: Declaration = Declaration {
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
-                caption: "Mean force with which the fibre drives the air between the inlet and a place. It falls \
-                    where the air pulls the fibre along and rises where the fibre pulls the air.",
+                caption: "Mean force with which the fibre drives the air between the inlet and a \
+                    position. It falls where the air pulls the fibre along and rises where the fibre \
+                    pulls the air.",
                 ..figure("force_on_air", "Force on the air", "force on the air")
             },
             ..Measure::NUMBER
@@ -125,13 +126,14 @@ pub(super) const FORCES: Declaration = Declaration {
             name: FIBRE_ON_WAY,
             column: "fibre_on_way",
             label: "Fibre per length of the way",
-            meaning: "mean length of fibre per length of the way; above one where the fibre swings and folds",
+            meaning: "mean length of fibre per length of the way; above one where the fibre oscillates \
+                 and folds",
             unit: RATIO,
             kind: MeasureKind::Way,
             group: FIBRE,
             figure: &Figure {
-                caption: "Mean length of fibre per length of the way from the inlet to the belt. It is above one \
-                    where the fibre swings and folds.",
+                caption: "Mean length of fibre per length of the way from the inlet to the belt. It is \
+                    above one where the fibre oscillates and folds.",
                 ..figure("fibre_on_way", "Fibre per length of the way", "fibre per length of the way")
             },
             ..Measure::NUMBER

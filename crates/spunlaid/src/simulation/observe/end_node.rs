@@ -45,8 +45,8 @@ const MEAN_X: FibreMeasure = Measure {
     is_main: true,
     column: "mean_x_m",
     label: "Mean position along the flow",
-    meaning: "mean over time of the free end’s x; the smaller against the length of the fibre, the more it is \
-         bent",
+    meaning: "mean over time of the free end’s x; the smaller it is relative to the length of the fibre, \
+         the more the fibre is bent",
     unit: MILLIMETRES,
     figure: &Figure { from_zero: false, ..figure("mean_x", "Mean position along the flow", "mean position") },
     series: "*x*",
@@ -254,9 +254,9 @@ pub(super) const MEAN_FREQUENCY: Declaration = Declaration {
         is_main: true,
         column: "mean_frequency_hz",
         label: "Mean frequency",
-        meaning: "mean of the frequencies of its spectra in y and z up to the cut-off of the turbulence, each \
-             weighted by its part of the square of the amplitude; not defined in runs shorter than some periods of \
-             the cut-off, or where it is recorded less than twice in such a period",
+        meaning: "mean of the frequencies of its spectra in y and z up to the cut-off of the turbulence, \
+             each weighted by its part of the square of the amplitude. It is not defined in runs shorter \
+             than some periods of the cut-off, or where it is recorded less than twice in such a period",
         unit: HERTZ,
         figure: &figure("mean_frequency", "Mean frequency", "mean frequency"),
         series: "*y* and *z*",

@@ -17,14 +17,14 @@ const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 pub(super) const DECLARATION: Declaration = Declaration {
     measures: &[
         SPREAD
-            .observed("sigma_md", "sigma_md_m", "Spread in machine direction")
+            .observed("sigma_md", "sigma_md_m", "Standard deviation in machine direction")
             .meaning(
-                "standard deviation in machine direction of the place of the laid fibre about its \
-                 straight trace, that of a fibre which always comes down at one place",
+                "standard deviation in machine direction of the position of the laid fibre about its \
+                 straight trace, that of a fibre which always lands at one position",
             )
             .series("machine direction"),
         SPREAD
-            .observed("sigma_cd", "sigma_cd_m", "Spread in cross direction")
+            .observed("sigma_cd", "sigma_cd_m", "Standard deviation in cross direction")
             .meaning("the same in cross direction")
             .series("cross direction"),
         HALF_LENGTH
@@ -34,7 +34,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 "Half correlation length in machine direction",
             )
             .meaning(
-                "length of fibre over which the autocorrelation of its place in machine direction \
+                "length of fibre over which the autocorrelation of its position in machine direction \
                  falls to one half",
             )
             .series("machine direction"),
@@ -85,19 +85,19 @@ pub(super) const DECLARATION: Declaration = Declaration {
             .figure(&figure("nodes_in_air", "Nodes in the air", "nodes in the air")),
         SURROGATE_SPREAD
             .observed("sigma_1", "sigma_1_m", "σ₁ of the surrogate")
-            .meaning("spread in machine direction")
+            .meaning("standard deviation in machine direction")
             .series("*σ*_{1}"),
         SURROGATE_SPREAD
             .observed("sigma_2", "sigma_2_m", "σ₂ of the surrogate")
-            .meaning("spread in cross direction")
+            .meaning("standard deviation in cross direction")
             .series("*σ*_{2}"),
         Measure {
             name: "noise",
             is_main: true,
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
-            meaning: "strength of the noise in the direction, from the autocorrelation over lags from 0.5 to \
-                 12 times the spread; not defined where the laid fibre is no random curve",
+            meaning: "strength of the noise in the direction, from the autocorrelation over lags from 0.5 \
+                 to 12 standard deviations; not defined where the laid fibre is no random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
             figure: &figure("noise", "Noise A of the surrogate", "noise of the surrogate"),
@@ -127,14 +127,14 @@ pub(super) const DECLARATION: Declaration = Declaration {
             name: "direction",
             column: "direction",
             label: "Directions of the laid fibre",
-            meaning: "share of the chords of 10 mm in each class of 10 degrees, times the number of classes: \
-                 one without orientation",
+            meaning: "fraction of the chords of 10 mm in each class of 10 degrees, times the number of \
+                 classes: one without orientation",
             kind: MeasureKind::Direction,
             group: LAYDOWN,
             figure: &Figure {
                 caption: "Directions of chords of 10 mm on the belt, in the sense of feed. 0° is the direction in \
                     which the belt runs; the laid fibre grows in the opposite direction.",
-                ..figure("directions", "Share of chords, times the number of classes", "directions")
+                ..figure("directions", "Fraction of chords, times the number of classes", "directions")
             },
             ..Measure::NUMBER
         },
@@ -147,14 +147,18 @@ const SPREAD: FibreMeasure = Measure {
     is_main: true,
     unit: MILLIMETRES,
     group: LAYDOWN,
-    figure: &figure("spread", "Spread of the laid fibre", "spread"),
+    figure: &figure("spread", "Standard deviation of the laid fibre", "standard deviation"),
     ..Measure::NUMBER
 };
 
 const SURROGATE_SPREAD: FibreMeasure = Measure {
     is_main: false,
     group: SURROGATE,
-    figure: &figure("surrogate_spread", "Spread of the surrogate", "spread of the surrogate"),
+    figure: &figure(
+        "surrogate_spread",
+        "Standard deviation of the surrogate",
+        "standard deviation of the surrogate",
+    ),
     ..SPREAD
 };
 
@@ -169,15 +173,15 @@ const HALF_LENGTH: FibreMeasure = Measure {
 const RATIO_OF: FibreMeasure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
 
 const CORRELATION: FibreMeasure = Measure {
-    meaning: "autocorrelation of the place about the straight trace, over the length of fibre between two \
-         points",
+    meaning: "autocorrelation of the position about the straight trace, over the length of fibre between \
+         two points",
     kind: MeasureKind::Lag,
     group: LAYDOWN,
     figure: &Figure {
         from_zero: false,
-        caption: "Autocorrelation of the laid fibre’s place about its straight trace, and that of the \
+        caption: "Autocorrelation of the laid fibre’s position about its straight trace, and that of the \
             surrogate fitted to it.",
-        ..figure("correlation", "Autocorrelation of the place", "autocorrelation")
+        ..figure("correlation", "Autocorrelation of the position", "autocorrelation")
     },
     ..Measure::NUMBER
 };

@@ -15,10 +15,9 @@ pub(super) const USUAL: Declaration = Declaration {
         ..measure(
             "strain_99",
             "Strain, 99 % of the time",
-            "strain that the element at the root does not exceed during 99 % of the time after the \
-             spin-up, averaged over the period of the slowest axial wave, 4 L √(density / Young's \
-             modulus), or the output interval if that is longer; compare it with the strain that the \
-             polymer can take",
+            "strain at the root that is not exceeded during 99 % of the time after the spin-up, averaged \
+             over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over a \
+             longer output interval. Compare it with the strain that the polymer can take",
             Aggregate::Mean,
             "99 % of the time",
         )
@@ -199,8 +198,8 @@ pub(super) const OUTSIDE_FLOW: Declaration = Declaration {
         name: "share_outside_flow",
         column: "share_outside_flow",
         label: "Time outside the flow",
-        meaning: "share of the time that elements spend outside the profile or the field, in the air of the \
-             nearest point",
+        meaning: "fraction of the time that elements spend outside the profile or the field, in the air \
+             of the nearest point",
         unit: PERCENT,
         group: FIBRE,
         figure: &figure("share_outside_flow", "Time outside the flow", "time outside the flow"),

@@ -151,7 +151,7 @@ impl<'a> Comparison<'a> {
         first.few(number, &on)?;
         let is_few = |of_beam: LayerBeam<'a>| match of_beam.few {
             Some(_) => Ok(of_beam.with_coarser_mesh()),
-            None => Err(Fault::plain("its filaments are so few that all of them are simulated").into()),
+            None => Err(Fault::plain("it has so few filaments that all of them are simulated").into()),
         };
         let beams: Vec<Result<LayerBeam<'_>, Error>> =
             specs.iter().map(|spec| beam_on(spec, number, Some(&on)).and_then(is_few)).collect();
@@ -172,7 +172,7 @@ impl<'a> Comparison<'a> {
         }
         let memory = |size: f64| Dimension::Memory.pretty_to(size, 3);
         let message = format!(
-            "the field of eddies in which the changed webs fly beside each other takes {}, more than \
+            "the field of eddies in which the changed webs are simulated together takes {}, more than \
             web.memory_limit = {}",
             memory(needed),
             memory(self.memory_limit)
@@ -254,10 +254,9 @@ impl<'a> Laid<'a> {
         let [front, behind] = [during.start, during.end].map(|time| -time * self.belt_speed);
         let length = ((front - behind) / like.cell).floor() * like.cell;
         if length < LEAST * like.length {
-            return Err(Fault::plain(
-                "what has been laid while the same air passed is too short to be compared",
-            )
-            .into());
+            return Err(
+                Fault::plain("the length laid in the same turbulence is too short to be compared").into()
+            );
         }
         let mut kept = self.flight.kept.clone();
         let points = kept.iter_mut().flat_map(|(_, points)| points);

@@ -331,7 +331,10 @@ pub(super) fn beam_on<'a>(
 ) -> Result<LayerBeam<'a>, Error> {
     let layer = &spec.layers[number];
     let LaydownSource::Case { path, case } = &layer.source else {
-        let fault = Fault::new("a web in one air flies its filaments", "name their case (laydown.case)");
+        let fault = Fault::new(
+            "the filaments of a web in shared turbulence are simulated",
+            "name their case (laydown.case)",
+        );
         return Err(fault.into());
     };
     let mut case = Case::clone(case);

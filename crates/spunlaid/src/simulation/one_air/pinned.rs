@@ -250,7 +250,7 @@ impl Watched<'_> {
         let simulated = air.fly_watched(vec![sink], &mut watch, by)?;
         let laid = simulated.into_iter().next().ok_or_else(Error::no_fibre)??;
         match next {
-            0 => Err(Fault::plain("what has been laid while the same air passed is too short").into()),
+            0 => Err(Fault::plain("the length laid in the same turbulence is too short").into()),
             _ => Ok(BeamFindings { pace: self.pace, ..laid }),
         }
     }
@@ -290,7 +290,7 @@ fn coarse<'a>(spec: &'a WebSpec, number: usize, on: &FlownSheet) -> Result<Layer
     let of_beam = beam_on(spec, number, Some(on))?;
     match of_beam.few {
         Some(_) => Ok(of_beam.with_coarser_mesh()),
-        None => Err(Fault::plain("its filaments are so few that all of them are simulated").into()),
+        None => Err(Fault::plain("it has so few filaments that all of them are simulated").into()),
     }
 }
 

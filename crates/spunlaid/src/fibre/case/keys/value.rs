@@ -266,7 +266,7 @@ impl Kind {
                         Some(Fault::new("is not above absolute zero", remedy))
                     }
                     Sign::Share if !(0.0..=1.0).contains(value) => {
-                        Some(Fault::new("is not a share", "a number from 0 to 1 is needed"))
+                        Some(Fault::new("is not a fraction", "a number from 0 to 1 is needed"))
                     }
                     Sign::Positive if *value <= 0.0 => {
                         Some(Fault::new("is not positive", format!("{quantity} above zero is needed")))

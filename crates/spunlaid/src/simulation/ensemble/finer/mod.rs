@@ -249,7 +249,7 @@ pub enum Unchecked {
     #[error("it was not asked for")]
     NotAsked,
     /// The results are there before the check has been simulated.
-    #[error("these results were written before the check was simulated")]
+    #[error("these results were written before the check was run")]
     Pending,
     /// It was interrupted.
     #[error("it was stopped")]
@@ -273,7 +273,7 @@ pub enum Unchecked {
 
 impl Unchecked {
     fn beyond() -> Self {
-        Self::Other("the finer flights are beyond what the program can fly".to_owned())
+        Self::Other("the finer runs are larger than the program can simulate".to_owned())
     }
 
     /// Whether the error of the run is left open though it could be known.

@@ -242,8 +242,8 @@ fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
     let [_, _, across] = placed.axes();
     if placed.field.plane_axis().is_some_and(|plane| plane != across.index) {
         return Err(Fault::new(
-            "air.field is a plane flow that does not lie across the width of the line, so its cells hold the \
-             filaments of no known width",
+            "air.field is a plane flow that does not lie across the width of the line, so the width of \
+             the line in its cells is not known",
             "write air.field_axis and air.field_machine_direction so that the air is the same along the cross \
              direction",
         ));
@@ -262,13 +262,13 @@ fn filament(case: &Case) -> Result<SolidFilament<'_>, Fault> {
     let line = case.spinline.as_deref().ok_or_else(|| {
         Fault::new(
             "the filaments come from no spinline, so their temperature is not known",
-            "add [spinline] to know their heat too",
+            "add [spinline] to get their heat too",
         )
     })?;
     let of_air = temperature_of(case.air.density).ok_or_else(|| {
         Fault::new(
             "the density of the air is not that of air in the atmosphere, so its temperature is not known",
-            "write air.temperature in place of air.density to know the heat too",
+            "write air.temperature instead of air.density to get the heat too",
         )
     })?;
     // The case could be read, so that its spinline has a steady state.

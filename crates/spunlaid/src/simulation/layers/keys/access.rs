@@ -30,7 +30,7 @@ pub(super) use of_surrogate;
 pub(crate) fn in_rows() -> Fault {
     Fault::excludes(
         "line.rows",
-        "rows have places in machine direction of their own, rows.md; keep one of them",
+        "rows have their own positions in machine direction, rows.md; keep one of them",
     )
 }
 

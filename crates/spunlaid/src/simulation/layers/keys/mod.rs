@@ -51,7 +51,7 @@ const LISTS: &[TableList] = &[
         name: "line.rows",
         tables: &[],
         common: &[],
-        entry: "a row of nozzles",
+        entry: "a row of holes",
         wanted: "a list of rows, like [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }]",
     },
     TableList {

@@ -75,7 +75,7 @@ pub(super) const KEYS: &[Key] = &[
         .alternative_to(&["fibre.diameter"], "either gives the other; write one of the two")
         .in_other_words(|case| Some(case.linear_density().into()))
         .follows("diameter and density give it")
-        .meaning("Mass per length, in place of `fibre.diameter`, which follows with the density.")
+        .meaning("Mass per length, instead of `fibre.diameter`, which follows with the density.")
         .synonyms(&["titre", "titer", "denier", "count of the yarn", "fineness"])
         .label("Linear density")
         .slider(1e-8, 2e-5),
@@ -121,7 +121,7 @@ pub(super) const KEYS: &[Key] = &[
             },
         })
         .follows(
-            "the length of an eddy, or a little less so that a whole number of elements fits; of a fed \
+            "the length of an eddy, or a little less so that a whole number of elements fits; for a fed \
              fibre, 1/125 of the distance to the belt",
         )
         .meaning("Length of the elements of the fibre. Shorter ones resolve shorter waves and take longer.")

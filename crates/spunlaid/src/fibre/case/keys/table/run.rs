@@ -27,9 +27,8 @@ pub(super) const KEYS: &[Key] = &[
             },
         })
         .follows(
-            "the largest of 1, 2 or 5 times a power of ten that keeps the error tolerance and half the \
-             stability limit; of a fed fibre, a whole part of the time in which an element is fed, at most \
-             half of it",
+            "the largest of 1, 2 or 5 × 10ⁿ that keeps the error tolerance and half the stability limit; \
+             for a fed fibre, a whole part of the time to feed an element, at most half of it",
         )
         .meaning("Length of a time step, below the stability limit, which a message gives.")
         .label("Time step *h*")
@@ -63,7 +62,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(run.seed))
         .value("1")
         .in_study("seed = 1")
-        .meaning("Seed of the random phases. The same seed gives the same results, to the last bit."),
+        .meaning("Seed of the random phases. The same seed gives bit-identical results."),
     choose("run.scheme", || Scheme::ALL.map(Scheme::name).to_vec())
         .access(at!(run.scheme))
         .value("semi-implicit-euler")
@@ -86,8 +85,8 @@ pub(super) const KEYS: &[Key] = &[
         .value("0 s")
         .meaning(
             "Time at the start that the statistics of the motion leave out; the energy errors and the \
-             time outside the flow include it. Of a fed fibre the default is four times distance / \
-             feed speed, at most half the run.",
+             time outside the flow include it. For a fed fibre the default is four times distance / feed \
+             speed, at most half the run.",
         )
         .label("Spin-up")
         .slider(0.0, 1.0)
@@ -101,17 +100,17 @@ pub(super) const KEYS: &[Key] = &[
         .read_last(),
     key("run.shapes", Kind::Whole(0, MOST_SHAPES))
         .access(at!(run.shapes))
-        .follows("every recorded instant as far as they fit into 96 MB, of which 500 go to ParaView")
+        .follows("every recorded instant that fits into 96 MB; 500 of them go to ParaView")
         .meaning(
-            "Number of shapes of a fibre that are kept for the moving picture and for ParaView, \
-             evenly over the run, at most one for each recorded instant. `0` keeps none.",
+            "Number of shapes of a fibre that are kept for the animation and for ParaView, evenly spaced \
+             over the run, at most one for each recorded instant. `0` keeps none.",
         ),
     choose("run.checks", || Checks::ALL.map(Checks::name).to_vec())
         .access(at!(run.checks))
         .value("auto")
         .meaning(
-            "What the checks of time step and mesh may cost. `auto`: together a fifth of the flight, \
-             and the run says what is not checked; `full`: as much as they need for the whole run; \
+            "What the checks of time step and mesh may cost. `auto`: together a fifth of the simulation, \
+             and the run reports what is not checked; `full`: as much as they need for the whole run; \
              `none`: no checks.",
         )
         .label("Checks"),

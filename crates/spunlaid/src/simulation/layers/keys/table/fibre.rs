@@ -52,11 +52,11 @@ const KNOWN: &Condition<WebSpec> = &Condition {
     holds: |web| matches!(layer(web).map(|layer| &layer.source), Some(LaydownSource::Surrogate(_))),
 };
 /// Where the numbers of a surrogate come from if they are left out.
-const IDENTIFIED: &str = "found from what the case lays";
+const IDENTIFIED: &str = "found from the fibre that the case lays";
 
 /// Why a layer names one source of its fibres.
 pub(crate) const ONE_SOURCE: &str =
-    "keep one of a filament to fly and the numbers sigma_md, sigma_cd and noise";
+    "keep either the filament to be simulated or the numbers sigma_md, sigma_cd and noise";
 
 /// In the order of the file.
 pub(super) const LAYDOWN: &[WebKey] = &[
@@ -66,7 +66,7 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
             "Path of the case of a fed fibre, relative to this file. It is simulated, and its laid fibres \
-             make the web. Keys that stand in this file too, such as `air.velocity`, replace those of \
+             make the web. Keys that this file contains too, such as `air.velocity`, replace those of \
              the case.",
         ),
     positive("laydown.sigma_md", Dimension::Length, (1e-5, 1.0))
@@ -74,16 +74,17 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
         .meaning(
-            "Spread of a laid filament in machine direction: σ₁ of the surrogate. Known numbers do \
-             not say how neighbours come down together, so the CV of such a web is a lower bound.",
+            "Standard deviation of a laid filament in machine direction: σ₁ of the surrogate. These \
+             numbers do not contain the correlation of neighbours, so the CV of such a web is a lower \
+             bound.",
         )
-        .label("Spread in machine direction"),
+        .label("Standard deviation in machine direction"),
     positive("laydown.sigma_cd", Dimension::Length, (1e-5, 1.0))
         .access(of_surrogate!(sigma_cd))
         .needed_if(KNOWN, "18.3 mm")
         .follows(IDENTIFIED)
-        .meaning("Spread of a laid filament in cross direction: σ₂ of the surrogate.")
-        .label("Spread in cross direction"),
+        .meaning("Standard deviation of a laid filament in cross direction: σ₂ of the surrogate.")
+        .label("Standard deviation in cross direction"),
     positive("laydown.noise", Dimension::Noise, (0.1, 1e4))
         .access(of_surrogate!(noise))
         .needed_if(KNOWN, "12.4 m^-0.5")

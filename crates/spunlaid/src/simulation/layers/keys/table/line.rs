@@ -27,8 +27,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .gives_case(&["feed.speed"])
         .required("50 m/s")
         .meaning(
-            "Speed at which each filament is fed: the spinning speed. It may stand in place of \
-             `feed.speed` of a filament that flies.",
+            "Speed at which each filament is fed: the spinning speed. It may replace `feed.speed` of a \
+             simulated filament.",
         ),
     row_of("spinline.throughput")
         .of_input(Access {
@@ -45,8 +45,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .gives_case(&["feed.speed", "spinline.throughput"])
         .follows("`feed_speed` and the filament give it")
         .meaning(
-            "Mass flow of a hole, in place of `line.feed_speed`, which is then throughput / linear \
-             density. Of a filament that flies it gives `feed.speed` or `spinline.throughput`.",
+            "Mass flow of a hole, instead of `line.feed_speed`, which is then throughput / linear \
+             density. For a simulated filament it gives `feed.speed` or `spinline.throughput`.",
         ),
     row_of("belt.speed")
         .of_input(Access {
@@ -66,8 +66,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .of_all_layers("all layers lie on one belt")
         .required("3 m/s")
         .meaning(
-            "Speed of the belt, written in one of the layers. It may stand in place of `belt.speed` \
-             of a filament that flies.",
+            "Speed of the belt, written in one of the layers. It may replace `belt.speed` of a simulated \
+             filament.",
         ),
     positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
@@ -86,22 +86,22 @@ pub(super) const KEYS: &[WebKey] = &[
         .of_all_layers("it is the weight of all layers together")
         .follows("`belt_speed` and the filaments give it")
         .meaning(
-            "Mass of the web per area, of all layers together, written in one of them. It stands in \
-             place of `line.belt_speed`, which follows.",
+            "Mass of the web per area, of all layers together, written in one of them. It replaces \
+             `line.belt_speed`, which follows from it.",
         )
         .synonyms(&["grammage", "mass per area", "surface weight"])
         .label("Basis weight"),
     row_of("air.cabin_pressure")
         .of_input(Access {
             get: |web| layer(web)?.source.case()?.air.cabin_pressure.map(Value::Number),
-            set: |_, _| Err(Fault::needs("a filament that flies", "leave it out")),
+            set: |_, _| Err(Fault::needs("a simulated filament", "leave it out")),
         })
         .unrelated()
         .called("line.cabin_pressure")
         .derived(is_flown)
         .gives_case(&["air.cabin_pressure"])
-        .follows("the air says how fast it is")
-        .meaning("The same as `air.cabin_pressure` of a filament that flies, in whose place it may stand."),
+        .follows("the air of the case gives its speed")
+        .meaning("The same as `air.cabin_pressure` of a simulated filament, which it may replace."),
     key("line.filaments_per_metre", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| match layer(web)?.filaments {
@@ -120,11 +120,11 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
-        .alternative_to(&["line.rows"], "filaments come down at random places or in rows; keep one")
+        .alternative_to(&["line.rows"], "filaments are at random positions or in rows; keep one")
         .follows("`rows`")
         .varies()
         .meaning(
-            "Filaments per metre of width, at random places, or with `depth` at an even pitch. The \
+            "Filaments per metre of width, at random positions, or with `depth` at a uniform pitch. The \
              nearest whole number is laid.",
         )
         .synonyms(&["holes per metre", "capillaries per metre"])
@@ -146,21 +146,20 @@ pub(super) const KEYS: &[WebKey] = &[
                 Ok(())
             },
         })
-        .follows("places at random in cross direction, all in the middle of the slot")
-        .label("Depth of the slot")
+        .follows("random positions in cross direction, all in the middle of the slot")
         .meaning(
-            "Size of the slot in machine direction. The `filaments_per_metre` then come at an even \
-             pitch across the web, each at a random depth, where those that fly meet other eddies. \
-             The air comes through the same slot, which gives the load on it.",
+            "Gap of the slot in machine direction. The `filaments_per_metre` then have a uniform pitch \
+             across the web, each at a random position in the gap, where simulated ones meet other \
+             eddies. The air passes the same slot, which gives the load of the filaments on it.",
         )
-        .label("Depth of the slot"),
+        .label("Slot gap"),
     quantity("line.charge", Dimension::SpecificCharge, Sign::Any, (1e-5, 1e-2))
         .access(at!(layer, layer_mut, charge))
         .follows("none")
         .meaning(
             "Charge per mass of the filaments from a charging bar, which drives them apart along the \
-             machine direction. Only filaments that fly have one. No measured charge of a spunbond \
-             line is known to us.",
+             machine direction. Only simulated filaments have one. No measured charge of a spunbond line \
+             is known to us.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
@@ -189,11 +188,11 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
-            "Place of the first nozzle of a row, from the edge of the web. Rows stand in place of \
-             `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = \
-             5000 }, …]`.",
+            "Position of the first hole of a row, from the edge of the web. Rows replace \
+             `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 \
+             }, …]`.",
         )
-        .label("Place of the first nozzle"),
+        .label("Position of the first hole"),
     positive("line.rows.pitch", Dimension::Length, (1e-6, 1.0))
         .access(Access {
             get: |web| row(web).map(|row| if row.is_even { EVEN.into() } else { row.pitch.into() }),
@@ -207,10 +206,10 @@ pub(super) const KEYS: &[WebKey] = &[
         .required("0.2 mm")
         .or_words(&[EVEN])
         .meaning(
-            "Distance from nozzle to nozzle in a row, or `\"even\"`: the width of the web over their \
-             number. With periodic edges, pitch times filaments is the width.",
+            "Distance from hole to hole in a row, or `\"even\"`: the width of the web over their number. \
+             With periodic edges, pitch times filaments is the width.",
         )
-        .label("Distance of the nozzles"),
+        .label("Pitch of the holes"),
     key("line.rows.filaments", Kind::Whole(1, MOST_FILAMENTS))
         .access(Access {
             get: |web| Some(row(web)?.filaments.into()),
@@ -225,17 +224,17 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .required("5000")
         .varies()
-        .meaning("Number of nozzles in a row.")
+        .meaning("Number of holes in a row.")
         .synonyms(&["holes", "nozzles", "capillaries"])
-        .label("Nozzles of a row"),
+        .label("Holes in a row"),
     quantity("line.rows.md", Dimension::Length, Sign::Any, (1e-5, 1.0))
         .access(at!(row, row_mut, md))
         .value("0 mm")
         .meaning(
-            "Place of the row in machine direction, from the middle of the slot. It matters where \
-             filaments fly.",
+            "Position of the row in machine direction, from the middle of the slot. It matters for \
+             simulated filaments.",
         )
-        .label("Place of the row in machine direction"),
+        .label("Position of the row in machine direction"),
 ];
 
 /// The keys of a defect.
@@ -244,17 +243,17 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, from))
         .follows("from the edge of the web on")
         .meaning(
-            "Where holes begin that feed more or less than the others, from the edge of the web: \
+            "Where the holes that feed more or less than the others begin, from the edge of the web: \
              `defects = [{ from = \"0.5 m\" }, …]`. `from` alone is the nearest hole, by default a \
              blocked one; with `to`, all holes between.",
         )
         .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak", "stripe"])
-        .label("Place where a defect begins"),
+        .label("Position where a defect begins"),
     quantity("line.defects.to", Dimension::Length, Sign::NotNegative, (1e-6, 30.0))
         .access(at!(defect, defect_mut, to))
         .follows("the one hole that is nearest to `from`; without `from`, all across the web")
         .meaning("Where the holes with the defect end.")
-        .label("Place where a defect ends"),
+        .label("Position where a defect ends"),
     key("line.defects.row", Kind::Whole(1, MOST_FILAMENTS))
         .access(at!(defect, defect_mut, row))
         .follows("all rows")
@@ -264,20 +263,20 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, share))
         .value("1")
         .meaning("Probability with which each of these holes has the defect, chosen by the seed of the web.")
-        .label("Share of the holes with a defect"),
+        .label("Fraction of the holes with a defect"),
     quantity("line.defects.titre", Dimension::Ratio, Sign::NotNegative, (0.05, 2.0))
         .access(at!(defect, defect_mut, titre))
         .value("0")
         .meaning(
-            "Mass per length of these filaments over that of the others, up to 2; 0 of blocked holes. \
-             They are taken to lie as the others do.",
+            "Mass per length of these filaments over that of the others, up to 2; 0 for blocked holes. \
+             They are assumed to lie as the others do.",
         )
         .label("Titre of filaments with a defect"),
     quantity("line.defects.after", Dimension::Time, Sign::NotNegative, (1e-6, 1e4))
         .access(at!(defect, defect_mut, after))
         .value("0 s")
         .meaning(
-            "Time from the beginning of the sheet from which on it is so: when a filament broke or a \
+            "Time after the beginning of the sheet at which the defect begins: when a filament broke or a \
              hole was blocked.",
         )
         .label("Time of a defect"),

@@ -35,8 +35,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
-            "Size of the web in machine direction, a whole number of cells. A stretch of the belt; the end of a \
-             web of known numbers joins its beginning.",
+            "Size of the web in machine direction, a whole number of cells. It is a stretch of the belt; \
+             the end of a web of known numbers joins its beginning.",
         )
         .label("Length of the web"),
     key("web.patches", Kind::Lengths)
@@ -60,7 +60,10 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(seed))
         .value("1")
         .varies()
-        .meaning("Seed of all random numbers of the web. Equal files with equal seeds give the same bits.")
+        .meaning(
+            "Seed of all random numbers of the web. Equal files with equal seeds give bit-identical \
+             results.",
+        )
         .label("Seed of the web"),
     choose("web.edges", || EDGES.to_vec())
         .access(Access {
@@ -73,9 +76,9 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .value("periodic")
         .meaning(
-            "What becomes of fibre beyond the edges in cross direction. `periodic`: it comes in at \
-             the other edge. `cut`: it is cut off, and the thinner strips, up to 3 σ_CD inwards of \
-             the outermost filament, are left out of the patch_cv.",
+            "What happens to fibre beyond the edges in cross direction. `periodic`: it enters at the \
+             other edge. `cut`: it is cut off, and the thinner strips, up to 3 σ_CD inwards of the \
+             outermost filament, are left out of CV, clouds and autocorrelation.",
         )
         .label("Edges"),
     key("web.simulated", Kind::Whole(1, MOST_FILAMENTS))
@@ -95,13 +98,13 @@ pub(super) const KEYS: &[WebKey] = &[
             },
         })
         .or_words(&[AUTO, ALL])
-        .follows("eight in a length scale of the air, on a sheet of 0.2 m² at most")
+        .follows("eight per length scale of the air, on a sheet of at most 0.2 m²")
         .meaning(
-            "Filaments per metre of width that are simulated; the others follow from them, because \
-             neighbours come down almost alike. `all` flies every filament; `auto` as many as the \
-             length scale of the air asks for, and up to four times as many if these are not enough.",
+            "Filaments per metre of width that are simulated; the others are estimated from them, because \
+             neighbours land almost alike. `all` simulates every filament; `auto` as many as the length \
+             scale of the air requires, and up to four times as many if these are not enough.",
         )
-        .label("Filaments per metre that are simulated"),
+        .label("Simulated filaments per metre"),
     quantity("web.error", Dimension::Ratio, Sign::Share, (1e-3, 1.0))
         .access(Access {
             get: |web| match web.error {
@@ -123,10 +126,11 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .or_words(&[AUTO, NONE])
         .fixed()
-        .follows("4 %; of a web so small that all of it is simulated, what its own clouds give")
+        .follows("4 %; for a web so small that all of it is simulated, what its own clouds give")
         .meaning(
-            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in other airs are \
-             simulated coarsely until it is reached. `none` flies one sheet only.",
+            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in \
+             independent turbulence are simulated coarsely until it is reached. `none` simulates one \
+             sheet only.",
         )
         .synonyms(&["precision", "uncertainty"])
         .label("Wanted error of the CV"),
@@ -145,8 +149,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .follows("`none`: no limit")
         .meaning(
-            "Time by the clock after which no more sheets are begun to reach web.error. The result then depends on \
-             the speed of the machine.",
+            "Wall-clock time after which no more sheets are begun to reach web.error. The result then \
+             depends on the speed of the machine.",
         )
         .label("Time limit of the wanted error"),
     positive("web.memory_limit", Dimension::Memory, (1e7, 1e13))
@@ -154,8 +158,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("4 GB")
         .fixed()
         .meaning(
-            "Largest memory for the field of eddies of a web in one air. A web that needs more is \
-             refused before it is simulated.",
+            "Largest memory for the field of eddies of a web in shared turbulence. A web that needs more \
+             is refused before it is simulated.",
         )
         .label("Memory limit"),
     key("web.assumed", Kind::Text("line.slot_gap, air.length_factor"))
@@ -169,11 +173,11 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("`none`: every number counts as known")
         .meaning(
-            "Keys of the web and of its cases whose numbers are assumed_values, with commas. `spunlaid web` \
-             also gives the CV for half and twice of each. Take out what you have measured.",
+            "Keys of the web and of its cases whose numbers are assumed values, with commas. `spunlaid \
+             web` also gives the CV for half and twice each value. Remove what you have measured.",
         )
         .synonyms(&["assumed", "uncertain", "made up"])
-        .label("Guessed numbers"),
+        .label("Assumed values"),
     key("web.turnable", Kind::Text("throughput, air_speed, depth"))
         .access(Access {
             get: |web| web.turnable.as_ref().map(|names| names.join(", ").into()),
@@ -185,8 +189,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("throughput, titre, air_speed, drawing_air, die_temperature, quench, charge")
         .meaning(
-            "Settings that are turned while the line runs, with commas; advice names these first. Others are set \
-             when it stands still: distance, depth; or need another line: holes, turbulence, row_places.",
+            "Settings that can be changed while the line runs, with commas; advice names these first. \
+             Others need a stopped line (distance, depth) or another line (holes, turbulence, \
+             row_places).",
         )
         .synonyms(&["advice", "knobs", "what can be changed"])
         .label("Settings of the running line"),
@@ -250,8 +255,8 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.measured_opacity))
         .follows("no opacity is given")
         .meaning(
-            "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included. The \
-             program adds what the basis weight and its clouds do.",
+            "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included. The program \
+             adds the effect of the basis weight and its clouds.",
         )
         .synonyms(&["cover", "whiteness"])
         .label("Measured opacity"),

@@ -163,7 +163,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         .access(of_field_layout!(omega))
         .alternative_to(&["air.field_epsilon"], "either gives ε; write one of the two")
         .follows("the array with a usual name of ω, if there is none of ε")
-        .meaning("Array of the specific dissipation rate ω in a field, in place of ε."),
+        .meaning("Array of the specific dissipation rate ω in a field, instead of ε."),
     quantity("air.length_constant", Dimension::Ratio, Positive, (0.01, 10.0))
         .access(at!(placed, placed_mut, length_constant))
         .value("0.43")
@@ -233,8 +233,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .value("0.9")
         .read_after(&["air.cabin_pressure"])
         .meaning(
-            "Speed of the air at the slot over that of air without friction: between `cabin_pressure` and the \
-             velocity. It is an assumption; one measured pair gives it: `spunlaid new --web --cabin-pressure … \
+            "Speed of the air at the slot over that of frictionless air at the same `cabin_pressure`. It \
+             is an assumed value; one measured pair gives it: `spunlaid new --web --cabin-pressure … \
              --air-speed …`.",
         )
         .label("Coefficient of speed of the slot"),

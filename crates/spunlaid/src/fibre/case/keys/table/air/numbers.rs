@@ -99,8 +99,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .required("100 Hz")
         .or_words(&[TAYLOR])
         .meaning(
-            "Highest frequency of the turbulence. `taylor` stands for velocity / (4 × length scale). \
-             A record, a spectrum, a profile or a field may give it.",
+            "Highest frequency of the turbulence. `taylor` means velocity / (4 × length scale). A record, \
+             a spectrum, a profile or a field may give it.",
         )
         .label("Cut-off frequency *f*")
         .slider(10.0, 1000.0),
@@ -117,7 +117,7 @@ pub(in super::super) const KEYS: &[Key] = &[
             "Factor on the length scale of a profile or a field; the cut-off frequency is divided by it.",
         )
         .synonyms(&["eddy size"])
-        .label("Factor on the length of the eddies")
+        .label("Factor on the length scale")
         .slider(0.2, 3.0),
     // From a thousandth to fifty times that of the atmosphere.
     quantity("air.density", Dimension::Density, NotNegative, (0.01, 50.0))
@@ -154,7 +154,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         )
         .follows("density and viscosity as they are written, or at 20 °C")
         .meaning(
-            "Temperature of the air, from 170 to 1900 K, in place of `air.density` and \
+            "Temperature of the air, from 170 to 1900 K, instead of `air.density` and \
              `air.kinematic_viscosity`, which follow for dry air at 101325 Pa.",
         )
         .label("Air temperature")
