@@ -321,11 +321,7 @@ fn rejects_what_no_line_can_be() {
     let all: [(Turns<'_>, &[&str]); 6] = [
         (
             &[("titre", 2e-7)],
-            &[
-                "knob titre is not a setting of this line",
-                "change one of throughput, \
-             holes, ",
-            ],
+            &["knob titre is not a setting of this line", "change one of throughput, holes, "],
         ),
         (&[("throughput", f64::NAN)], &["line.throughput"]),
         (&[("throughput", -1e-5)], &["knob line.throughput = -0.6 g/min is not positive", "above zero"]),
@@ -344,10 +340,12 @@ fn rejects_what_no_line_can_be() {
     // A file that is as far outside itself is turned all the same.
     let light =
         opened(&SPUN.replace("20 g/m²", "0.25 g/m²").replace("5000", "500"), &beside_cases("line.toml"));
-    assert!(turned(&light, &[("distance", 0.4)]).notes.iter().any(|note| note.to_string().contains(
-        "outside \
-             the usual range"
-    )));
+    assert!(
+        turned(&light, &[("distance", 0.4)])
+            .notes
+            .iter()
+            .any(|note| note.to_string().contains("is outside the usual range: a "))
+    );
 }
 
 #[test]

@@ -217,12 +217,7 @@ fn doubted(file: &WebFile) -> Vec<&'static str> {
         ["basis weight", "spinning speed", "speed of the belt", "throughput of a hole", "titre", "filament"];
     let all = file.notes.iter().filter(|note| note.what.is_doubt()).map(|note| note.what.to_string());
     let word = |text: String| {
-        words.into_iter().find(|word| {
-            text.starts_with(&format!(
-                "is outside the usual \
-             range: a {word} of "
-            ))
-        })
+        words.into_iter().find(|word| text.starts_with(&format!("is outside the usual range: a {word} of ")))
     };
     all.map(|text| word(text).unwrap()).collect()
 }

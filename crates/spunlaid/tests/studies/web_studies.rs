@@ -267,8 +267,7 @@ fn rejects_what_cannot_vary() {
         (vary("'laydown.case' = ['a.toml']"), "take a key whose value is a number or one of a few words"),
         (
             vary("'air.velocity' = ['4 m/s']"),
-            "it is a key of a simulated filament, and this web simulates \
-             none",
+            "it is a key of a simulated filament, and this web simulates none",
         ),
         (
             vary("'line.belt_speed' = ['4 m/s']\n[set]\nrun.replicates = 4"),
