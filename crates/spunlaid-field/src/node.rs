@@ -69,7 +69,8 @@ pub(super) fn merge(nodes: &mut [Node]) -> Result<(Vec<u32>, Option<Fault>), Fil
     repeats.check(&place_of)?;
     let warning = (differ > 0).then(|| {
         Fault::plain(format!(
-            "{} {} exactly at the place of another point but {} other values; the mean of their values is used",
+            "{} {} exactly at the position of another point but {} other values; the mean of their values \
+             is used",
             counted(differ, "point"),
             by_count(differ, ("lies", "lie")),
             by_count(differ, ("has", "have")),
@@ -133,8 +134,8 @@ impl Repeats {
         };
         let [x, y, z] = one.at.map(shortest);
         Err(several_times(&format!(
-            "has all its places several times with different air, like ({x}, {y}, {z}) m with {} and {} m/s \
-             (velocities off by {} m/s)",
+            "has all its points several times with different air, like ({x}, {y}, {z}) m with {} and {} \
+             m/s (velocities off by {} m/s)",
             speed(&one),
             speed(&other),
             shortest(off)

@@ -37,12 +37,12 @@ fn pointer(text: &[u8]) -> Option<(&'static str, &'static str)> {
         [&b"version https://git-lfs.github.com/spec/"[..], b"version https://hawser.github.com/spec/"];
     if git_lfs.iter().any(|start| text.starts_with(start)) {
         Some((
-            "a Git LFS pointer in place of the file, which was not fetched with the repository",
+            "a Git LFS pointer instead of the file, which was not fetched with the repository",
             "fetch it with `git lfs pull` in its folder",
         ))
     } else if text.starts_with(b"/annex/objects/") {
         let remedy = "fetch it with `git annex get` in its folder";
-        Some(("a git-annex pointer in place of the file, which was not fetched with the repository", remedy))
+        Some(("a git-annex pointer instead of the file, which was not fetched with the repository", remedy))
     } else {
         None
     }

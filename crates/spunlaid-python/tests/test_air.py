@@ -65,7 +65,7 @@ def test_tells_the_air_at_places(short: Case) -> None:
     np.testing.assert_allclose(found["u_m_s"], speed)
     np.testing.assert_allclose(found["k_m2_s2"], 1.5 * rms**2)
     np.testing.assert_array_equal(found["cutoff_frequency_hz"], short["air.cutoff_frequency"])
-    with pytest.raises(spunlaid.FlightError, match="no CFD field"):
+    with pytest.raises(spunlaid.FlightError, match="not a CFD field"):
         short.air_at(places, axes="field")
     for wrong in ([0.0, 1.0, 2.0], [[0.0, 1.0]], "places"):
         with pytest.raises(ValueError, match="three coordinates"):

@@ -224,5 +224,5 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         with 2962 times its weight; air breaks down at 3 MV/m\n";
     assert!(said.contains(estimate), "{said}");
     let warned = String::from_utf8(output.stderr).unwrap();
-    assert!(warned.contains("line.charge = 20 µC/g gives a field of some 1.5 MV/m"), "{warned}");
+    assert!(warned.contains("line.charge = 20 µC/g gives a field of about 1.5 MV/m"), "{warned}");
 }

@@ -200,8 +200,8 @@ fn what_is_compared_is_the_web_without_edges_and_noise() {
 fn what_is_no_key_of_the_line_is_not_sought() {
     let desk = desk();
     for (key, words) in [
-        ("web.seed", "says how the web is computed"),
-        ("web.cell", "says how the web is computed"),
+        ("web.seed", "sets how the web is computed"),
+        ("web.cell", "sets how the web is computed"),
         ("line.filaments_per_metre=600..900", "has 500 in the file, which lies outside its range"),
     ] {
         let fit = format!("fit web.toml --to truth --vary {key} --out fit");

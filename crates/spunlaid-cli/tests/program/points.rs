@@ -159,9 +159,9 @@ fn rejects_tables_and_axes_that_do_not_fit() {
     assert!(said.contains("nowhere.csv"), "{said}");
     fs::write(desk.path("places.csv"), "x_m,y_m,z_m\n5,0,0\n").unwrap();
     let said = refusal(&mut desk.spunlaid("air brief.toml --at places.csv --axes field"), 1);
-    assert!(said.contains("places.csv: the air of the case is no CFD field"), "{said}");
+    assert!(said.contains("places.csv: the air of the case is not a CFD field"), "{said}");
     let said = refusal(desk.spunlaid("air --at places.csv").arg(case("point_table.toml")), 1);
-    assert!(said.contains("none of the 1 places lies where the air is known: x from 0 m to"), "{said}");
+    assert!(said.contains("none of the 1 positions lies where the air is known: x from 0 m to"), "{said}");
     assert!(refusal(&mut desk.spunlaid("air brief.toml --axes line"), 1).contains("--at"));
 }
 

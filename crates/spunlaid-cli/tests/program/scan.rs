@@ -176,7 +176,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(headline.ends_with(" mm patches: the level of the lamp is an assumed value."), "{headline}");
     assert!(headline.starts_with("CV at least ") && !headline.contains('±'), "{headline}");
     let notes = desk.summary("assumed")["notes"].to_string();
-    assert!(notes.contains("so no interval is given; take a picture of the lamp"), "{notes}");
+    assert!(notes.contains("so no interval is given; take an image of the lamp"), "{notes}");
     let told = success(&mut desk.spunlaid("compare laid assumed --out assumed_values"));
     assert!(
         told.contains(" 0 of 1 measures differ")
@@ -233,7 +233,7 @@ fn a_table_without_names_asks_what_it_is() {
     );
     let said = refusal(&mut desk.spunlaid("analyse gauge.csv --pixel 1mm"), 1);
     assert!(
-        said.contains("which are no basis weights in kg/m²")
+        said.contains("which are not basis weights in kg/m²")
             && said.contains("(--weight, --light transmitted)"),
         "{said}"
     );
@@ -252,15 +252,15 @@ fn rejects_scans_with_the_option_that_helps() {
     // A picture that cannot be used is known by its name, too.
     std::fs::write(desk.path("photo.JPG"), b"\xff\xd8\xff\xe0\0\x10JFIF").unwrap();
     let said = refusal(&mut desk.spunlaid("analyse photo.JPG"), 1);
-    let reason = "photo.JPG: is a JPEG picture, which loses the fine structure; save the scan as PNG or TIFF";
+    let reason = "photo.JPG: is a JPEG image, which loses the fine structure; save the scan as PNG or TIFF";
     assert!(said.contains(reason), "{said}");
     std::fs::remove_file(desk.path("photo.JPG")).unwrap();
     // And by how it begins, unless it only has such a name at its beginning.
     for (start, reason) in [
-        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "photo: is a WebP picture; save the scan as PNG or TIFF"),
-        (b"BM\x36\0\0\0\0\0\0\0", "photo: is a BMP picture; save the scan as PNG or TIFF"),
+        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "photo: is a WebP image; save the scan as PNG or TIFF"),
+        (b"BM\x36\0\0\0\0\0\0\0", "photo: is a BMP image; save the scan as PNG or TIFF"),
         (b"%PDF-1.7\n", "photo: is a PDF document; save the scan as PNG or TIFF"),
-        (b"P5\n180 240\n255\n", "photo: is a PGM or PPM picture; save the scan as PNG or TIFF"),
+        (b"P5\n180 240\n255\n", "photo: is a PGM or PPM image; save the scan as PNG or TIFF"),
         (b"BMP280\n1.5\n1.7\n", "photo: has no column of time"),
         (b"P5\n1.5\n1.7\n", "photo: has no column of time"),
     ] {
@@ -280,11 +280,11 @@ fn rejects_scans_with_the_option_that_helps() {
         ),
         (
             "analyse photo.png --pixel 1mm",
-            "error: photo.png: is a JPEG picture, which loses the fine structure; save the scan",
+            "error: photo.png: is a JPEG image, which loses the fine structure; save the scan",
         ),
         (
             "analyse nowhere.png --pixel 1mm",
-            "error: nowhere.png: there is no such file; name a scan of a web, a picture",
+            "error: nowhere.png: there is no such file; name a scan of a web, an image",
         ),
         ("analyse scan.png --pixel 1", "has no unit; write a length with its unit"),
         ("analyse scan.png --pixel 0mm", "is not above zero"),
@@ -297,15 +297,16 @@ fn rejects_scans_with_the_option_that_helps() {
         (
             "analyse scan.png --pixel 1mm --patches 2mm,50mm",
             "has no patches of 50 mm; they can have sides from a pixel, 1 mm, to the shorter side of the \
-            picture, 40 mm (--patches)\n",
+            image, 40 mm (--patches)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --noise 60000",
-            "would make it vary; give the noise of a single pixel, from two pictures of the same place (--noise)\n",
+            "would make it vary; give the noise of a single pixel, from two images of the same place \
+             (--noise)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --lamp other.png",
-            "take both with the same camera from the same place (--lamp)\n",
+            "take both with the same camera from the same position (--lamp)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --rate 1kHz",

@@ -164,13 +164,13 @@ fn marked(parts: &[Part]) -> Option<Fault> {
         (is_mark && count > 1 && 2 * count < all().count()).then(|| {
             Fault::new(
                 format!(
-                    "has a velocity of {} m/s at {} and no other beyond {} m/s: it looks like a mark of places \
-                     without a number",
+                    "has a velocity of {} m/s at {} and no other beyond {} m/s: it looks like a mark of \
+                     points without a number",
                     shortest(mark),
                     counted(count as u64, "place"),
                     shortest(others)
                 ),
-                "leave these places out, or write nan there",
+                "leave these points out, or write nan there",
             )
         })
     };

@@ -244,7 +244,7 @@ impl Gaps {
     pub(super) fn warnings(&self) -> impl Iterator<Item = Fault> {
         self.said().into_iter().map(|said| {
             Fault::new(
-                format!("{said}. There is no air there: these places are left out"),
+                format!("{said}. There is no air there: these points are left out"),
                 "write numbers there if fibres come near",
             )
         })

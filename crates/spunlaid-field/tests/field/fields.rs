@@ -342,8 +342,8 @@ fn warnings_count_flat_cells_and_points_at_one_place() {
     let mut values = still(9);
     values.velocity[8].x = 2.0;
     let (field, warnings) = Field::mesh(&points, &cells, &values).unwrap();
-    let merged = "1 point lies exactly at the place of another point but has other values; the mean of their \
-        values is used";
+    let merged = "1 point lies exactly at the position of another point but has other values; the mean of \
+        their values is used";
     assert_eq!(warnings, [merged, "2 cells have no volume and are left out"].map(Fault::plain));
     assert_eq!(field.sample(points[7], &mut Hint::default()).velocity.x, 1.0);
 }

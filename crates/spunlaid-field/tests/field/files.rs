@@ -385,7 +385,7 @@ fn tables_of_many_programs_are_read() {
     ];
     let dropped = dropped.map(|said| {
         Fault::new(
-            format!("{said}. There is no air there: these places are left out"),
+            format!("{said}. There is no air there: these points are left out"),
             "write numbers there if fibres come near",
         )
     });

@@ -71,7 +71,7 @@ fn rejects_places_that_occur_several_times_with_different_air() {
     ] {
         let found = said(&table("x,y,z,u,v,w", &all));
         assert!(
-            found.starts_with("a.csv: has all its places several times with different air, like ("),
+            found.starts_with("a.csv: has all its points several times with different air, like ("),
             "{found}"
         );
         assert!(found.ends_with(WAY_OUT), "{found}");

@@ -35,7 +35,7 @@ impl FileKind {
                 "VTK (.vtu, .vti, .vts, .vtr, .vtk), a list of its files (.vtm, .pvtu) or a table (.csv)"
             }
             Self::Table => "CSV in UTF-8 or Latin-1",
-            Self::Scan => "a picture (PNG or TIFF), a NumPy array (.npy) or a table (.csv)",
+            Self::Scan => "an image (PNG or TIFF), a NumPy array (.npy) or a table (.csv)",
         }
     }
 

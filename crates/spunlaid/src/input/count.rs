@@ -114,7 +114,7 @@ impl OpenCase {
             self.case.run.time_step = suggested;
             let stable = match choice {
                 StepChoice::Feed => "the longest possible is",
-                _ => "the flight is stable up to",
+                _ => "the simulation is stable up to",
             };
             let limit = Dimension::Time.pretty(limit);
             return Some((

@@ -237,7 +237,7 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
         assert_eq!(large.interval, Err(doubt.unwrap_or(Doubt::Few)));
         let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
         assert_eq!(
-            told.iter().any(|note| note.contains("so no interval is given; take a picture of the lamp")),
+            told.iter().any(|note| note.contains("so no interval is given; take an image of the lamp")),
             doubt.is_some(),
             "{told:?}"
         );
@@ -305,7 +305,7 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
             let most = (2.0 * 0.026 * 800.0 + 4.0 + 26.0 + 36.0) * 800.0 * PIXEL * PIXEL;
             assert!((area..most).contains(&found) && cleaned.aside.spots.is_empty(), "{found} of {area}");
             assert!(
-                told.iter().any(|note| note.contains("there it is as bright as in its own picture")),
+                told.iter().any(|note| note.contains("there it is as bright as in its own image")),
                 "{told:?}"
             );
         } else {

@@ -86,13 +86,13 @@ fn rejects_what_is_no_scan() {
     for (file, said) in [
         (
             b"\xff\xd8\xff\xe0 and so on".to_vec(),
-            "is a JPEG picture, which loses the fine structure; save the scan as PNG or TIFF",
+            "is a JPEG image, which loses the fine structure; save the scan as PNG or TIFF",
         ),
         (b"PK\x03\x04".to_vec(), "is a ZIP archive"),
         (Vec::new(), "contains no rows of numbers; is it the right file?"),
         (png8(SIDE, &levels(|x| x))[..200].to_vec(), "cannot be decoded: "),
         (tiff16(SIDE, &levels(u16::from))[..200].to_vec(), "cannot be decoded: "),
-        (bomb, "has 65536 × 65536 pixels; at most 67108864 are read, so cut out a part of the picture"),
+        (bomb, "has 65536 × 65536 pixels; at most 67108864 are read, so cut out a part of the image"),
         (npy("<f8", "False", "(1000000, 1000000)", &data), "has 1000000 × 1000000 pixels"),
         (npy("<f8", "False", "(18446744073709551615, 3)", &data), "has 3 × 18446744073709551615 pixels"),
         (png8(9, &[7; 900]), "has 9 × 100 pixels; at least 16 are needed in each direction"),
@@ -122,7 +122,7 @@ fn rejects_what_is_no_scan() {
     let nowhere = read(Path::new("nowhere.png"), 1e-3).unwrap_err().to_string();
     assert_eq!(
         nowhere,
-        "nowhere.png: there is no such file; name a scan of a web, a picture (PNG or TIFF), a NumPy array \
+        "nowhere.png: there is no such file; name a scan of a web, an image (PNG or TIFF), a NumPy array \
         (.npy) or a table (.csv)"
     );
     let pixel = parse(&png8(SIDE, &levels(|x| x)), "a", 0.0).unwrap_err().to_string();
@@ -168,13 +168,13 @@ fn rejects_pictures_of_no_web_and_settings_that_do_not_fit() {
         (
             refused(&scan, |settings| settings.patches = vec![2e-3, 0.5]),
             "has no patches of 500 mm; they can have sides from a pixel, 1 mm, to the shorter side of the \
-            picture, 24 mm",
+            image, 24 mm",
         ),
         (refused(&scan, |settings| settings.patches = vec![0.2e-3]), "has no patches of 200 µm"),
         (refused(&scan, |settings| settings.patches = vec![f64::NAN]), "has no patches of NaN m"),
         (
             refused(&scan, |settings| settings.lamp = Some(parsed(&png8(16, &[9; 320])))),
-            "has 24 × 32 pixels, but the picture of the lamp without web has 16 × 20; take both",
+            "has 24 × 32 pixels, but the image of the lamp without web has 16 × 20; take both",
         ),
         (
             refused(&npy_f64(SIDE, &levels(|x| f64::from(x) - 150.0)), weight),

@@ -163,7 +163,7 @@ fn grey_levels_that_pass_for_weights_are_doubted() {
         analyse(&parsed(file), &settings).unwrap()
     };
     let says =
-        |found: &Findings| found.notes.iter().any(|note| note.message.contains("as those of a picture"));
+        |found: &Findings| found.notes.iter().any(|note| note.message.contains("as those of an image"));
     for (name, file) in grey() {
         let assumed = told(&file, Some(20e-3), true);
         assert_eq!(assumed.guess, Some(Doubt::GreyLevels), "{name}");

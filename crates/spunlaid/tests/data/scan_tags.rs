@@ -166,7 +166,7 @@ fn the_page_of_full_size_is_the_scan() {
     let copy: &[(Tag, u16)] = &[(Tag::NewSubfileType, 1)];
     let larger = web.iter().flat_map(|level| [*level; 2]).collect::<Vec<_>>();
     let full = || page(COLUMNS, &web, 8, &[]);
-    let several = "the file has several pictures, and only the first of the largest is used";
+    let several = "the file has several images, and only the first of the largest is used";
     for (name, pages, more) in [
         ("a thumbnail in front", vec![page(45, &small, 8, copy), full()], false),
         ("a thumbnail behind", vec![full(), page(45, &small, 8, copy)], false),

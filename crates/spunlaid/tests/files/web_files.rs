@@ -382,7 +382,7 @@ fn rejects_guesses_that_have_no_half() {
         ),
         (KNOWN, "belt.distance", "it is a key of a simulated filament, and this web simulates none"),
         (KNOWN, "line.slot_gap", "names line.slot_gap, which is zero or not written here"),
-        (KNOWN, "web.edges", "names web.edges, of which there is no half and no twice"),
+        (KNOWN, "web.edges", "names web.edges, which cannot be halved or doubled"),
         (
             FLOWN,
             "air.length_scale",

@@ -423,7 +423,7 @@ fn rejects_claims_that_cannot_be_judged() {
         ("amplitud_y: air.velocity rises", "did you mean amplitude_y"),
         (
             "amplitude_y: air.velocity grows",
-            "says nothing that can be judged; write `RESULT: KEY > 5 * OTHER KEY`",
+            "contains nothing that can be judged; write `RESULT: KEY > 5 * OTHER KEY`",
         ),
         (
             "amplitude_y: fibre.diameter rises",

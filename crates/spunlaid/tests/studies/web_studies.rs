@@ -237,7 +237,7 @@ fn rejects_what_cannot_vary_of_a_layer() {
     for (line, wanted) in [
         (
             "line.filaments_per_metre = [100]",
-            "write layer.1.line.filaments_per_metre, or the layer's name in place of 1",
+            "write layer.1.line.filaments_per_metre, or the layer's name instead of 1",
         ),
         (
             "layer.3.line.filaments_per_metre = [100]",
@@ -253,7 +253,7 @@ fn rejects_what_cannot_vary_of_a_layer() {
                  [web]\nwidth = '250 mm'\nlength = '250 mm'\n";
     let text = "web = 'web.toml'\ndesign = 'grid'\n[vary]\nrun.replicates = [4]\n";
     let said = study_beside_cases(simulated, text, &[]).unwrap_err().to_string();
-    assert!(said.contains("the flights of all points have the same; write it under [set]"), "{said}");
+    assert!(said.contains("the simulations of all points share it; write it under [set]"), "{said}");
 }
 
 #[test]

@@ -75,7 +75,7 @@ impl AirAtPlaces {
             return Err(Error::flight(message, "give a time from 0 to 1e6 s after the start of a run"));
         }
         if places.iter().any(|place| ![place.x, place.y, place.z].iter().all(|x| x.is_finite())) {
-            return Err(Error::flight("a place is not finite", "give numbers in metres"));
+            return Err(Error::flight("a position is not finite", "give numbers in metres"));
         }
         if let Some(field) = &mut self.field
             && !field.is_made_for(time)
@@ -158,12 +158,12 @@ impl Air {
             (Flow::Field(placed), PlaceAxes::Field) => Some(placed),
             (_, PlaceAxes::Line) => None,
             (_, PlaceAxes::Field) => {
-                let message = "the air of the case is no CFD field, so it has no axes of a field";
-                return Err(Error::flight(message, "give the places in the axes of the line"));
+                let message = "the air of the case is not a CFD field, so it has no axes of a field";
+                return Err(Error::flight(message, "give the positions in the axes of the line"));
             }
         };
         if let Some(row) = places.iter().position(|at| ![at.x, at.y, at.z].iter().all(|x| x.is_finite())) {
-            let message = format!("place {} is not finite", row + 1);
+            let message = format!("position {} is not finite", row + 1);
             return Err(Error::flight(message, "give three numbers in metres"));
         }
         let mut hint = Hint::default();
@@ -202,7 +202,7 @@ impl Air {
         };
         Fault::new(
             format!(
-                "none of the {places} places lies where the air is known: {known}, in the axes of the {}",
+                "none of the {places} positions lies where the air is known: {known}, in the axes of the {}",
                 axes.name()
             ),
             "check the unit of the coordinates, and in which axes they are",

@@ -122,8 +122,8 @@ fn uneven(usual: f64, step: f64) -> Fault {
             Dimension::Time.pretty(usual),
             Dimension::Time.pretty(step)
         ),
-        "samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if you \
-        know that the clock was even",
+        "samples must be evenly spaced to within 1 %. Resample the record, or give the sampling rate if \
+        you know that the clock was uniform",
     )
     .option("--rate")
 }

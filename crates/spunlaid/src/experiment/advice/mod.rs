@@ -133,7 +133,7 @@ pub fn advise(
     };
     if let (Some(side), None, false) = (judged_by, advice.judged_by, advice.tried.is_empty()) {
         let side = Dimension::Length.pretty_to(side, 3);
-        let what = format!("the CV over patches of {side} is not known of the compared webs");
+        let what = format!("the CV over patches of {side} is not known for the compared webs");
         return Err(Fault::new(what, "take smaller patches, or a larger sheet").into());
     }
     // Nobody chooses the best one of some assumed_values.

@@ -118,7 +118,7 @@ pub fn judged_by(spec: &WebSpec, text: &str) -> Result<f64, Error> {
         let distance = |patch: &f64| (patch / (aim.side)(spec)).ln().abs();
         let nearest = patches.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         return nearest.ok_or_else(|| {
-            Fault::new("the web is looked at over no patches", "name some in web.patches").into()
+            Fault::new("the web is evaluated over no patches", "name some in web.patches").into()
         });
     }
     if let Some(fault) = Removed::Command.fault(&format!("web --for {text}")) {
@@ -140,7 +140,6 @@ fn check_patch(spec: &WebSpec, side: f64) -> Result<(), Error> {
     }
     let pretty = |patch: &f64| Dimension::Length.pretty_to(*patch, 3);
     let known: Vec<String> = spec.sheet.patches.iter().map(pretty).collect();
-    let what =
-        format!("the web is looked at over patches of {}, and not of {}", known.join(", "), pretty(&side));
+    let what = format!("the web is evaluated over patches of {}, not of {}", known.join(", "), pretty(&side));
     Err(Fault::new(what, "name one of these, or write the size to web.patches").into())
 }

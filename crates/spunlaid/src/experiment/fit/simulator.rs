@@ -129,7 +129,7 @@ impl WebSimulator<'_> {
         let map = simulated.map(self.by)?;
         self.target.logarithms_of(&map, inner, self.by.threads).ok_or_else(|| {
             Error::Flight(Fault::new(
-                "the part of the web that is not edge is smaller than what it is compared with, or empty",
+                "the web without its edges is smaller than what it is compared with, or empty",
                 "set web.width to more, or web.edges to \"periodic\"",
             ))
         })

@@ -30,8 +30,8 @@ const KEYS: &[Key<Study>] = &[
         .told(|study: &Study| base(study, "case.toml"))
         .required("\"table1.toml\"")
         .meaning(
-            "The file of the case to vary, named from where the study lies. Keys that are not varied \
-             or linked are as it says.",
+            "The file of the case to vary, relative to the study. Keys that are neither varied nor linked \
+             keep its values.",
         ),
     key("web", Kind::Text("web.toml"))
         .told(|study: &Study| base(study, "web.toml"))
@@ -72,7 +72,7 @@ const KEYS: &[Key<Study>] = &[
         .meaning("Fibres or webs at each point; or, as a table, until their results are as exact as asked."),
     key("set.*", Kind::Other("a value of that key, or \"auto\""))
         .told(|_: &Study| None)
-        .follows("every key is as the case or web says")
+        .follows("every key has the value of the case or web")
         .meaning("A key with the same value at all points. `auto` takes the key out."),
     key("vary.*", Kind::Other("a list of values, or { from, to, steps }; a formula belongs in [link]"))
         .told(|_: &Study| None)
@@ -87,7 +87,7 @@ const KEYS: &[Key<Study>] = &[
         .follows("nothing is judged")
         .meaning(
             "A claim in a sentence, and how it is judged: `RESULT: KEY > 5 * OTHER KEY` compares the \
-             effects of two keys over their ranges; `RESULT: KEY rises`, `falls` or `turns` says how \
+             effects of two keys over their ranges; `RESULT: KEY rises`, `falls` or `turns` states how \
              the result follows a key, the others as at the first point.",
         ),
     key("replicates.at_least", Kind::Whole(2, MOST_REPLICATES))

@@ -230,8 +230,8 @@ impl Case {
             return None;
         }
         self.note_of_file(Remark::warning(format!(
-            "has k above zero and ε = 0 at {places} of {PLACES} places along the fibre; the eddies there are taken to \
-             be as large as the field. Write ε or ω for every point"
+            "has k above zero and ε = 0 at {places} of {PLACES} points along the fibre; the eddies there \
+             are taken to be as large as the field. Write ε or ω for every point"
         )))
     }
 }

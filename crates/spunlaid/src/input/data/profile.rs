@@ -165,7 +165,7 @@ fn refuse_mean(frequency: &[f64], energy: &[f64]) -> Result<(), FileError> {
     }
     let fault = Fault::new(
         format!(
-            "has {:.0} % of its energy at 0 Hz, which is the mean velocity and no turbulence",
+            "has {:.0} % of its energy at 0 Hz, which is the mean velocity and not turbulence",
             100.0 * share
         ),
         "subtract the mean before the spectrum is made, or leave out the first rows",

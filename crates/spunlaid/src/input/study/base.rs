@@ -158,7 +158,7 @@ impl CaseBase {
 fn no_flights(at: &Place) -> Vec<Problem> {
     let what = Fault::new(
         "needs simulated fibres, and a study of a spinline simulates none",
-        "write a tension, or let the study vary the case: case = \"…\" in place of spinline = \"…\"",
+        "write a tension, or let the study vary the case: case = \"…\" instead of spinline = \"…\"",
     );
     let (key, value) = ("spinline.end_tension".to_owned(), Some("\"simulated\"".to_owned()));
     vec![Problem { place: at.clone(), key, value, what }]

@@ -363,7 +363,7 @@ fn read(text: &str, factors: &[Factor], quantities: &[Quantity]) -> Result<(Stri
         None => {
             let said = said.trim();
             let way = Way::ALL.into_iter().find_map(|way| Some((said.strip_suffix(way.name())?, way)));
-            let (key, way) = way.ok_or_else(|| Fault::new("says nothing that can be judged", FORM))?;
+            let (key, way) = way.ok_or_else(|| Fault::new("contains nothing that can be judged", FORM))?;
             Statement::Follows(factor(key)?, way)
         }
     };

@@ -86,7 +86,7 @@ fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Para
     if COMPUTATION.iter().any(|start| key.name.starts_with(start)) {
         let remedy = "seek a key of the line: of its air, fibres, laydown or rows";
         return Err(Fault::new(
-            "cannot be sought: it says how the web is computed, not how it is made",
+            "cannot be sought: it sets how the web is computed, not how it is made",
             remedy,
         ));
     }

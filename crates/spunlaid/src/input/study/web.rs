@@ -116,7 +116,7 @@ impl Base for WebBase {
             return match (self.spec().flies(), key.varies) {
                 (false, _) => Err(format!("it {}", flies_none())),
                 (true, false) => {
-                    Err("the flights of all points have the same; write it under [set]".to_owned())
+                    Err("the simulations of all points share it; write it under [set]".to_owned())
                 }
                 (true, true) => Ok(VariedKey::new(name, key.kind)),
             };

@@ -56,7 +56,7 @@ impl Guess {
         };
         if !(varies && is_halved) {
             let remedy = "name keys whose value is a number, but no temperature";
-            return Err(Fault::new(format!("names {name}, of which there is no half and no twice"), remedy));
+            return Err(Fault::new(format!("names {name}, which cannot be halved or doubled"), remedy));
         }
         let Some(value) = values.first().copied().flatten().filter(|value| *value != 0.0) else {
             let remedy = "name the key that gives the number, or take it out";

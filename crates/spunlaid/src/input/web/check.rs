@@ -279,8 +279,8 @@ impl Reading<'_> {
                 key: charge,
                 value: layer.charge.map(|charge| Dimension::SpecificCharge.pretty(charge)),
                 what: Remark::note(format!(
-                    "gives a field of some {field} at the edge of the curtain: air breaks down at {}, and at edges \
-                    of metal long before, which takes the charge away",
+                    "gives a field of about {field} at the edge of the curtain: air breaks down at {}, \
+                    and at edges of metal long before, so the charge is lost",
                     Dimension::ElectricField.pretty(BREAKDOWN)
                 )),
             };

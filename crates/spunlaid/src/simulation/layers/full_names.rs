@@ -68,7 +68,7 @@ pub(crate) fn full_name(web: &WebSpec, name: &str) -> Result<String, String> {
         }
     }
     if layers > 1 && WEB.lists.iter().any(|list| list.tables.contains(&table)) {
-        return Err(format!("write layer.1.{name}, or the layer's name in place of 1"));
+        return Err(format!("write layer.1.{name}, or the layer's name instead of 1"));
     }
     if web_key(&full).is_some() && layer_and_row(web, &full).is_none() {
         let layers = if layers == 1 { "1 layer".to_owned() } else { format!("{layers} layers") };

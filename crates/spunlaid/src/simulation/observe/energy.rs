@@ -21,7 +21,7 @@ pub(super) const WORK: Declaration = Declaration {
             .series("work check"),
         AT_END
             .observed("work_error_at_end", "work_error_at_end_percent", "Work check, at the end")
-            .meaning("the work check at the end of the flight")
+            .meaning("the work check at the end of the run")
             .series("work check"),
         OVER_TIME
             .observed("work_error_over_time", "work_error_over_time_percent", "Work check over time")
@@ -43,7 +43,7 @@ pub(super) const BALANCE: Declaration = Declaration {
             .series("full balance"),
         AT_END
             .observed("balance_error_at_end", "balance_error_at_end_percent", "Full balance, at the end")
-            .meaning("the full balance at the end of the flight")
+            .meaning("the full balance at the end of the run")
             .series("full balance"),
         OVER_TIME
             .observed("balance_error_over_time", "balance_error_over_time_percent", "Full balance over time")
@@ -64,7 +64,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
             )
             .meaning(
                 "energy that the scheme has taken out by damping axial waves, over the energy that \
-                 flowed; median over time. It is no error: the full balance counts it",
+                 flowed; median over time. It is not an error: the full balance includes it",
             )
             .aggregate(Aggregate::Median)
             .series("typical"),
@@ -74,7 +74,7 @@ pub(super) const DISSIPATION: Declaration = Declaration {
                 "tension_dissipation_at_end_percent",
                 "Axial waves damped, at the end",
             )
-            .meaning("the same at the end of the flight")
+            .meaning("the same at the end of the run")
             .series("at the end"),
     ],
     applies: |case| case.run.scheme == Scheme::ImplicitTension,

@@ -97,7 +97,7 @@ pub(super) const DECLARATION: Declaration = Declaration {
             column: "noise_per_sqrt_m",
             label: "Noise A of the surrogate",
             meaning: "strength of the noise in the direction, from the autocorrelation over lags from 0.5 \
-                 to 12 standard deviations; not defined where the laid fibre is no random curve",
+                 to 12 standard deviations; not defined where the laid fibre is not a random curve",
             unit: Unit { shown: "m^-0.5", per_si: 1.0 },
             group: SURROGATE,
             figure: &figure("noise", "Noise A of the surrogate", "noise of the surrogate"),

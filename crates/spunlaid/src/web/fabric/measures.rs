@@ -231,7 +231,7 @@ pub const STREAK_MEASURES: &[Measure<Streak>] = &[
         "the same in this map, with its sampling error; a dip of more than two standard errors \
              can be seen",
     ),
-    OfStreak::new("length_m", "Shows from a length of", METRES, Told(|streak| streak.length)).meaning(
+    OfStreak::new("length_m", "Detectable from a length of", METRES, Told(|streak| streak.length)).meaning(
         "length of a scan from which on the dip is significant at 95 %; none where the web has other \
              streaks as large, or is too small",
     ),

@@ -161,7 +161,7 @@ fn all_noise(patch: f64, noise: Option<f64>) -> Fault {
             Dimension::Length.pretty(patch),
             shortest(noise.unwrap_or(f64::NAN))
         ),
-        "give the noise of a single pixel, from two pictures of the same place",
+        "give the noise of a single pixel, from two images of the same place",
     )
     .option("--noise")
 }
@@ -176,7 +176,7 @@ fn sides(picture: &Picture, patches: &[f64]) -> Result<Vec<usize>, Fault> {
             return Err(Fault::new(
                 format!("has no patches of {}", Dimension::Length.pretty(*patch)),
                 format!(
-                    "they can have sides from a pixel, {}, to the shorter side of the picture, {}",
+                    "they can have sides from a pixel, {}, to the shorter side of the image, {}",
                     Dimension::Length.pretty(pixel),
                     Dimension::Length.pretty(picture.shorter())
                 ),

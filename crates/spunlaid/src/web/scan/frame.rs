@@ -166,7 +166,7 @@ impl Frame {
             format!("{} at the {side}", Dimension::Length.pretty_to(pixels as f64 * pixel, 3))
         });
         let message = format!(
-            "the picture {what} along its edges, so strips were cut off: {}",
+            "the image {what} along its edges, so strips were cut off: {}",
             strips.collect::<Vec<_>>().join(", ")
         );
         let remedy = if is_optional { "if they belong to the web, say so (--keep-spots)" } else { "" };

@@ -24,13 +24,13 @@ const MANY: f64 = 0.01;
 pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(Doubt, Fault)> {
     if let Some((level, share)) = clipped(lamp) {
         let message = format!(
-            "the picture of the lamp is clipped: {} of its pixels have its largest level, {}, where the lamp \
-            may be brighter, so every CV may be wrong, and no interval is given",
+            "the image of the lamp is clipped: {} of its pixels have its largest level, {}, where the \
+            lamp may be brighter, so every CV may be wrong, and no interval is given",
             per_cent(share),
             shortest(level)
         );
-        let remedy = "choose so short an exposure that no pixel of the lamp has the largest level, and take \
-            both pictures with it";
+        let remedy = "choose so short an exposure that no pixel of the lamp has the largest level, and \
+            take both images with it";
         return Some((Doubt::ClippedLamp, Fault::new(message, remedy)));
     }
     let scale = STRONGER * lamp.scale_to(picture);
@@ -40,11 +40,11 @@ pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(Doubt, Fa
     let share = stronger as f64 / pairs().count() as f64;
     (share > MANY).then(|| {
         let message = format!(
-            "{} of the pixels let through more light than the lamp gives, so its picture does not belong to this \
-            one, and no interval is given",
+            "{} of the pixels let through more light than the lamp gives, so its image does not belong to \
+            this one, and no interval is given",
             per_cent(share)
         );
-        let remedy = "take both pictures at the same exposure, from the same place, with the same lamp";
+        let remedy = "take both images at the same exposure, from the same place, with the same lamp";
         (Doubt::DarkLamp, Fault::new(message, remedy))
     })
 }
@@ -108,10 +108,10 @@ pub(super) fn grey_levels(picture: &Picture, mean: Option<f64>, is_assumed: bool
     }
     let bits = if full == 255.0 { 8 } else { 16 };
     let message = format!(
-        "all numbers are levels of {bits} bits, up to {}, as those of a picture; {}",
+        "all numbers are levels of {bits} bits, up to {}, as those of an image; {}",
         shortest(largest),
         if is_assumed {
-            "if they are grey levels and no basis weights, every CV is wrong, so no interval is given"
+            "if they are grey levels and not basis weights, every CV is wrong, so no interval is given"
         } else {
             "they are taken as basis weights, as you said"
         }

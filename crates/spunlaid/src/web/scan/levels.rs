@@ -39,10 +39,10 @@ pub(super) fn same_size(picture: &Picture, lamp: Option<&Picture>) -> Result<(),
         return Ok(());
     }
     let message = format!(
-        "has {} × {} pixels, but the picture of the lamp without web has {} × {}",
+        "has {} × {} pixels, but the image of the lamp without web has {} × {}",
         wanted[0], wanted[1], found[0], found[1]
     );
-    Err(Fault::new(message, "take both with the same camera from the same place").option("--lamp"))
+    Err(Fault::new(message, "take both with the same camera from the same position").option("--lamp"))
 }
 
 /// The grey level of the lamp without web, or of the thickest web in reflected light.
@@ -77,7 +77,7 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
         let message = "holds numbers without a largest grey level, so the level of the lamp is not known, \
             and with an assumed value every CV would be wrong by the same factor";
         return Err(
-            Fault::new(message, format!("{advice}, or a picture of the lamp")).option("--white, --lamp")
+            Fault::new(message, format!("{advice}, or an image of the lamp")).option("--white, --lamp")
         );
     };
     let Some(bits) = picture.fewer_bits else { return Ok(largest) };
@@ -85,7 +85,7 @@ fn largest_level(picture: &Picture) -> Result<f64, Fault> {
     Err(Fault::new(
         format!(
             "has no level above {possible}, though the file has 16 bits: it is not known whether a camera \
-            of {bits} bits made it or the picture is dark. With a wrong level of the lamp every CV would \
+            of {bits} bits made it or the image is dark. With a wrong level of the lamp every CV would \
             be wrong by the same factor"
         ),
         format!("{advice}: {possible} if the camera has {bits} bits, otherwise {largest}"),
@@ -114,9 +114,9 @@ pub(super) fn believed_shading(
             format!(
                 "becomes brighter by {found} % from its darkest to its brightest part, and a lamp and a \
                 lens make {most} % at most. The bare lamp may be visible next to the web, or the web \
-                itself changes; the picture does not show which"
+                itself changes; the image does not show which"
             ),
-            "give a picture of the lamp without web, or cut out the web, or say that the lamp is uniform",
+            "give an image of the lamp without web, or cut out the web, or say that the lamp is uniform",
         )
         .option("--lamp, --keep-shading"));
     }

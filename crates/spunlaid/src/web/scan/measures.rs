@@ -14,7 +14,7 @@ type OfLimit = Measure<StreakLimit>;
 /// The measures of a scan, in the order of `summary.json`; what has no label stands there alone.
 pub const SCAN_MEASURES: &[Measure<Findings>] = &[
     OfScan::new("white", "Grey level of the lamp without web", RATIO, Known(|scan| scan.white))
-        .meaning("grey level of the lamp without web; none with a picture of the lamp")
+        .meaning("grey level of the lamp without web; none with an image of the lamp")
         .digits(5),
     OfScan::new("mean_density", "Mean optical density ln(white/level)", RATIO, Known(|scan| scan.density))
         .meaning("mean over the web of ln(white/level)")

@@ -102,9 +102,9 @@ named! {
         /// The shading of the lamp is an assumed value: a polynomial took it out, with what the web varies as smoothly.
         Shading = "the shading of the lamp is an assumed value",
         /// The picture of the lamp is clipped.
-        ClippedLamp = "the picture of the lamp is clipped",
+        ClippedLamp = "the image of the lamp is clipped",
         /// The picture of the lamp is darker than that of the web.
-        DarkLamp = "the picture of the lamp is darker than that of the web",
+        DarkLamp = "the image of the lamp is darker than that of the web",
         /// What is taken as basis weights may be grey levels.
         GreyLevels = "the numbers may be grey levels and not basis weights",
         /// The blur of the camera has lowered the CV.

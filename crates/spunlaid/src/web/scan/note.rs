@@ -31,7 +31,7 @@ pub(super) fn notes(
 ) -> Vec<Fault> {
     let mut notes: Vec<Fault> = side_of_a_pixel(picture).into_iter().collect();
     if picture.colour {
-        notes.push(Fault::plain("the picture has colours, and only its luminance is used"));
+        notes.push(Fault::plain("the image has colours, and only its luminance is used"));
     }
     if let Some(coding) = picture.coding.filter(|_| !matches!(settings.light, Light::Weight { .. })) {
         notes.push(Fault::new(
@@ -43,15 +43,16 @@ pub(super) fn notes(
         ));
     }
     if picture.more {
-        notes.push(Fault::plain("the file has several pictures, and only the first of the largest is used"));
+        notes.push(Fault::plain("the file has several images, and only the first of the largest is used"));
     }
     notes.extend(numbers(picture.numbered));
     if let Light::Transmitted { .. } = settings.light {
         notes.extend(bits(picture, settings.lamp.as_ref()));
     }
     if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
-        let message = "the picture is taken as light that has come through the web, so that heavy places are \
-            dark; if light fibres lie on a dark ground, heavy places are light, and every CV is wrong";
+        let message = "the image is taken as light that has come through the web, so that heavy places \
+            are dark; if light fibres lie on a dark ground, heavy places are light, and every CV is \
+            wrong";
         notes.push(Fault::new(message, "say which light it is").option("--light reflected"));
     }
     match (light, weighed.white) {
@@ -67,7 +68,7 @@ pub(super) fn notes(
         notes.push(Fault::plain(
             "the basis weight follows from the reflected light by Kubelka’s law, for fibres that scatter \
             light and absorb none on a black ground. Colour, gloss and a grey ground make it wrong, and \
-            the picture cannot show that",
+            the image cannot show that",
         ));
     }
     if !weighed.mean_known {
@@ -85,10 +86,10 @@ pub(super) fn notes(
             format!(
                 "the lamp is brighter by {} in its brightest part than in its darkest. A polynomial of \
                 second order was taken out. It also took out what the web itself varies as smoothly over \
-                the whole picture, and it left what a polynomial cannot follow, so no interval is given",
+                the whole image, and it left what a polynomial cannot follow, so no interval is given",
                 per_cent(libm::expm1(shading.range()))
             ),
-            "take a picture of the lamp without web, or say that the lamp is uniform",
+            "take an image of the lamp without web, or say that the lamp is uniform",
         ));
     }
     notes.extend(bare_lamp(aside, settings, light != settings.light));
@@ -165,19 +166,19 @@ fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
             "no level lies above {largest}, though the file has 16 bits; if the camera has {bits} bits and \
             its largest level is {largest}, every CV is wrong by the same factor"
         ),
-        "take a picture of the lamp with the same number of bits",
+        "take an image of the lamp with the same number of bits",
     ))
 }
 
 fn assumed_lamp(white: f64) -> Fault {
     Fault::new(
         format!(
-            "the lamp without web is assumed to have the grey level {}, the largest that the file can hold. \
-            If that is wrong, every CV is wrong by the same factor, and the picture cannot show it, so no \
-            interval is given",
+            "the lamp without web is assumed to have the grey level {}, the largest that the file can \
+            hold. If that is wrong, every CV is wrong by the same factor, and the image cannot show it, \
+            so no interval is given",
             shortest(white)
         ),
-        "take a picture of the lamp at the same exposure",
+        "take an image of the lamp at the same exposure",
     )
 }
 
@@ -188,7 +189,7 @@ fn assumed_thickest(white: f64) -> Fault {
             that the file can hold. If that is wrong, every CV is wrong, so no interval is given",
             shortest(white)
         ),
-        "take a picture of a thick stack of the web at the same exposure, and give its grey level",
+        "take an image of a thick stack of the web at the same exposure, and give its grey level",
     )
     .option("--white")
 }
@@ -209,12 +210,12 @@ fn bare_lamp(aside: &ForeignParts, settings: &Settings, is_used: bool) -> Option
         format!("there the lamp has the grey level {level}{use_}")
     } else if (level - 1.0).abs() > OTHER {
         format!(
-            "there it is {} {} than in its own picture, so take both pictures at the same exposure",
+            "there it is {} {} than in its own image, so take both images at the same exposure",
             per_cent((level - 1.0).abs()),
             if level > 1.0 { "brighter" } else { "darker" }
         )
     } else {
-        "there it is as bright as in its own picture".to_owned()
+        "there it is as bright as in its own image".to_owned()
     };
     Some(Fault::new(message, remedy))
 }

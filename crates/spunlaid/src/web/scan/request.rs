@@ -123,7 +123,7 @@ fn weights_in_kilograms(picture: &Picture) -> Result<(), Fault> {
     let mean = shortest(format!("{mean:.3e}").parse().unwrap_or(f64::NAN));
     Err(Fault::new(
         format!(
-            "holds numbers of about {mean}, which are no basis weights in kg/m²: no web has {mean} kg/m²"
+            "holds numbers of about {mean}, which are not basis weights in kg/m²: no web has {mean} kg/m²"
         ),
         "give the mean basis weight of the sheet, as \"17 g/m²\", or say that they are grey levels",
     )

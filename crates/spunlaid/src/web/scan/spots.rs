@@ -105,8 +105,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
             without it can be cut out",
                 100.0 * share
             ),
-            "turn the scan straight, and cut the picture so that \
-            it holds web only",
+            "turn the scan straight, and cut the image so that it holds web only",
         )
         .option("--keep-spots"));
     }
@@ -125,8 +124,7 @@ pub(super) fn spots(density: &[f64], columns: usize, is_absolute: bool) -> Resul
             cover",
                 100.0 * (masked as f64 / dark.len() as f64)
             ),
-            "clean the glass, cut the picture so that \
-            it holds web only, or keep the spots if they are web",
+            "clean the glass, cut the image so that it holds web only, or keep the spots if they are web",
         )
         .option("--keep-spots"));
     }

@@ -150,7 +150,7 @@ pub(super) fn weigh(
 
 /// What to do about pixels without a value.
 const fn advice(picture: &Picture, usual: &'static str) -> &'static str {
-    if picture.transparent > 0 { "cut out a part of the picture without transparent pixels" } else { usual }
+    if picture.transparent > 0 { "cut out a part of the image without transparent pixels" } else { usual }
 }
 
 fn transmitted(

@@ -83,7 +83,7 @@ impl Wind {
     pub fn repeating(isa: Isa, streams: Vec<Stream>, horizon: f64) -> Result<Self, Error> {
         let (sampling, streams) = Sampling::from_streams(streams)?;
         if !sampling.records.is_empty() {
-            return Err(Error::flight("a repeating wind is made from harmonics", "leave air.record out"));
+            return Err(Error::flight("repeating turbulence is made from harmonics", "leave air.record out"));
         }
         let mean = means(&sampling, &streams);
         let windows = Windows::repeating(isa, sampling, streams, horizon);

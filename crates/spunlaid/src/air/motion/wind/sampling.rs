@@ -49,7 +49,7 @@ impl Sampling {
         let streams = PerLane::new(streams)?;
         let sampling = streams.shared(|stream| Self::new(&stream.air, stream.eddies.len()))?;
         if sampling.eddies == 0 {
-            return Err(Error::Flight(Fault::plain("a wind needs at least one eddy")));
+            return Err(Error::Flight(Fault::plain("turbulence needs at least one eddy")));
         }
         let makes_turbulence = (1..=1 << 30).contains(&sampling.harmonics) && sampling.repeat_time() > 0.0;
         if sampling.records.is_empty() && !makes_turbulence {

@@ -87,8 +87,8 @@ impl Teller<'_> {
             more => places.push(format!("{more} more")),
         }
         let message = format!(
-            "the value is frozen in {} of equal samples, {} % of the record ({}): this is no turbulence, and rms and \
-             integral time are not those of the air",
+            "the value is frozen in {} of equal samples, {} % of the record ({}): this is not turbulence, \
+             and rms and integral time are not those of the air",
             if stretches.len() == 1 {
                 "one stretch".to_owned()
             } else {

@@ -246,7 +246,7 @@ impl FinerCheck {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unchecked {
     /// The case says so.
-    #[error("it was not asked for")]
+    #[error("it was not requested")]
     NotAsked,
     /// The results are there before the check has been simulated.
     #[error("these results were written before the check was run")]

@@ -223,7 +223,7 @@ fn fitting(case: &Case) -> Result<Fitting<'_>, Fault> {
     };
     let Flow::Field(placed) = &case.air.flow else {
         return Err(Fault::new(
-            "the air is no CFD field, so it has no cells for sources",
+            "the air is not a CFD field, so it has no cells for sources",
             "give the file of a CFD solution in air.field",
         ));
     };

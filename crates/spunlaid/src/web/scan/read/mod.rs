@@ -218,22 +218,22 @@ fn format_read(bytes: &[u8]) -> Option<Format> {
 
 fn picture_refused(bytes: &[u8]) -> Option<&'static str> {
     const STARTS: [(&[u8], &str); 8] = [
-        (b"\xff\xd8\xff", "a JPEG picture, which loses the fine structure"),
-        (b"GIF87a", "a GIF picture"),
-        (b"GIF89a", "a GIF picture"),
-        (b"\0\0\0\x0cjP  ", "a JPEG 2000 picture"),
-        (b"\xff\x4f\xff\x51", "a JPEG 2000 picture"),
-        (b"\0\0\0\x0cJXL ", "a JPEG XL picture"),
-        (b"\xff\x0a", "a JPEG XL picture"),
+        (b"\xff\xd8\xff", "a JPEG image, which loses the fine structure"),
+        (b"GIF87a", "a GIF image"),
+        (b"GIF89a", "a GIF image"),
+        (b"\0\0\0\x0cjP  ", "a JPEG 2000 image"),
+        (b"\xff\x4f\xff\x51", "a JPEG 2000 image"),
+        (b"\0\0\0\x0cJXL ", "a JPEG XL image"),
+        (b"\xff\x0a", "a JPEG XL image"),
         (b"%PDF-", "a PDF document"),
     ];
     // These tell their kind after a length. Words may begin like a BMP picture, but hold no zero bytes.
     let at = |place: usize, wanted: &[u8]| bytes.get(place..place + wanted.len()) == Some(wanted);
     let later = [
-        (at(0, b"BM") && at(6, &[0; 4]), "a BMP picture"),
-        (at(0, b"RIFF") && at(8, b"WEBP"), "a WebP picture"),
-        (at(4, b"ftyp"), "a HEIC or AVIF picture, or a film"),
-        (is_netpbm(bytes), "a PGM or PPM picture"),
+        (at(0, b"BM") && at(6, &[0; 4]), "a BMP image"),
+        (at(0, b"RIFF") && at(8, b"WEBP"), "a WebP image"),
+        (at(4, b"ftyp"), "a HEIC or AVIF image, or a film"),
+        (is_netpbm(bytes), "a PGM or PPM image"),
     ];
     let found = STARTS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, found)| *found);
     found.or_else(|| later.iter().find(|(is, _)| *is).map(|(_, found)| *found))
@@ -261,7 +261,7 @@ fn within_limits(columns: u64, rows: u64) -> Result<[usize; 2], Fault> {
     let too_many = Fault::new(
         format!("has {columns} × {rows} pixels"),
         format!(
-            "at most {} are read, so cut out a part of the picture, or make its pixels larger",
+            "at most {} are read, so cut out a part of the image, or make its pixels larger",
             MOST_PIXELS
         ),
     );

@@ -188,7 +188,7 @@ fn seek_full<R: Read + Seek>(decoder: &mut Decoder<R>) -> Result<bool, Fault> {
     }
     // Raw files of cameras keep the scan behind the thumbnail.
     if pages[best].is_copy && pages[best].has_parts {
-        return Err(unsupported("a thumbnail in front and the picture itself in a part behind it", GREY));
+        return Err(unsupported("a thumbnail in front and the image itself in a part behind it", GREY));
     }
     Ok(pages.iter().filter(|page| whole(page)).count() > 1)
 }

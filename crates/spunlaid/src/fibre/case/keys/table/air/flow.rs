@@ -210,7 +210,7 @@ pub(in super::super) const KEYS: &[Key] = &[
             "the pressure of the cabin gives the velocity at the slot; keep one of them",
         )
         .read_after(&["air.density", "air.temperature", "air.profile", "air.speed_factor"])
-        .follows("`velocity` says how fast the air is")
+        .follows("`velocity` gives the speed of the air")
         .meaning(
             "Pressure of the cabin above that under the belt, which blows the air through the slot. It gives \
              `velocity`, or the factor on a profile, whose velocity at the root is that at the slot: \
@@ -253,13 +253,13 @@ pub(in super::super) const KEYS: &[Key] = &[
                     }
                     (Flow::Uniform, _) => "leave it out: air that keeps its speed does not widen",
                     (Flow::Field(_), _) => {
-                        "leave it out: the field's own velocity across says how the flow widens"
+                        "leave it out: the field's own velocity across gives the widening of the flow"
                     }
                 };
                 Err(Fault::needs("air.profile", remedy))
             },
         })
-        .follows("the air only slows, and a web says so")
+        .follows("the air only slows, and a web warns of it")
         .meaning(
             "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine \
              direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the \

@@ -88,7 +88,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         ),
     key("air.record_time", Kind::Text("t"))
         .access(of_record!(time, Value::Text, text))
-        .follows("the column whose name or whose time stamps say so")
+        .follows("the column with a usual name of time or with time stamps")
         .meaning("Column of time of a record, by name or by number from 1."),
     key("air.record_velocity_unit", Kind::Text("m/s"))
         .access(of_record!(velocity_unit, Value::Text, text))
@@ -133,7 +133,7 @@ pub(in super::super) const KEYS: &[Key] = &[
             },
         })
         .follows(
-            "no decay: the pattern is frozen; of a fed fibre, the length scale divided by the rms velocity",
+            "no decay: the pattern is frozen; for a fed fibre, the length scale divided by the rms velocity",
         )
         .meaning("Time constant with which a convected pattern loses its correlation while it travels.")
         .label("Decay time of the eddies")
@@ -173,7 +173,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         )
         .meaning(
             "Number of cosine waves whose sum is the turbulence. A sum lasts for harmonics / cut-off \
-             frequency; before that, the wind changes over to another one.",
+             frequency; before that, it changes over to another sum.",
         )
         .label("Number of harmonics")
         .varies()

@@ -132,7 +132,7 @@ pub(super) const KEYS: &[Key] = &[
         .meaning(
             "Whether the velocity along the filament ends with that of `air` where the simulated fibre \
              begins. Cabin pressure and air speed then change the whole spinline. A factor on the \
-             profile follows from it, in place of `velocity_factor`.",
+             profile follows from it, instead of `velocity_factor`.",
         ),
     quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(Access {
