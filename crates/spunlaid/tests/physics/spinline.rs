@@ -130,7 +130,7 @@ fn published_spinlines_of_another_program() {
 fn published_failures_of_another_program() {
     // What the message says of each failure that bench/spinline/reference.py finds.
     let words = |failure: &str| match failure {
-        "solid" => "freezes at",
+        "solid" => "solidifies at",
         "pull" => "the air does not pull",
         "take-up" => "the speed of the melt in the hole",
         "break" => "is exceeded",

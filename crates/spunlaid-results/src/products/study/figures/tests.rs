@@ -113,6 +113,6 @@ fn a_result_that_applies_to_no_point_is_not_drawn() {
 fn keys_are_named_in_words() {
     assert_eq!(name_of_key("air.velocity"), "mean velocity");
     assert_eq!(name_of_key("fibre.youngs_modulus"), "Young’s modulus");
-    assert_eq!(name_of_key("air.length_scale"), "length of the eddies");
+    assert_eq!(name_of_key("air.length_scale"), "integral length scale");
     assert_eq!(name_of_key("air.harmonics"), "number of harmonics");
 }

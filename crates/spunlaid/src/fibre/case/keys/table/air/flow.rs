@@ -167,8 +167,8 @@ pub(in super::super) const KEYS: &[Key] = &[
     quantity("air.length_constant", Dimension::Ratio, Positive, (0.01, 10.0))
         .access(at!(placed, placed_mut, length_constant))
         .value("0.43")
-        .meaning("Constant C_L of the eddies' length C_L k^1.5/ε in a field.")
-        .label("Constant of the eddies’ length *C*_{L}")
+        .meaning("Constant C_L of the length scale C_L k^1.5/ε in a field.")
+        .label("Constant of the length scale *C*_{L}")
         .slider(0.1, 1.0),
     quantity("air.time_constant", Dimension::Ratio, Positive, (0.01, 10.0))
         .access(at!(placed, placed_mut, time_constant))
@@ -177,7 +177,7 @@ pub(in super::super) const KEYS: &[Key] = &[
             "Constant C_T of the eddies' lifetime T = C_T k/ε in a field. The cut-off frequency is ¼ \
              (velocity/length + 1/T).",
         )
-        .label("Constant of the eddies’ lifetime *C*_{T}")
+        .label("Constant of the eddy lifetime *C*_{T}")
         .slider(0.1, 1.0),
     quantity("air.speed_factor", Dimension::Ratio, Positive, (0.01, 100.0))
         .access(Access {

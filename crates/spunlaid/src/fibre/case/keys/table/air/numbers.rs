@@ -75,11 +75,11 @@ pub(in super::super) const KEYS: &[Key] = &[
         .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
         .required("50 mm")
         .meaning(
-            "Length of an eddy, along which the fluctuation is the same. A record, a profile or a \
-             field may give it.",
+            "Integral length scale of the turbulence: the length of an eddy, along which the fluctuation \
+             is the same. A record, a profile or a field may give it.",
         )
         .synonyms(&["eddy size", "integral length scale"])
-        .label("Length of the eddies *L*_{T}")
+        .label("Integral length scale *L*_{T}")
         .slider(5e-3, 0.2),
     quantity("air.cutoff_frequency", Dimension::Frequency, Positive, (0.1, 5e4))
         .access(Access {
