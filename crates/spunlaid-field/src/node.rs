@@ -69,8 +69,7 @@ pub(super) fn merge(nodes: &mut [Node]) -> Result<(Vec<u32>, Option<Fault>), Fil
     repeats.check(&place_of)?;
     let warning = (differ > 0).then(|| {
         Fault::plain(format!(
-            "{} {} exactly at the position of another point but {} other values; the mean of their values \
-             is used",
+            "{} {} exactly at the position of another point but {} other values; the mean of their values is used",
             counted(differ, "point"),
             by_count(differ, ("lies", "lie")),
             by_count(differ, ("has", "have")),

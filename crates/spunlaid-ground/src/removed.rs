@@ -44,8 +44,7 @@ pub const REMOVED: &[Row] = &[
         Removed::Command,
         "run --until",
         "0.1.0",
-        "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part is \
-         bit-identical",
+        "run the case.toml of its results folder with --set run.duration=\"20 s\": the first part is bit-identical",
     ),
     (
         Removed::Command,

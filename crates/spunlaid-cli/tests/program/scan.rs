@@ -301,8 +301,7 @@ fn rejects_scans_with_the_option_that_helps() {
         ),
         (
             "analyse scan.png --pixel 1mm --noise 60000",
-            "would make it vary; give the noise of a single pixel, from two images of the same place \
-             (--noise)\n",
+            "would make it vary; give the noise of a single pixel, from two images of the same place (--noise)\n",
         ),
         (
             "analyse scan.png --pixel 1mm --lamp other.png",

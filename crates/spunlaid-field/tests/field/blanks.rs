@@ -50,8 +50,7 @@ fn table(names: &str, last: &str) -> String {
 fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
     let missing = |array: &str| {
         format!(
-            "{array} has no number at 1 point; it is in line 21. There is no air there: these points are \
-             left out"
+            "{array} has no number at 1 point; it is in line 21. There is no air there: these points are left out"
         )
     };
     let hidden =

@@ -163,8 +163,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
     for (name, wanted) in [
         (
             "missing.pvtu",
-            "missing.pvtu:5: names the part \"b.vtu\", which is not there; copy it to that path next to \
-             the list",
+            "missing.pvtu:5: names the part \"b.vtu\", which is not there; copy it to that path next to the list",
         ),
         (
             "itself.pvtu",

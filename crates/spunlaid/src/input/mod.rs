@@ -143,8 +143,7 @@ fn open_values(mut key_values: WrittenValues, files: &DataFiles) -> Result<OpenC
     if spinline::is_spinline_alone(&key_values) {
         let fault = Fault::new(
             "is alone in this file, so no fibre is simulated",
-            "solve the spinline alone, or add [belt], [air] and [run] for the fibre that is simulated \
-             below it",
+            "solve the spinline alone, or add [belt], [air] and [run] for the fibre that is simulated below it",
         );
         key_values.reject("[spinline]", fault.option("`spunlaid spin`"));
         return Err(key_values.problems.into());

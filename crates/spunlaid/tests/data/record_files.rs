@@ -252,9 +252,8 @@ fn rejects_with_line_column_and_way_out() {
         ),
         (
             &format!("{head}3.5,4\n"),
-            "a.csv:5: column time_s: the time step changes from 1 s to 1.5 s; samples must be evenly \
-            spaced to within 1 %. Resample the record, or give the sampling rate if you know that the \
-            clock was uniform",
+            "a.csv:5: column time_s: the time step changes from 1 s to 1.5 s; samples must be evenly spaced to \
+            within 1 %. Resample the record, or give the sampling rate if you know that the clock was uniform",
         ),
         (
             &format!("{head}1e12,4\n"),

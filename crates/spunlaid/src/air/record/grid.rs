@@ -173,9 +173,8 @@ impl TimeGrid {
         let (points, grid) = (every + 1, Dimension::Time.pretty_to(self.size, 3));
         Some(Fault::new(
             format!(
-                "the times are rounded to {grid}, and about one in {points} points of this grid has no \
-                row: this is a uniform clock of {}, as is assumed, or one of {} that lacks rows as \
-                regularly",
+                "the times are rounded to {grid}, and about one in {points} points of this grid has no row: this is \
+                a uniform clock of {}, as is assumed, or one of {} that lacks rows as regularly",
                 rate(interval),
                 rate(self.size)
             ),

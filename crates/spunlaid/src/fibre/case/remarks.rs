@@ -166,10 +166,9 @@ impl Case {
         (to < LEAST_SLOWING * from).then(|| {
             let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
             Remark::warning(format!(
-                "lays filaments in air that slows from {from} to {to} and does not widen. Air slows in a \
-                 channel that widens, and carries the filaments apart along the machine direction, so \
-                 the web is more uniform. Write widening = \"md\" in [air] of the case, or \"none\" if \
-                 it is meant"
+                "lays filaments in air that slows from {from} to {to} and does not widen. Air slows in a channel \
+                 that widens, and carries the filaments apart along the machine direction, so the web is more \
+                 uniform. Write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
             ))
         })
     }

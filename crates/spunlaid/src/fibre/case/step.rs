@@ -31,9 +31,8 @@ impl StepLimit {
     pub fn reason(&self) -> &'static str {
         match self.cause {
             AXIAL => {
-                "sound crosses an element in this time, all along the fibre; run.scheme = \
-                \"implicit-tension\" has no such limit, and longer elements (fibre.element_length) \
-                lengthen it"
+                "sound crosses an element in this time, all along the fibre; run.scheme = \"implicit-tension\" has \
+                no such limit, and longer elements (fibre.element_length) lengthen it"
             }
             BENDING => {
                 "the shortest bending wave oscillates once in this time, at the root first; longer \

@@ -23,10 +23,7 @@ pub const LOAD_MEASURES: &[Measure<Load>] = &[
     .meaning("filaments of all rows, per metre of width")
     .digits(4),
     OfLoad::new("slot_m", "Slot gap", MILLIMETRES, Known(|load| Some(load.air?.slot)))
-        .meaning(
-            "line.slot_gap: the gap along the machine direction through which the filaments and their air \
-         pass",
-        )
+        .meaning("line.slot_gap: the gap, along MD, through which the filaments and their air pass")
         .digits(4),
     OfLoad::new(
         "air_kg_s_m",

@@ -29,10 +29,7 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     spun("solidification.distance_m", "Solidification point, below the die", MILLIMETRES, |found| {
         found.solidification.distance
     })
-    .meaning(
-        "distance from the die at which the filament becomes solid; from there on its speed is \
-         constant",
-    )
+    .meaning("distance from the die at which the filament becomes solid; from there on its speed is constant")
     .kept("freezing_distance", "freezing_distance_m")
     .main()
     .figure(&figure(

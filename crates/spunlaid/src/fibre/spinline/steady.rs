@@ -90,10 +90,8 @@ fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
     let faster = free.map_or(String::new(), |free| {
         format!(": without a godet it runs at {}", Dimension::Velocity.pretty(free))
     });
-    let message = format!(
-        "is lower than the speed that the filament reaches by its weight and the air \
-         alone{faster}",
-    );
+    let message =
+        format!("is lower than the speed that the filament reaches by its weight and the air alone{faster}");
     let remedy = "raise it, or leave out spinline.end, which makes the end free";
     Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
 }
@@ -161,8 +159,7 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
             "spinline.law",
             None,
             Fault::new(
-                "makes the melt too elastic for this speed: the filament would be as fast as its own \
-                 elastic wave",
+                "makes the melt too elastic for this speed: the filament would be as fast as its own elastic wave",
                 "raise spinline.material.modulus, or leave spinline.law out",
             ),
         ),
@@ -211,8 +208,7 @@ fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
         (Miss::TurnsBack(tension), _) => {
             let tension = Dimension::Force.pretty(tension);
             format!(
-                "has no steady state: the solutions followed from slower lines end with {tension} and \
-                 turn back"
+                "has no steady state: the solutions followed from slower lines end with {tension} and turn back"
             )
         }
         _ => NO_THREAD.to_owned(),
@@ -236,8 +232,7 @@ fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
     let (reached, solid) = (celsius(temperature), celsius(line.material.solidification_temperature));
     let message = format!(
-        "is too short: the polymer is still at {reached} at the end of the spinline and solidifies at \
-         {solid}"
+        "is too short: the polymer is still at {reached} at the end of the spinline and solidifies at {solid}"
     );
     Failure::new(
         "spinline.length",

@@ -40,8 +40,7 @@ impl Reading<'_> {
                 }
                 let fault = Fault::needs(
                     "laydown.case",
-                    "leave it out: filaments of known numbers are not \
-                         simulated",
+                    "leave it out: filaments of known numbers are not simulated",
                 );
                 self.key_values.reject(key, fault);
             }
@@ -62,10 +61,9 @@ impl Reading<'_> {
                         path.display()
                     );
                     let remedy = format!(
-                        "give it the spectrum of the record (air.spectrum) instead of the record. Or \
-                        simulate it with `spunlaid run`, and write the standard deviations σ₁ and σ₂ and \
-                        the noise A that it reports as {laydown}.sigma_md, {laydown}.sigma_cd and \
-                        {laydown}.noise instead of the case"
+                        "give it the spectrum of the record (air.spectrum) instead of the record. Or simulate it \
+                        with `spunlaid run`, and write the standard deviations σ₁ and σ₂ and the noise A that it \
+                        reports as {laydown}.sigma_md, {laydown}.sigma_cd and {laydown}.noise instead of the case"
                     );
                     let key = self.says(prefix, "air.record").unwrap_or_else(|| format!("{laydown}.case"));
                     self.key_values.reject(&key, Fault::new(message, remedy));
@@ -230,8 +228,7 @@ impl Reading<'_> {
             let [offset, last, width] = [offset, last, width].map(|size| Dimension::Length.pretty(size));
             let fault = Fault::new(
                 format!(
-                    "begins a row from {offset} to {last}, outside of the web, which extends from 0 mm to \
-                     {width}"
+                    "begins a row from {offset} to {last}, outside of the web, which extends from 0 mm to {width}"
                 ),
                 "move the row, or widen the web",
             );

@@ -197,9 +197,8 @@ impl Reading<'_> {
             [] => {
                 let fault = Fault::new(
                     "does not say how the fibres lie",
-                    "write [feed], [belt], [air] and [run] for a filament to be simulated, or in \
-                    [laydown] case = \"spunbond.toml\" (it is in that file), or sigma_md, sigma_cd and \
-                    noise",
+                    "write [feed], [belt], [air] and [run] for a filament to be simulated, or in [laydown] case = \
+                    \"spunbond.toml\" (it is in that file), or sigma_md, sigma_cd and noise",
                 );
                 self.key_values.reject(&format!("{prefix}laydown"), fault);
                 return Way::Unknown;

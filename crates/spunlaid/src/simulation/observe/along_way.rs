@@ -115,9 +115,8 @@ pub(super) const FORCES: Declaration = Declaration {
             group: FIBRE,
             figure: &Figure {
                 from_zero: false,
-                caption: "Mean force with which the fibre drives the air between the inlet and a \
-                    position. It falls where the air pulls the fibre along and rises where the fibre \
-                    pulls the air.",
+                caption: "Mean force with which the fibre drives the air between the inlet and a position. It falls \
+                    where the air pulls the fibre along and rises where the fibre pulls the air.",
                 ..figure("force_on_air", "Force on the air", "force on the air")
             },
             ..Measure::NUMBER
@@ -126,8 +125,7 @@ pub(super) const FORCES: Declaration = Declaration {
             name: FIBRE_ON_WAY,
             column: "fibre_on_way",
             label: "Fibre per length of the way",
-            meaning: "mean length of fibre per length of the way; above one where the fibre oscillates \
-                 and folds",
+            meaning: "mean length of fibre per length of the way; above one where the fibre oscillates and folds",
             unit: RATIO,
             kind: MeasureKind::Way,
             group: FIBRE,

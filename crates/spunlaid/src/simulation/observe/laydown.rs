@@ -173,8 +173,7 @@ const HALF_LENGTH: FibreMeasure = Measure {
 const RATIO_OF: FibreMeasure = Measure { unit: RATIO, group: LAYDOWN, ..Measure::NUMBER };
 
 const CORRELATION: FibreMeasure = Measure {
-    meaning: "autocorrelation of the position about the straight trace, over the length of fibre between \
-         two points",
+    meaning: "autocorrelation of the position about the straight trace, over the length of fibre between two points",
     kind: MeasureKind::Lag,
     group: LAYDOWN,
     figure: &Figure {

@@ -228,8 +228,7 @@ pub const STREAK_MEASURES: &[Measure<Streak>] = &[
          below zero where it is heavier",
     ),
     OfStreak::new("dip_of_map", "Dip in this map", PERCENT, Told(|streak| streak.found)).meaning(
-        "the same in this map, with its sampling error; a dip of more than two standard errors \
-             can be seen",
+        "the same in this map, with its sampling error; a dip of more than two standard errors can be seen",
     ),
     OfStreak::new("length_m", "Detectable from a length of", METRES, Told(|streak| streak.length)).meaning(
         "length of a scan from which on the dip is significant at 95 %; none where the web has other \

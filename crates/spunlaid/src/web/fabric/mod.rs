@@ -91,9 +91,8 @@ const WORDS: &[(&[&str], &str)] = &[
     ),
     (
         &["strength", "tensile", "tenacity", "elongation", "tear"],
-        "The strength of the fabric is not computed, because the bonds make it. `spunlaid web` gives the \
-        weakest section of strips and the MD/CD ratio of stiffness of the directions alone \
-        (docs/fabric.md).",
+        "The strength of the fabric is not computed, because the bonds make it. `spunlaid web` gives the weakest \
+        section of strips and the MD/CD ratio of stiffness of the directions alone (docs/fabric.md).",
     ),
     (
         &["permeability", "porosity", "breathability"],

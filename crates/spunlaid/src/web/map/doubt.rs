@@ -98,25 +98,22 @@ impl Display for Doubt {
                 reason(*why, *pitch),
                 match enough {
                     Some(enough) => format!(
-                        "as many as needed: leave web.simulated out, which simulates {enough} or more for \
-                         each metre"
+                        "as many as needed: leave web.simulated out, which simulates {enough} or more for each metre"
                     ),
                     None => "all of them, web.simulated = \"all\"".to_owned(),
                 }
             ),
             Self::StrongField { field } => write!(
                 f,
-                "the charge of the filaments gives a field of {} at the edge of the curtain. Air breaks \
-                down at {}, and at edges of metal long before, so a line would lose a part of this \
-                charge (line.charge)",
+                "the charge of the filaments gives a field of {} at the edge of the curtain. Air breaks down at {}, \
+                and at edges of metal long before, so a line would lose a part of this charge (line.charge)",
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
             ),
             Self::Unsure { wanted, reached, area } => write!(
                 f,
-                "the standard error of the CV is {} % of the CV after {} m², and {} % were wanted \
-                (web.error), which needs about {} times the area; raise web.time if it ended the \
-                simulation",
+                "the standard error of the CV is {} % of the CV after {} m², and {} % were wanted (web.error), which \
+                needs about {} times the area; raise web.time if it ended the simulation",
                 per_cent(*reached, 2),
                 Dimension::Ratio.pretty_to(*area, 2),
                 per_cent(*wanted, 2),

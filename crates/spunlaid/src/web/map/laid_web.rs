@@ -96,8 +96,7 @@ impl LaidWeb {
 /// The fault of a cell that holds more fibre than can be counted.
 pub(super) fn too_full(cell: f64) -> Fault {
     let message = format!(
-        "a cell of {cell:e} m holds more fibre than can be counted, because the filaments lie in too \
-         small an area"
+        "a cell of {cell:e} m holds more fibre than can be counted, because the filaments lie in too small an area"
     );
     Fault::new(message, "choose smaller cells (web.cell)")
 }

@@ -25,15 +25,13 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
                 .role(OfOne),
             OfPatch::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
                 .meaning("degrees of freedom of the sampling error"),
-            share("cv_sample_error", "Error of the CV by the sample of filaments", |patch| {
-                patch.total_error().flight
-            })
-            .meaning("standard error of the CV because only a sample of the filaments was simulated")
-            .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
-            .short("filament sample")
-            .digits(2)
-            .shown_if(|patch| patch.few.is_some())
-            .role(Further),
+            share("cv_sample_error", "Error of the CV by the sample", |patch| patch.total_error().flight)
+                .meaning("standard error of the CV because only a sample of filaments was simulated")
+                .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
+                .short("filament sample")
+                .digits(2)
+                .shown_if(|patch| patch.few.is_some())
+                .role(Further),
             share("cv_total_error", "", |patch| patch.total_error().whole())
                 .meaning("total standard error of the CV"),
         ]),

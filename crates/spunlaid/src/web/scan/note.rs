@@ -50,9 +50,8 @@ pub(super) fn notes(
         notes.extend(bits(picture, settings.lamp.as_ref()));
     }
     if settings.light_is_assumed && matches!(settings.light, Light::Transmitted { .. }) {
-        let message = "the image is taken as light that has come through the web, so that heavy places \
-            are dark; if light fibres lie on a dark ground, heavy places are light, and every CV is \
-            wrong";
+        let message = "the image is taken as light that has come through the web, so that heavy places are dark; if \
+            light fibres lie on a dark ground, heavy places are light, and every CV is wrong";
         notes.push(Fault::new(message, "say which light it is").option("--light reflected"));
     }
     match (light, weighed.white) {
@@ -173,9 +172,8 @@ fn bits(picture: &Picture, lamp: Option<&Picture>) -> Option<Fault> {
 fn assumed_lamp(white: f64) -> Fault {
     Fault::new(
         format!(
-            "the lamp without web is assumed to have the grey level {}, the largest that the file can \
-            hold. If that is wrong, every CV is wrong by the same factor, and the image cannot show it, \
-            so no interval is given",
+            "the lamp without web is assumed to have the grey level {}, the largest that the file can hold. If that \
+            is wrong, every CV is wrong by the same factor, and the image cannot show it, so no interval is given",
             shortest(white)
         ),
         "take an image of the lamp at the same exposure",

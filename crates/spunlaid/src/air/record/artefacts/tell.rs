@@ -40,8 +40,7 @@ impl Teller<'_> {
         let place = self.place(samples.first().copied().unwrap_or(0));
         Fault::new(
             format!(
-                "{} {be} {written}, {first} {place}: this number means a missing value and is not a \
-                 velocity",
+                "{} {be} {written}, {first} {place}: this number means a missing value and is not a velocity",
                 counted(count, "sample")
             ),
             "leave these cells empty",

@@ -40,8 +40,7 @@ fn of_points(raw: &RawPicture, heads: &[Head]) -> Result<RawPicture, Fault> {
                  structured grid of square cells",
                 raw.rows
             ),
-            "write a line for each row of the map, or the value at each point of a structured grid of \
-             square cells",
+            "write a line for each row of the map, or the value at each point of a structured grid of square cells",
         )
     };
     let along = |column: usize| Positions::new(raw.values.iter().skip(column).step_by(POINT).copied());

@@ -109,9 +109,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(run.checks))
         .value("auto")
         .meaning(
-            "What the checks of time step and mesh may cost. `auto`: together a fifth of the simulation, \
-             and the run reports what is not checked; `full`: as much as they need for the whole run; \
-             `none`: no checks.",
+            "What the checks of time step and mesh may cost. `auto`: together a fifth of the simulation, and the run \
+             reports what is not checked; `full`: as much as they need for the whole run; `none`: no checks.",
         )
         .label("Checks"),
     quantity("run.damping", Dimension::Rate, NotNegative, (0.001, 1e5))

@@ -66,8 +66,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .of_all_layers("all layers lie on one belt")
         .required("3 m/s")
         .meaning(
-            "Speed of the belt, written in one of the layers. It may replace `belt.speed` of a simulated \
-             filament.",
+            "Speed of the belt, written in one of the layers. It may replace `belt.speed` of a simulated filament.",
         ),
     positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
@@ -157,9 +156,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(layer, layer_mut, charge))
         .follows("none")
         .meaning(
-            "Charge per mass of the filaments from a charging bar, which drives them apart along the \
-             machine direction. Only simulated filaments have one. No measured charge of a spunbond line \
-             is known to us.",
+            "Charge per mass of the filaments from a charging bar, which drives them apart along the machine \
+             direction. Only simulated filaments have one. No measured charge of a spunbond line is known to us.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
@@ -188,9 +186,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(row, row_mut, offset))
         .value("0 mm")
         .meaning(
-            "Position of the first hole of a row, from the edge of the web. Rows replace \
-             `filaments_per_metre`: `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 \
-             }, …]`.",
+            "Position of the first hole of a row, from the edge of the web. Rows replace `filaments_per_metre`: \
+             `rows = [{ offset = \"0 mm\", pitch = \"0.2 mm\", filaments = 5000 }, …]`.",
         )
         .label("Position of the first hole"),
     positive("line.rows.pitch", Dimension::Length, (1e-6, 1.0))

@@ -61,8 +61,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("1")
         .varies()
         .meaning(
-            "Seed of all random numbers of the web. Equal files with equal seeds give bit-identical \
-             results.",
+            "Seed of all random numbers of the web. Equal files with equal seeds give bit-identical results.",
         )
         .label("Seed of the web"),
     choose("web.edges", || EDGES.to_vec())
@@ -128,9 +127,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .follows("4 %; for a web so small that all of it is simulated, what its own clouds give")
         .meaning(
-            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in \
-             independent turbulence are simulated coarsely until it is reached. `none` simulates one \
-             sheet only.",
+            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in independent \
+             turbulence are simulated coarsely until it is reached. `none` simulates one sheet only.",
         )
         .synonyms(&["precision", "uncertainty"])
         .label("Wanted error of the CV"),
@@ -189,9 +187,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("throughput, titre, air_speed, drawing_air, die_temperature, quench, charge")
         .meaning(
-            "Settings that can be changed while the line runs, with commas; advice names these first. \
-             Others need a stopped line (distance, depth) or another line (holes, turbulence, \
-             row_places).",
+            "Settings that can be changed while the line runs, with commas; advice names these first. Others need a \
+             stopped line (distance, depth) or another line (holes, turbulence, row_places).",
         )
         .synonyms(&["advice", "knobs", "what can be changed"])
         .label("Settings of the running line"),

@@ -233,9 +233,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .value("0.9")
         .read_after(&["air.cabin_pressure"])
         .meaning(
-            "Speed of the air at the slot over that of frictionless air at the same `cabin_pressure`. It \
-             is an assumed value; one measured pair gives it: `spunlaid new --web --cabin-pressure … \
-             --air-speed …`.",
+            "Speed of the air at the slot over that of frictionless air at the same `cabin_pressure`. It is an \
+             assumed value; one measured pair gives it: `spunlaid new --web --cabin-pressure … --air-speed …`.",
         )
         .label("Coefficient of speed of the slot"),
     choose("air.widening", || Widening::ALL.map(Widening::name).to_vec())

@@ -160,8 +160,7 @@ pub(super) const KEYS: &[Key] = &[
         .read_after(&["spinline.follows_air"])
         .value("1.0")
         .meaning(
-            "Factor on the velocity along the filament of a profile or a field: more or less drawing \
-             air.",
+            "Factor on the velocity along the filament of a profile or a field: more or less drawing air.",
         )
         .label("Air velocity along the filament *u*, factor")
         .slider(0.2, 2.0),
@@ -174,8 +173,7 @@ pub(super) const KEYS: &[Key] = &[
         ))
         .value("1.0")
         .meaning(
-            "Factor on the velocity across the filament of a profile or a field: more or less quench \
-             air.",
+            "Factor on the velocity across the filament of a profile or a field: more or less quench air.",
         )
         .label("Quench velocity *v*_{c}, factor")
         .slider(0.2, 3.0),

@@ -98,9 +98,8 @@ const LINE: &[Key] = &[
         })
         .follows("the viscosity of the polymer")
         .meaning(
-            "Melt flow rate of the grade in g/10 min, with 2.16 kg at \
-             `spinline.material.viscosity_temperature`. It gives the viscosity within about 20 %, \
-             instead of `spinline.material.viscosity`.",
+            "Melt flow rate of the grade in g/10 min, with 2.16 kg at `spinline.material.viscosity_temperature`. It \
+             gives the viscosity within about 20 %, instead of `spinline.material.viscosity`.",
         )
         .synonyms(&["MFR", "MFI", "melt flow index"])
         .label("Melt flow rate [g/10 min]")

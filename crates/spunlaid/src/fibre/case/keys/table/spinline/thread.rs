@@ -60,8 +60,7 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_spinline!(nusselt_factor))
         .value("1.0")
         .meaning(
-            "Factor on the Nusselt number of Kase and Matsuo. Measurements leave an uncertainty of \
-             about 20 %.",
+            "Factor on the Nusselt number of Kase and Matsuo. Measurements leave an uncertainty of about 20 %.",
         )
         .label("Factor on the Nusselt number")
         .slider(0.5, 1.5),
@@ -152,9 +151,8 @@ pub(super) const END_KEYS: &[Key] = &[
         .value("0 N")
         .or_words(&[FLOWN])
         .meaning(
-            "Tension at a free end: the pull of the fibre below it. With `\"simulated\"` some fibres are \
-             simulated and the mean tension at their root is used; this is repeated until the speed \
-             changes by less than 0.1 %.",
+            "Tension at a free end: the pull of the fibre below it. With `\"simulated\"` some fibres are simulated and \
+             the mean tension at their root is used; this is repeated until the speed changes by less than 0.1 %.",
         )
         .label("Tension at the end"),
 ];
