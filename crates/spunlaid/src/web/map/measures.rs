@@ -28,7 +28,7 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
             share("cv_sample_error", "Error of the CV by the sample", |patch| patch.total_error().flight)
                 .meaning("standard error of the CV because only a sample of filaments was simulated")
                 .kept("cv_#_mm_few_fibres", "cv_#_mm_few_fibres")
-                .short("filament sample")
+                .short("sample")
                 .digits(2)
                 .shown_if(|patch| patch.few.is_some())
                 .role(Further),
