@@ -6,7 +6,7 @@ use crate::simulation::layers::full_names::web_key;
 use crate::simulation::{LayerSpec, WebSpec};
 use std::fmt;
 
-/// A number of a line, with the range in which spunbond lines have it; `docs/line.md` says where that comes from.
+/// A number of a line, with the range in which spunbond lines have it; `docs/theory.md` has the sources.
 #[derive(Debug)]
 pub struct Limit {
     /// The key of a web that is this number, or from which it follows.
