@@ -134,7 +134,8 @@ pub type Outcome<M> = Result<Vec<Effect<M>>, String>;
 pub struct Sensitivity<E, M> {
     /// The changes, each with what it does.
     pub tried: Vec<SensitivityRun<E, M>>,
-    /// Whether the best changes were tried once more, in another chance. Only these are [`Sensitivity::improvements`] then.
+    /// Whether the best changes were tried once more, in another chance. Only these are [`Sensitivity::improvements`]
+    /// then.
     pub is_confirmed: bool,
     /// Changes that could not be tried, and why.
     pub failed: Vec<(Change<E>, String)>,

@@ -1,4 +1,4 @@
-//! `spunlaid web`: what it says of numbers that are assumed_values.
+//! `spunlaid web`: what it says of numbers that are assumed values.
 
 use crate::desk::{Desk, FED, success};
 use std::fs;

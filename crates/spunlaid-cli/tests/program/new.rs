@@ -336,7 +336,7 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     assert!(said.contains("write a whole number from 1 to 20"), "{said}");
 }
 
-/// The speed of the belt in place of the weight, what is known of slot and air in place of assumed_values, and the rest
+/// The speed of the belt in place of the weight, what is known of slot and air in place of assumed values, and the rest
 /// through a pipe with a decimal comma.
 #[test]
 fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {

@@ -1,5 +1,5 @@
 //! What matters: a row for each change, with a mark for each of its effects: a bar from zero, or the value
-//! with its 95 % confidence interval. Keys of a study, settings and assumed_values of a web, and the numbers of a
+//! with its 95 % confidence interval. Keys of a study, settings and assumed values of a web, and the numbers of a
 //! spinline are drawn by it.
 
 use spunlaid::ground::Difference;

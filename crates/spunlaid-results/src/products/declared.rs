@@ -53,8 +53,8 @@ static STOP: AtomicBool = AtomicBool::new(false);
 const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from simulated curves too, from
-/// neither, and of filaments in shared turbulence, all or a few of which were simulated, on a sheet that is smaller than the
-/// patches, and so few that they tell nothing.
+/// neither, and of filaments in shared turbulence, all or a few of which were simulated, on a sheet that is smaller
+/// than the patches, and so few that they tell nothing.
 fn kinds(found: &Findings) -> [Findings; 6] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();

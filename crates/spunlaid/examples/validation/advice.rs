@@ -1,4 +1,4 @@
-//! What changes and assumed_values do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
+//! What changes and assumed values do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
 //!
 //! All cores fly; a line takes some minutes of sixteen. `validation advice slot 4` looks at one of them, against four
 //! long webs of each change.

@@ -1,4 +1,5 @@
-//! What two levels save: errors of webs in shared turbulence with and without coarse sheets, against the scatter of seeds.
+//! What two levels save: errors of webs in shared turbulence with and without coarse sheets, against the scatter of
+//! seeds.
 
 use crate::title;
 use cpu_time::ProcessTime;

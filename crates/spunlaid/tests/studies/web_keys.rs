@@ -239,7 +239,8 @@ fn identical_alone_and_in_a_study_for_every_key_of_a_web() {
     let mut refused = BTreeMap::new();
     for (name, text) in WEBS {
         let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
-        // What is not of a layer varies once, and a simulated web, which takes long, varies only what the others cannot.
+        // What is not of a layer varies once, and a simulated web, which takes long, varies only what the others
+        // cannot.
         let done: BTreeSet<&str> = varied.iter().filter_map(|full| Some(web_key(full)?.name)).collect();
         let is_once =
             |key: &WebKey| name.starts_with("simulated") || ["web", "fabric"].contains(&key.table());

@@ -61,7 +61,8 @@ fn limit_a_web_in_its_own_turbulence_has_not_changed() {
     assert!(seen[2].1 > 0);
 }
 
-/// A web that needs a larger room is simulated beside the pinned one; the two ways to compare agree where both can be gone.
+/// A web that needs a larger room is simulated beside the pinned one; the two ways to compare agree where both can be
+/// gone.
 #[test]
 fn stat_a_changed_web_alone_in_the_room_and_beside_the_pinned_one_agree() {
     let (web, farther, far) =

@@ -156,7 +156,8 @@ pub fn influences(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
 }
 
 /// A thread of a very viscous melt, whose weight, inertia and friction are nothing beside its tension: the tension is
-/// `3 η Q ln(v/v₀) / z` up to where it solidifies (A. Ziabicki: Fundamentals of Fibre Formation, 1976, isothermal line).
+/// `3 η Q ln(v/v₀) / z` up to where it solidifies (A. Ziabicki: Fundamentals of Fibre Formation, 1976, isothermal
+/// line).
 pub fn line_in_closed_form(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     const VISCOSITY: f64 = 1e5;
     const SPECIFIC_VOLUME: f64 = 8e-4;

@@ -1,4 +1,4 @@
-//! What is tried once a web has been laid: other values of numbers that are assumed_values, then changes of its line.
+//! What is tried once a web has been laid: other values of numbers that are assumed values, then changes of its line.
 
 use super::settled_with;
 use super::tried::{kept, try_changes};

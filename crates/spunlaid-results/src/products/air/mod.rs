@@ -40,7 +40,7 @@ impl AirFolder<'_> {
         let PlaneFindings { rms, expected_rms, .. } = PlaneFindings::new(self.case, self.slices, 0);
         let [x, y, z] = rms.map(|rms| significant(rms, 3));
         format!(
-            "Turbulence of {x}, {y} and {z}{THIN}m/s (rms along x, y and z, over the frames); {}{THIN}m/s are expected.",
+            "Turbulence of {x}, {y} and {z}{THIN}m/s (rms along x, y and z, all frames); {}{THIN}m/s are expected.",
             significant(expected_rms, 3)
         )
     }

@@ -42,8 +42,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     };
     let met = sources.cells.iter().filter(|cell| cell.hits > 0).count();
     let lead = format!(
-        "{} simulated filaments, for {} per metre of width, have met {met} of the {} cells of the field. The sources are \
-         Su + Sp U per volume, means over time and replicates with standard errors.{without_heat}",
+        "{} simulated filaments, for {} per metre of width, have met {met} of the {} cells of the field. The sources \
+         are Su + Sp U per volume, means over time and replicates with standard errors.{without_heat}",
         sources.replicates,
         number(sources.filaments_per_metre),
         sources.cells.len()
@@ -70,8 +70,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     });
     let difference = match sources.are_steady() {
         true => {
-            "they differ by the sampling error and, with elements longer than a hundredth of the path, by what the belt \
-             does to the last of them"
+            "they differ by the sampling error and, with elements longer than a hundredth of the path, by what the \
+             belt does to the last of them"
         }
         false => "they differ significantly, so the motion is not steady and no fields are written",
     };

@@ -312,7 +312,7 @@ const KNOWN: f64 = 1.2;
 const FINDING: f64 = 5.0;
 const TRIAL: f64 = 5.4;
 
-/// Which numbers are assumed_values, and what is done about them.
+/// Which numbers are assumed values, and what is done about them.
 fn assumed_values(spec: &WebSpec) -> Vec<String> {
     if spec.assumed.is_empty() {
         return Vec::new();

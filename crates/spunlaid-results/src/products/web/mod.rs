@@ -52,7 +52,7 @@ pub struct WebFolder {
     pub fabric: Fabric,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<Advice>,
-    /// What assumed_values matter for it; None if it was not tried.
+    /// What assumed values matter for it; None if it was not tried.
     pub assumed_values: Option<Advice>,
     /// The folder of the web, beside which those of changed webs lie.
     pub beside: String,

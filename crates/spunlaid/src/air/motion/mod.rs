@@ -260,7 +260,8 @@ impl Lateral {
         }
     }
 
-    /// What it is where all filaments hang in shared turbulence: a field in space, with the usual cut-off where there was none.
+    /// What it is where all filaments hang in shared turbulence: a field in space, with the usual cut-off where there
+    /// was none.
     pub(crate) const fn in_one_air(self) -> Self {
         match self {
             Self::Uniform => Self::VonKarman { cutoff: Self::USUAL_CUTOFF },

@@ -1,9 +1,10 @@
-//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are assumed_values.
+//! What changes of a web do to its CV: settings of the machine at the same basis weight, and numbers that are
+//! assumed values.
 //!
 //! ```text
 //! settings of the line → webs with one of them changed, on the belt that lays the same weight
-//!   → simulated again in the same eddies → expected CV, compared with that of the web fibre by fibre, or block by block
-//!   → in one air the best ones simulated once more in another air → Advice
+//!   → simulated again in the same eddies → expected CV, compared with that of the web by fibre, or by block
+//!   → in shared turbulence the best ones are simulated once more in other turbulence → Advice
 //! ```
 
 mod kept;
@@ -37,8 +38,8 @@ pub type SensitivityRun = effects::SensitivityRun<ChangedWeb, f64>;
 /// What changes of settings do to the CV of a web.
 pub type Advice = Sensitivity<ChangedWeb, f64>;
 
-/// What is simulated of webs in shared turbulence: where assumed_values are tried, which may be far from what the file says; where
-/// all changes are; and where those are compared once more that may be the best.
+/// What is simulated of webs in shared turbulence: where assumed values are tried, which may be far from what the
+/// file says; where all changes are; and where those are compared once more that may be the best.
 const GUESSES: Compared = Compared { area: 0.045, pitches: 2.0 };
 const CHANGES: Compared = Compared { area: 0.06, pitches: 2.0 };
 const RACE: Compared = Compared { area: 0.09, pitches: 2.0 };
@@ -71,13 +72,13 @@ fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
     std::iter::once(spec).chain(beside.map(|change| &change.experiment.spec)).collect()
 }
 
-/// Most steps of all fibres that are simulated for advice or for assumed_values without being asked: a minute or two of
+/// Most steps of all fibres that are simulated for advice or for assumed values without being asked: a minute or two of
 /// a processor.
 pub const MOST_STEPS: u64 = 20_000_000;
 
 /// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
-/// filaments tell the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only large
-/// effects are seen. AssumedValues must also fit into the memory beside each other.
+/// filaments tell the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only
+/// large effects are seen. Assumed values must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
     let is_told = findings.seen().is_none_or(|seen| seen.doubt.is_none());
     let says_enough = is_told && findings.laid.simulated.iter().all(|layer| layer.few.is_some());
@@ -136,7 +137,7 @@ pub fn advise(
         let what = format!("the CV over patches of {side} is not known for the compared webs");
         return Err(Fault::new(what, "take smaller patches, or a larger sheet").into());
     }
-    // Nobody chooses the best one of some assumed_values.
+    // Nobody chooses the best one of some assumed values.
     if is_in_same_air && advice.tried.iter().any(|tried| !is_assumed(&tried.change)) {
         advice.confirm(|changes| {
             let in_another_air = |spec: &WebSpec| WebSpec { seed: spec.seed ^ ANOTHER_AIR, ..spec.clone() };

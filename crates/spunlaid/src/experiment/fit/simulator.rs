@@ -79,8 +79,8 @@ impl Simulator for WebSimulator<'_> {
     /// The errors of the logarithms by the few simulated filaments.
     fn errors_of_model(&mut self) -> Result<Matrix, Error> {
         let mut spec = self.spec.clone();
-        // Where all filaments in shared turbulence have been simulated nothing is left out, and known numbers say nothing
-        // of real fibres.
+        // Where all filaments in shared turbulence have been simulated nothing is left out, and known numbers say
+        // nothing of real fibres.
         if spec.simulated == Flown::All || !spec.flies() {
             return Ok(Vec::new());
         }

@@ -102,8 +102,9 @@ impl Case {
                 self.fibre.rest_length() / line.feed_speed / line.fewest_steps() as f64 * (1.0 + 1e-9);
             limits.push(StepLimit { cause: FEEDING, limit });
             if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
-                // The tensions are found where eddies turn an element little in a step. Flights of spunbond.toml at 40 %
-                // of turbulence were seen to fail at 1.7 times this.                                    theory.md (63)
+                // The tensions are found where eddies turn an element little in a step. Flights of spunbond.toml at
+                // 40 % of turbulence were seen to fail at 1.7 times this.                                   
+                // theory.md (63)
                 let limit = self.fibre.rest_length() / (12.0 * self.air.rms());
                 limits.push(StepLimit { cause: GUSTS, limit });
             }

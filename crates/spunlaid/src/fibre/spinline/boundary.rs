@@ -32,8 +32,8 @@ const MOST_MOVES: usize = 150;
 /// Most steps of the integration to find a line, some seconds of a processor. Lines that are found take 60,000 at most;
 /// to show that a line has none may take four times as many.
 const MOST_STEPS: usize = 400_000;
-/// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the solidification point by no
-/// more than this share of what others do.
+/// Solutions that cannot be followed on end at a melt that cools no further, if it cools at the solidification point
+/// by no more than this share of what others do.
 const LEAST_COOLING: f64 = 0.1;
 /// The first move along the arc, the longest and the shortest.
 const MOVES: [f64; 3] = [0.02, 0.5, 1e-5];

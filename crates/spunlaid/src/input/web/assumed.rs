@@ -1,4 +1,4 @@
-//! Numbers that the file of a web says are assumed_values.
+//! Numbers that the file of a web says are assumed values.
 
 use super::read::Reading;
 use super::{flies_none, is_of_case};
@@ -119,7 +119,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Refuses assumed_values that are no numbers.
+    /// Refuses assumed values that are no numbers.
     pub(super) fn check_assumed(&mut self, web: &WebSpec) {
         // What other problems hide is not known.
         if self.key_values.problems.is_empty()

@@ -185,8 +185,8 @@ impl Reading<'_> {
         }
     }
 
-    /// Notes that a case is simulated with another number than its file says, because the file of the web says it, unless
-    /// the two differ by rounding.
+    /// Notes that a case is simulated with another number than its file says, because the file of the web says it,
+    /// unless the two differ by rounding.
     fn note_replaced(&mut self, prefix: &str, (name, own): (&str, f64), case: &Case, path: &Path) {
         let (Some(key), Some(by)) = (keys::find(name), self.says(prefix, name)) else { return };
         let (Some(used), Some(dimension)) =

@@ -50,7 +50,7 @@ pub struct WebSpec {
     pub basis_weight: Option<f64>,
     /// What is given of the fabric and of its tests.
     pub fabric: FabricKeys,
-    /// Keys of the web and of its cases whose numbers are assumed_values, as the file names them.
+    /// Keys of the web and of its cases whose numbers are assumed values, as the file names them.
     pub assumed: Vec<String>,
     /// Names of the settings that are turned while the line runs; the usual ones if none are named.
     pub turnable: Option<Vec<String>>,
@@ -67,8 +67,8 @@ pub enum Flown {
     PerMetre(u64),
 }
 
-/// The standard error of the CV over the patches that the eye judges first which is wanted of a web in shared turbulence, as a
-/// fraction of the CV.
+/// The standard error of the CV over the patches that the eye judges first which is wanted of a web in shared
+/// turbulence, as a fraction of the CV.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WantedError {
     /// That of [`USUAL_ERROR`], and of a web so small that all of it is simulated the one of its own clouds.
@@ -230,8 +230,8 @@ impl WebSpec {
         }
     }
 
-    /// Whether its filaments are simulated: those of cases hang in shared turbulence and lay the web as they come down. Those
-    /// of known numbers are independent paths of the surrogate.
+    /// Whether its filaments are simulated: those of cases hang in shared turbulence and lay the web as they come
+    /// down. Those of known numbers are independent paths of the surrogate.
     pub fn flies(&self) -> bool {
         self.cases().next().is_some()
     }

@@ -379,7 +379,8 @@ pub struct PlannedFlight {
 }
 
 impl WebSpec {
-    /// What a web in shared turbulence will fly, layer by layer; nothing of any other web, and of layers that name no case.
+    /// What a web in shared turbulence will fly, layer by layer; nothing of any other web, and of layers that name no
+    /// case.
     pub fn planned_flights(&self) -> Vec<PlannedFlight> {
         let layers =
             (0..self.layers.len()).filter_map(|number| Some((number, beam_on(self, number, None).ok()?)));

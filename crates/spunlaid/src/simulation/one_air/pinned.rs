@@ -25,8 +25,8 @@ use std::ops::{ControlFlow, Range};
 const SPARE: f64 = 1.25;
 /// Distance of the filaments, in the usual one: what a larger pitch does to one web it does to the other.
 pub(crate) const PITCHES: f64 = 2.0;
-/// How much farther the layer is simulated than its sheet is long, in ways from inlet to belt: another one may begin to lay
-/// later.
+/// How much farther the layer is simulated than its sheet is long, in ways from inlet to belt: another one may begin
+/// to lay later.
 const FARTHER: f64 = 0.25;
 /// Longest sheet that a changed layer lays, over that of the pinned one: its air may pass more slowly.
 const MOST: f64 = 20.0;

@@ -34,8 +34,8 @@ const MOST_AT_FIRST: u64 = 8;
 const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
-/// What is expected before anything is simulated: relative variance of a CV that an area of 1 m² leaves open, and the part
-/// of it that coarse filaments do not give.
+/// What is expected before anything is simulated: relative variance of a CV that an area of 1 m² leaves open, and the
+/// part of it that coarse filaments do not give.
 const EXPECTED: f64 = 6e-4;
 const NOT_TOLD: f64 = 0.08;
 

@@ -1,4 +1,5 @@
-//! A curtain of filaments that hang in shared turbulence, of which a few were simulated and all others follow from these.
+//! A curtain of filaments that hang in shared turbulence, of which a few were simulated and all others follow from
+//! these.
 //!
 //! ```text
 //! simulated curves → covariance over the distance of inlets → filling: the curve of any place → drawing on a canvas

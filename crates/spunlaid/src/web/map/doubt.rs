@@ -32,7 +32,8 @@ pub enum Doubt {
         /// The strongest field [V/m].
         field: f64,
     },
-    /// The map is not as uneven as the CV that is told, because filaments between the simulated ones are not known well.
+    /// The map is not as uneven as the CV that is told, because filaments between the simulated ones are not known
+    /// well.
     FilledIn {
         /// Part of their variance that is not known.
         missing: f64,

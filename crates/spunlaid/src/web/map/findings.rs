@@ -82,18 +82,20 @@ impl Findings {
 /// The CV over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// On the map; of filaments in shared turbulence of which a few were simulated, as these tell it ([`PatchFindings::few`]),
-    /// and on the map again, without an error, where they do not tell it ([`PatchFindings::doubt`]).
+    /// On the map; of filaments in shared turbulence of which a few were simulated, as these tell it
+    /// ([`PatchFindings::few`]), and on the map again, without an error, where they do not tell it
+    /// ([`PatchFindings::doubt`]).
     pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
     /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
     pub single_fibres: Option<(f64, f64)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
-    /// From what it is known. In independent turbulence, filaments in shared turbulence would give [`PatchFindings::independent`].
+    /// From what it is known. In independent turbulence, filaments in shared turbulence would give
+    /// [`PatchFindings::independent`].
     pub evidence: Evidence,
-    /// What a few filaments in shared turbulence say of all; None if all were simulated, or if the patch is too large for
-    /// the sheet that they laid.
+    /// What a few filaments in shared turbulence say of all; None if all were simulated, or if the patch is too large
+    /// for the sheet that they laid.
     pub few: Option<SubsampleCv>,
     /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
     /// were simulated.
@@ -126,8 +128,9 @@ impl PatchFindings {
         Some(off.hypot(told.by_pitch / told.cv).copysign(off))
     }
 
-    /// What the filaments of a web in shared turbulence would give in independent turbulence, by their surrogate; None if they
-    /// are independent as they are. How far a surrogate is from real curves is not known, so it has no error.
+    /// What the filaments of a web in shared turbulence would give in independent turbulence, by their surrogate;
+    /// None if they are independent as they are. How far a surrogate is from real curves is not known, so it has no
+    /// error.
     pub fn independent(&self) -> Option<f64> {
         self.single_fibres.filter(|_| self.evidence != Evidence::Known).map(|(cv, _)| cv)
     }

@@ -4,10 +4,11 @@
 //! CV²(fine) = CV²(coarse, all) + [CV²(fine) − CV²(coarse)](common part)
 //! ```
 //!
-//! Most of the error of a CV is that the simulated sheet holds few clouds, and a coarse flight has nearly the same clouds
-//! as a fine one in the same air. So the area is simulated coarsely, and the common part gives the error of the coarse
-//! mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the coefficient of
-//! a control variate.                                                                            theory.md (83m), (83o)
+//! Most of the error of a CV is that the simulated sheet holds few clouds, and a coarse flight has nearly the same
+//! clouds as a fine one in the same air. So the area is simulated coarsely, and the common part gives the error of
+//! the coarse mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the
+//! coefficient of a control variate.                                                                           
+//! theory.md (83m), (83o)
 
 use super::few_filaments::{SMALL, small_patch};
 use super::few_findings::{SubsampleCv, SubsampleEstimate};

@@ -206,8 +206,8 @@ impl Flights {
         self.earlier.len() as u64
     }
 
-    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is simulated
-    /// again.
+    /// Keeps a replicate that has landed, so that a later process need not fly it again. What cannot be kept is
+    /// simulated again.
     pub fn land(&self, trajectory: &Trajectory) {
         let replicate = trajectory.replicate;
         if self.earlier.contains(&replicate) || self.try_to_land(trajectory).is_none() {

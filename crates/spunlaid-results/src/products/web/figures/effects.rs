@@ -1,4 +1,4 @@
-//! What settings of the line and what assumed_values matter for the CV.
+//! What settings of the line and what assumed values matter for the CV.
 
 use super::PER_CENT;
 use crate::effects::{describe, name};

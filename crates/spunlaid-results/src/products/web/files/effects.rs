@@ -1,5 +1,5 @@
 //! What changes do to the CV of a web, in `summary.json`: those of the line at the same basis weight, and
-//! other values of assumed_values.
+//! other values of assumed values.
 
 use crate::command::web_command;
 use crate::files::measured::{joined, known};
@@ -20,7 +20,7 @@ pub(super) fn of_line(advice: &Advice, findings: &Findings, beside: &str) -> Jso
     with_failed(json!({"judged_by_patch_m": advice.judged_by, "changes": changes}), advice)
 }
 
-/// Other values of assumed_values, and the CVs of all webs with these and of the web as it is.
+/// Other values of assumed values, and the CVs of all webs with these and of the web as it is.
 pub(super) fn of_guesses(assumed_values: &Advice, findings: &Findings, beside: &str) -> Json {
     let range = |effect: &Effect<f64>| {
         let cv = cv_over(findings, effect.of);
@@ -82,8 +82,8 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assu
             "standard_error": difference.standard_error,
             "significant": difference.is_significant(),
         });
-        // The part of the change that filaments in shared turbulence make each for itself; the rest is that of their clouds. Of a
-        // change that was simulated again, that in the first air.
+        // The part of the change that filaments in shared turbulence make each for itself; the rest is that of their
+        // clouds. Of a change that was simulated again, that in the first air.
         let more = json!({
             "of_own_part": effect.own,
             "clouds_in_common": effect.in_common,

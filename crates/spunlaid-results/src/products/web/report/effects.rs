@@ -1,4 +1,4 @@
-//! What changes do to a web, for people: what would make it more even and how much assumed_values matter, on the first
+//! What changes do to a web, for people: what would make it more even and how much assumed values matter, on the first
 //! screen, and a table of all changes that were tried.
 
 use super::cards::Card;
@@ -18,7 +18,7 @@ use spunlaid::web::map::{Evidence, Findings};
 pub struct Advised<'a> {
     /// What would make it more even; None if it was not tried.
     pub advice: Option<&'a Advice>,
-    /// What assumed_values matter for it; None if these were not tried.
+    /// What assumed values matter for it; None if these were not tried.
     pub assumed_values: Option<&'a Advice>,
     /// Whether what was not tried is tried next.
     pub awaited: bool,

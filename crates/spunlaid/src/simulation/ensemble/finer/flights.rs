@@ -12,7 +12,8 @@ use std::sync::{Mutex, MutexGuard};
 /// The position across the flow at the recorded instants after the start [m].
 pub(super) type Path = Vec<[f64; 2]>;
 
-/// What one flight of a check has simulated: the numbers of its fibres, and the paths by replicate if they are compared.
+/// What one flight of a check has simulated: the numbers of its fibres, and the paths by replicate if they are
+/// compared.
 #[derive(Debug)]
 pub(super) struct Flight {
     pub(super) trajectories: Vec<Trajectory>,

@@ -37,8 +37,8 @@ const FAR_OF_FEW: f64 = 0.25;
 pub struct LineFilaments {
     /// Filaments per metre of width [1/m].
     pub filaments_per_metre: f64,
-    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The simulated ones
-    /// are spread evenly over this list. Empty if all are fed in the middle.
+    /// Where they are fed, from the middle of the slot in machine direction [m], in increasing order. The simulated
+    /// ones are spread evenly over this list. Empty if all are fed in the middle.
     pub inlets: Vec<f64>,
 }
 

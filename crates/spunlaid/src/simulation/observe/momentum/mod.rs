@@ -318,7 +318,8 @@ const WAYS_OF_STRETCH: f64 = 2.0;
 
 /// Balances of one or more fibres of a case in stretches of time, one after the other.
 ///
-/// Fibres that fly in shared turbulence are not independent of each other, but their stretches are, if these are long enough.
+/// Fibres that fly in shared turbulence are not independent of each other, but their stretches are, if these are long
+/// enough.
 #[derive(Clone, Debug)]
 pub(crate) struct StretchedBalance {
     stretch: f64,

@@ -221,8 +221,8 @@ impl Subsample<'_> {
         Ok(told)
     }
 
-    /// The CV of the map in which the filaments between the simulated ones are filled in, and its blocks; None over patches
-    /// that it does not tell.
+    /// The CV of the map in which the filaments between the simulated ones are filled in, and its blocks; None over
+    /// patches that it does not tell.
     ///
     /// * `few` – CV of the simulated ones alone
     /// * `slot` – part of CV² that filaments of a slot make each for itself
