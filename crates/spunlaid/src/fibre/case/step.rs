@@ -103,8 +103,7 @@ impl Case {
             limits.push(StepLimit { cause: FEEDING, limit });
             if self.run.scheme == Scheme::ImplicitTension && self.air.density > 0.0 && self.air.rms() > 0.0 {
                 // The tensions are found where eddies turn an element little in a step. Flights of spunbond.toml at
-                // 40 % of turbulence were seen to fail at 1.7 times this.                                   
-                // theory.md (63)
+                // 40 % of turbulence were seen to fail at 1.7 times this. theory.md (63)
                 let limit = self.fibre.rest_length() / (12.0 * self.air.rms());
                 limits.push(StepLimit { cause: GUSTS, limit });
             }
