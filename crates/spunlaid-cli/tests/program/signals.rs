@@ -322,7 +322,7 @@ fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
 #[test]
 fn identical_guesses_that_were_interrupted_and_went_on() {
     let desk = Desk::with_case(FED);
-    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\n\
+    let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\nslot_gap = '10 mm'\n[web]\n\
         width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\n\
         assumed = 'line.slot_gap, air.length_scale'\n";
     fs::write(desk.path("web.toml"), web).unwrap();

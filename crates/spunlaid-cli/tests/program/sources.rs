@@ -44,7 +44,7 @@ take_up_speed = '20 m/s'
 element_length = '8 mm'
 ";
 const FILAMENTS: &str =
-    "[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n";
+    "[line]\nfilaments_per_metre = 4000\nslot_gap = '10 mm'\n[web]\nwidth = '0.1 m'\nlength = '0.1 m'\n";
 
 /// Air that slows from 20 to 10 m/s.
 fn velocity(x: f64, y: f64) -> [f64; 3] {

@@ -148,7 +148,7 @@ fn identical_numbers_in_terminal_page_and_files_of_every_command() {
     let case = FED.replace("speed = \"3 m/s\"", "speed = \"10 m/s\"");
     fs::write(desk.path("fed.toml"), case.replace("duration", "spin_up = \"10 ms\"\nduration")).unwrap();
     let web = "[laydown]\ncase = 'fed.toml'\n[line]\nfilaments_per_metre = 2000\n[web]\nwidth = '0.4 m'\nlength = \
-        '0.15 m'\npatches = ['5 mm', '10 mm', '20 mm']\nflown = 250\n";
+        '0.15 m'\npatches = ['5 mm', '10 mm', '20 mm']\nsimulated = 250\n";
     fs::write(desk.path("few.toml"), web).unwrap();
     tells_once(&desk, "web few.toml --advice", "few", [15, 10]);
     let line = sources::desk();

@@ -10,7 +10,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
         Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
-        "filaments_per_metre = 500\ndepth = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\n\
+        "filaments_per_metre = 500\nslot_gap = \"10 mm\"\n[web]\nwidth = \"0.1 m\"\nlength = \"40 mm\"\n\
         patches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
@@ -33,7 +33,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     assert_eq!(advised["web"], summary["web"]);
     let changes = advised["advice"]["changes"].as_array().unwrap();
     let depths: Vec<f64> = (changes.iter())
-        .filter(|change| change["setting"] == "depth")
+        .filter(|change| change["setting"] == "slot_gap")
         .map(|change| change["keys"][0]["to"].as_f64().unwrap())
         .collect();
     assert_eq!(depths, [8e-3, 12e-3]);
@@ -98,7 +98,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let desk = Desk::with_case(&case);
     let web = WEB.replace("= 500", "= 2000").replace(
         "width = \"1 m\"\nlength = \"1 m\"",
-        "width = \"0.6 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\", \"20 mm\"]\nflown = 250",
+        "width = \"0.6 m\"\nlength = \"0.5 m\"\npatches = [\"5 mm\", \"10 mm\", \"20 mm\"]\nsimulated = 250",
     );
     fs::write(desk.path("web.toml"), web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --no-advice --threads 3"));
@@ -173,7 +173,7 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     );
     let web = WEB.replace(
         "filaments_per_metre = 500\n[web]\nwidth = \"1 m\"\nlength = \"1 m\"",
-        "filaments_per_metre = 3000\ndepth = \"10 mm\"\n[web]\nwidth = \"0.3 m\"\nlength = \"40 mm\"\n\
+        "filaments_per_metre = 3000\nslot_gap = \"10 mm\"\n[web]\nwidth = \"0.3 m\"\nlength = \"40 mm\"\n\
         simulated = 40\npatches = [\"5 mm\", \"10 mm\"]",
     );
     fs::write(desk.path("web.toml"), &web).unwrap();

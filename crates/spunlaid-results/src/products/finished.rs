@@ -70,10 +70,10 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     let web = summary.get("web").ok_or_else(|| missing("web"))?;
     let all = web["patches"].as_array().ok_or_else(|| missing("patches of the web"))?;
     let scan = &summary["scan"];
-    let doubt = match &scan["guess"] {
+    let doubt = match &scan["assumed"] {
         // A laid web.
         _ if scan.is_null() => None,
-        Json::Null if scan.get("guess").is_some() => None,
+        Json::Null if scan.get("assumed").is_some() => None,
         guess => {
             let known = Doubt::GUESSES.into_iter().find(|(name, _)| guess.as_str() == Some(name));
             let known = known

@@ -23,7 +23,7 @@ const LONG: [(&str, &str); 2] = [("web.width", "0.3 m"), ("web.length", "1 m")];
 /// The air of spunbond.toml, and where the files of the lines are looked for.
 const CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/web.toml");
 const REST: &str =
-    "[web]\nwidth = \"0.2 m\"\nlength = \"1 m\"\nguessed = \"none\"\n[run]\nduration = \"1 s\"\n";
+    "[web]\nwidth = \"0.2 m\"\nlength = \"1 m\"\nassumed = \"none\"\n[run]\nduration = \"1 s\"\n";
 /// The line of `docs/line.md`.
 const SLOT: &str = r#"
 version = 1

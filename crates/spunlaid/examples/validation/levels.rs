@@ -43,13 +43,13 @@ cell = "1 mm"
 
 /// Lines of several kinds, by what they have beside the filament.
 const LINES: [(&str, &str); 4] = [
-    ("a slot of 20 mm", "[line]\nfilaments_per_metre = 5000\ndepth = \"20 mm\"\n"),
-    ("a slot of 60 mm", "[line]\nfilaments_per_metre = 5000\ndepth = \"60 mm\"\n"),
+    ("a slot of 20 mm", "[line]\nfilaments_per_metre = 5000\nslot_gap = \"20 mm\"\n"),
+    ("a slot of 60 mm", "[line]\nfilaments_per_metre = 5000\nslot_gap = \"60 mm\"\n"),
     ("a row", "[line]\nrows = [{ pitch = \"0.5 mm\", filaments = 2000 }]\n"),
     (
         "two layers",
-        "[[layer]]\n[layer.line]\nfilaments_per_metre = 3000\ndepth = \"20 mm\"\n\
-         [[layer]]\n[layer.line]\nfilaments_per_metre = 3000\ndepth = \"20 mm\"\n",
+        "[[layer]]\n[layer.line]\nfilaments_per_metre = 3000\nslot_gap = \"20 mm\"\n\
+         [[layer]]\n[layer.line]\nfilaments_per_metre = 3000\nslot_gap = \"20 mm\"\n",
     ),
 ];
 

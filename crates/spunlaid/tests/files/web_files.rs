@@ -373,7 +373,7 @@ proptest! {
 
 #[test]
 fn rejects_guesses_that_have_no_half() {
-    let two = LAYERS.replace("[web]", "[web]\nguessed = \"line.throughput\"");
+    let two = LAYERS.replace("[web]", "[web]\nassumed = \"line.throughput\"");
     for (text, assumed, message) in [
         (
             KNOWN,

@@ -66,7 +66,7 @@ fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell(
 /// Its row in other words, on a longer way and a longer sheet.
 fn line(line: &str, web: &str) -> String {
     let (before, after) = WEB.split_once("[line]").unwrap();
-    let web = format!("{line}\n[web]\nwidth = \"160 mm\"\ncell = \"1 mm\"\nflown = 500\n{web}");
+    let web = format!("{line}\n[web]\nwidth = \"160 mm\"\ncell = \"1 mm\"\nsimulated = 500\n{web}");
     assert!(after.contains("[web]"));
     before.replace("30 mm", "60 mm") + &web
 }

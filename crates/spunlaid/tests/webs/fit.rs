@@ -60,7 +60,7 @@ fn identical_from_the_journal_with_values_within_their_intervals() {
 /// A key that changes nothing of what is compared is named, and the others are found all the same.
 #[test]
 fn a_key_without_effect_is_named() {
-    let text = SMALL.replace("filaments_per_metre = 250", "filaments_per_metre = 250\ndepth = \"10 mm\"");
+    let text = SMALL.replace("filaments_per_metre = 250", "filaments_per_metre = 250\nslot_gap = \"10 mm\"");
     let file = read(&text, &["line.slot_gap", "line.filaments_per_metre"]);
     let scan = scanned(&laid(&file, &[0.01, 350.0], 1000));
     let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory()).unwrap();

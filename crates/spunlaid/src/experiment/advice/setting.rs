@@ -37,7 +37,7 @@ pub const DIE_TEMPERATURE: Setting = running("die_temperature", "die temperature
 /// Velocity of the air that cools the filaments of a spinline.
 pub const QUENCH: Setting = running("quench", "quench air");
 /// Size of the slot in machine direction.
-pub const DEPTH: Setting = stopped("depth", "slot gap");
+pub const DEPTH: Setting = stopped("slot_gap", "slot gap");
 /// Places of the rows in machine direction.
 pub const ROW_PLACES: Setting = rebuilt("row_places", "distance of the rows");
 /// Charge per mass that the filaments carry.
@@ -47,7 +47,7 @@ pub const BELT_SPEED: Setting = running("belt_speed", "belt speed");
 /// Mass of the web per area: the belt follows. No advice tries it.
 pub const BASIS_WEIGHT: Setting = running("basis_weight", "basis weight");
 /// None of the machine: a number that is an assumed value, and may be another one than is written.
-pub const ASSUMED: Setting = rebuilt("guess", "assumed value");
+pub const ASSUMED: Setting = rebuilt("assumed", "assumed value");
 
 /// All settings of the machine that advice tries.
 pub const SETTINGS: [Setting; 12] = [

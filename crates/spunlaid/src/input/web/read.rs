@@ -142,7 +142,7 @@ impl Reading<'_> {
     /// * `before` – what comes before the names of the table's keys: `line.`
     pub(super) fn rows(&mut self, before: &str) -> Vec<Row> {
         let [at_random, rows, depth] =
-            ["filaments_per_metre", "rows", "depth"].map(|name| format!("{before}{name}"));
+            ["filaments_per_metre", "rows", "slot_gap"].map(|name| format!("{before}{name}"));
         if self.is_written(&depth) && self.is_written(&rows) {
             self.key_values.reject(&depth, in_rows());
         }

@@ -36,7 +36,7 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
     }
     let (name, title, what) = match are_assumed {
         true => (
-            "web_guesses",
+            "web_assumed_values",
             "Influence of the assumed values",
             "when an assumed value is half or twice as large",
         ),

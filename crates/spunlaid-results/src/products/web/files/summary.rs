@@ -165,7 +165,7 @@ pub fn summary_of_scan(
         web["basis_weight_kg_m2"] = Json::Null;
     }
     let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
-    let about = json!({"file": file, "guess": guess.map(|(name, _)| name)});
+    let about = json!({"file": file, "assumed": guess.map(|(name, _)| name)});
     let parts = json!({
         "web": web,
         "fabric": fabric::summary(fabric),

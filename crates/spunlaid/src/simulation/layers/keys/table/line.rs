@@ -123,7 +123,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .follows("`rows`")
         .varies()
         .meaning(
-            "Filaments per metre of width, at random positions, or with `depth` at a uniform pitch. The \
+            "Filaments per metre of width, at random positions, or with `slot_gap` at a uniform pitch. The \
              nearest whole number is laid.",
         )
         .synonyms(&["holes per metre", "capillaries per metre"])

@@ -176,7 +176,7 @@ pub(super) const KEYS: &[WebKey] = &[
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Assumed values"),
-    key("web.turnable", Kind::Text("throughput, air_speed, depth"))
+    key("web.turnable", Kind::Text("throughput, air_speed, slot_gap"))
         .access(Access {
             get: |web| web.turnable.as_ref().map(|names| names.join(", ").into()),
             set: |web, value| {
