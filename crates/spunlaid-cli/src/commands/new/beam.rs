@@ -51,6 +51,6 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         flow = significant(of_beam * 3600.0, 4),
         in_all = in_all,
         depth = length(value(&given.slot_gap).unwrap_or(DEPTH)),
-        guess = if given.slot_gap.is_none() { ", assumed" } else { "" },
+        assumed = if given.slot_gap.is_none() { ", assumed" } else { "" },
     )
 }
