@@ -25,10 +25,10 @@ const RESULTS: &[&[&str]] = &[
     &["files"],
     &["page"],
     &["folders"],
-    &["products"],
+    &["reports"],
 ];
 
-const PRODUCTS: &[&[&str]] = &[
+const REPORTS: &[&[&str]] = &[
     &["spinline"],
     &["load"],
     &["run"],
@@ -59,8 +59,8 @@ fn rooms_import_only_from_their_left_and_files_not_from_one_another() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut wrong = faults(&crates.join("spunlaid-cli/src"), None, PROGRAM, &["lib", "main"]);
     wrong.extend(faults(&crates.join("spunlaid-results/src"), None, RESULTS, &["lib"]));
-    let products = crates.join("spunlaid-results/src/products");
-    wrong.extend(faults(&products, Some("products"), PRODUCTS, &["mod"]));
+    let reports = crates.join("spunlaid-results/src/reports");
+    wrong.extend(faults(&reports, Some("reports"), REPORTS, &["mod"]));
     wrong.extend(faults(&crates.join("spunlaid-charts/src"), None, CHARTS, &["lib"]));
     for name in ["cli", "live", "results", "charts", "python"] {
         wrong.extend(circles(&crates.join(format!("spunlaid-{name}/src"))));

@@ -15,7 +15,7 @@ use spunlaid::ground::{FileKind, Vec3};
 use spunlaid::input::{
     Overrides, Resources, read_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
-use spunlaid_results::products::air::{POINT_COLUMNS, outside, point_row};
+use spunlaid_results::reports::air::{POINT_COLUMNS, outside, point_row};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -10,7 +10,7 @@ use spunlaid::experiment::{Journal, WebInProgress};
 use spunlaid::ground::RunContext;
 use spunlaid::input::{Overrides, Resources, read_fit};
 use spunlaid_results::folders::Contents;
-use spunlaid_results::products::fit::{self as folder, FitInput, sentences};
+use spunlaid_results::reports::fit::{self as folder, FitInput, sentences};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};

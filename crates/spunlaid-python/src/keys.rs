@@ -7,8 +7,8 @@ use spunlaid::fibre::case::keys::{CASE, Key, KeyTable, Omission};
 use spunlaid::ground::Removed;
 use spunlaid::ground::units::udunits;
 use spunlaid::simulation::{FibreMeasure, MEASURES, WEB};
-use spunlaid_results::products::run::unit_of_column;
-use spunlaid_results::products::study::Scale;
+use spunlaid_results::reports::run::unit_of_column;
+use spunlaid_results::reports::study::Scale;
 use std::ffi::OsString;
 
 /// Every key of a case or of a web: the fields of `spunlaid.Key`. See spunlaid.keys, which calls it.

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::air::record::{analyse as analysed, read_record};
 use spunlaid::air::{Component, IntegralRule, Layout, Reading, Record, Samples, Settings};
 use spunlaid::ground::{Dimension, Error};
-use spunlaid_results::products::record::{air_block, analysis_json};
+use spunlaid_results::reports::record::{air_block, analysis_json};
 use std::path::PathBuf;
 
 /// What a record is read from.

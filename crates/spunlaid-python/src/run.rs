@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::products::run::{Flights, RunFolder, fly as simulated, found};
+use spunlaid_results::reports::run::{Flights, RunFolder, fly as simulated, found};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;

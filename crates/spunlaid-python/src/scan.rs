@@ -10,7 +10,7 @@ use pyo3::types::{PyBytes, PyDict};
 use spunlaid::ground::{Dimension, Error};
 use spunlaid::web::scan::{is_picture_file, parse};
 use spunlaid::web::{LightKind, ScanRequest};
-use spunlaid_results::products::scan::ScanFolder;
+use spunlaid_results::reports::scan::ScanFolder;
 use std::path::PathBuf;
 use std::time::Instant;
 

@@ -22,7 +22,7 @@ use spunlaid::input::{
 };
 use spunlaid::simulation::WebSpec;
 use spunlaid_results::Failure;
-use spunlaid_results::products::study::{self as folder, Scale};
+use spunlaid_results::reports::study::{self as folder, Scale};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};

@@ -8,7 +8,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
 use spunlaid::fibre::case::keys::{self, Kind, Value};
 use spunlaid::ground::{Dimension, Error, Fault, Vec3};
 use spunlaid::simulation::layers::web_key;
-use spunlaid_results::products::study::Scale;
+use spunlaid_results::reports::study::Scale;
 use std::path::PathBuf;
 
 /// Keys and values as overrides of the file of a case or of a web, in their order: `{"air.velocity": "20 m/s"}`, or

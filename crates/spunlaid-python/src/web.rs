@@ -13,7 +13,7 @@ use spunlaid::ground::{FileKind, Measure, measure};
 use spunlaid::input::{Changes, Overrides, read_changes, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid::web::{PATCH_MEASURES, SCANNED_PATCH_MEASURES};
-use spunlaid_results::products::web::WebFolder;
+use spunlaid_results::reports::web::WebFolder;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;

@@ -2,9 +2,9 @@
 //! at all.
 //!
 //! ```text
-//! figures, files, page, folders – what all products share: charts with spunlaid-charts, files of a folder,
+//! figures, files, page, folders – what all reports share: charts with spunlaid-charts, files of a folder,
 //!   a page, and the one way in which a folder is written
-//! products – each has its figures, files, report and folder
+//! reports – each has its figures, files, report and folder
 //! ```
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
@@ -25,6 +25,6 @@ pub mod page;
 
 pub mod folders;
 
-pub mod products;
+pub mod reports;
 
 pub use failure::Failure;

@@ -123,7 +123,9 @@ fn written(family: Family, random: &mut Random<'_>) -> String {
 fn holes(width: f64, per_metre: f64, random: &mut Random<'_>) -> String {
     match random.below(3) {
         0 => format!("filaments_per_metre = {per_metre:.0}\n"),
-        1 => format!("filaments_per_metre = {per_metre:.0}\nslot_gap = \"{} mm\"\n", random.between(5.0, 60.0)),
+        1 => {
+            format!("filaments_per_metre = {per_metre:.0}\nslot_gap = \"{} mm\"\n", random.between(5.0, 60.0))
+        }
         _ => {
             let rows = 1 + random.below(3);
             let filaments = (width * per_metre / rows as f64).ceil();

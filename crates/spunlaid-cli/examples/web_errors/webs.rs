@@ -5,7 +5,7 @@ use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::{WebFile, read_web};
 use spunlaid::simulation::Flyer;
 use spunlaid_results::folders::Contents;
-use spunlaid_results::products::web::WebFolder;
+use spunlaid_results::reports::web::WebFolder;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 

@@ -8,8 +8,8 @@ use crate::say;
 use spunlaid::air::record::read_record;
 use spunlaid::ground::{Fault, FileError, Problem};
 use spunlaid::web::scan::{columns_of_map, is_picture_file};
-use spunlaid_results::products::record::RecordFolder;
-use spunlaid_results::products::scan::ScanFolder;
+use spunlaid_results::reports::record::RecordFolder;
+use spunlaid_results::reports::scan::ScanFolder;
 use std::time::Instant;
 
 pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::perform_words;
 use spunlaid::ground::FileKind;
 use spunlaid::input::kind_of;
-use spunlaid_results::products::comparison::{ComparedFolders, Folders};
+use spunlaid_results::reports::comparison::{ComparedFolders, Folders};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 

@@ -9,7 +9,7 @@ use crate::{progress, say};
 use spunlaid::experiment::{Journal, WebInProgress};
 use spunlaid::ground::Error;
 use spunlaid::input::{Resources, read_fit};
-use spunlaid_results::products::fit::{self, FitInput, FoundFit, pretty};
+use spunlaid_results::reports::fit::{self, FitInput, FoundFit, pretty};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {

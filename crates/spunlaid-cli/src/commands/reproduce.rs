@@ -9,7 +9,7 @@ use crate::progress;
 use spunlaid::ground::Fault;
 use spunlaid::input::paper::table1;
 use spunlaid_results::files::pictures::Format;
-use spunlaid_results::products::paper::{FIGURES, PaperFlights, PaperFolder};
+use spunlaid_results::reports::paper::{FIGURES, PaperFlights, PaperFolder};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Result<(), Failure> {

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::ground::FileKind;
 use spunlaid::input::{Resources, read_spinline};
-use spunlaid_results::products::spinline::SpinFolder;
+use spunlaid_results::reports::spinline::SpinFolder;
 
 pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> {
     let set = overrides(&spin.set);

@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Root};
 use spunlaid::ground::{Dimension, WIDTH};
-use spunlaid_results::products::spinline::files::filament;
+use spunlaid_results::reports::spinline::files::filament;
 use std::time::Instant;
 
 impl Session {

@@ -1,4 +1,4 @@
-//! What the figures of several products share.
+//! What the figures of several reports share.
 
 pub(crate) mod drag_laws;
 pub(crate) mod effects;

@@ -1,4 +1,4 @@
-//! The files of a results folder that several products share.
+//! The files of a results folder that several reports share.
 
 pub mod folder;
 pub mod kept_input;

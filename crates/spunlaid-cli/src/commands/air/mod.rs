@@ -13,7 +13,7 @@ use spunlaid::air::Lateral;
 use spunlaid::fibre::Remark;
 use spunlaid::ground::{Fault, FileError, Problem};
 use spunlaid::input::Resources;
-use spunlaid_results::products::air::{AirFolder, AirViews, Slices};
+use spunlaid_results::reports::air::{AirFolder, AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 
 /// What a reader is told of a case whose fibres have turbulence of their own.

@@ -6,7 +6,7 @@ use crate::file::check_file;
 use crate::say;
 use spunlaid::ground::{Error, Problem};
 use spunlaid::input::{Resources, read_points};
-use spunlaid_results::products::air::{outside, points_csv};
+use spunlaid_results::reports::air::{outside, points_csv};
 use std::fs;
 use std::path::Path;
 

@@ -11,7 +11,7 @@ use spunlaid::ground::{Error, Fault, FileKind, Problem};
 use spunlaid::input::{WebSpec, kind_of, read_web};
 use spunlaid::simulation::{LineFilaments, Sources};
 use spunlaid_results::files::kept_input::Input;
-use spunlaid_results::products::sources::SourcesFolder;
+use spunlaid_results::reports::sources::SourcesFolder;
 use std::sync::atomic::AtomicU64;
 
 pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure> {

@@ -5,9 +5,9 @@ use crate::args::{Check, Threads, overrides};
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::input::{Changes, read_changes, read_spinline, read_web, write_case, write_spinline};
-use spunlaid_results::products::run::about_case;
-use spunlaid_results::products::spinline::{SpinResults, spinline_text};
-use spunlaid_results::products::web::{about_web, expected_of_web};
+use spunlaid_results::reports::run::about_case;
+use spunlaid_results::reports::spinline::{SpinResults, spinline_text};
+use spunlaid_results::reports::web::{about_web, expected_of_web};
 use std::time::Instant;
 
 /// Checks a case.

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::say;
 use spunlaid::experiment::{Point, Study};
 use spunlaid::input::read_study;
-use spunlaid_results::products::web::numbers_of_line;
+use spunlaid_results::reports::web::numbers_of_line;
 
 /// Checks the file of a study.
 pub(super) fn study(check: &Check) -> Result<(), Failure> {

@@ -13,7 +13,7 @@ use spunlaid::experiment::{Journal, Progress};
 use spunlaid::ground::threads::unlock;
 use spunlaid::input::{Resources, StudyChanges, StudyFile, read_study};
 use spunlaid_results::folders::JournalFolder;
-use spunlaid_results::products::study::{self, lost};
+use spunlaid_results::reports::study::{self, lost};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 use told::{print_point, say_begun, state};

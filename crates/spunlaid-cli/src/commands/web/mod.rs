@@ -15,7 +15,7 @@ use spunlaid::ground::Error;
 use spunlaid::input::{Resources, read_web};
 use spunlaid::simulation::{Flights, Flyer};
 use spunlaid_results::numbers::significant;
-use spunlaid_results::products::web::WebFolder;
+use spunlaid_results::reports::web::WebFolder;
 use std::fs;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;

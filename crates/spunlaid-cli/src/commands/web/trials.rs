@@ -10,7 +10,7 @@ use spunlaid::experiment::{Change, MOST_STEPS};
 use spunlaid::ground::RunContext;
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes};
 use spunlaid::web::map::Findings;
-use spunlaid_results::products::web::WebFolder;
+use spunlaid_results::reports::web::WebFolder;
 use std::fs;
 
 /// AssumedValues and changes of the line: what a trial is, of what, and what leaves it out.

@@ -7,7 +7,7 @@ use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, steps};
 use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES};
 use spunlaid::ground::{Error, Log, RunContext};
-use spunlaid_results::products::web::WebFolder;
+use spunlaid_results::reports::web::WebFolder;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;

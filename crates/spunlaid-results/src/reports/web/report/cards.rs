@@ -1,0 +1,125 @@
+//! The first screen of a web: what is asked of a line, answered in rows, in the words of its plant.
+
+use super::scale;
+use super::scale::{Judged, Scale};
+use crate::Failure;
+use crate::numbers::{THIN, significant};
+use crate::page::document::{Section, View};
+use crate::page::table::{Layout, Row, Table};
+use crate::page::words::{grams, grams_with_error};
+use crate::reports::web::files::effects::HOUR;
+use crate::reports::web::files::fabric::fabric_rows;
+use crate::reports::web::files::summary::Layer;
+use spunlaid::experiment::plausible::implausible;
+use spunlaid::fibre::body::diameter_of;
+use spunlaid::ground::Dimension;
+use spunlaid::simulation::{LayerSpec, WebSpec};
+use spunlaid::web::map::Findings;
+use spunlaid::web::{Fabric, Map};
+
+/// What is asked, the answers, and what is to be said of them.
+#[derive(Debug)]
+pub(crate) struct Card {
+    pub(crate) id: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) rows: Vec<Row>,
+    /// Rows under a heading of their own; without rows, there is no heading.
+    pub(crate) apart: (&'static str, Vec<Row>),
+    pub(crate) words: Vec<String>,
+}
+
+impl From<Card> for Section<'static> {
+    fn from(Card { id, title, rows, apart: (heading, apart), words }: Card) -> Self {
+        let table = Table::new(["", ""]).laid_out(Layout::Facts).rows(rows);
+        let table = if apart.is_empty() { table } else { table.group(heading.to_owned(), apart) };
+        Section::new(id, title).table(table).paragraphs(words).told().card()
+    }
+}
+
+/// Most kinds of layers whose filaments have rows of their own.
+const MOST_LAYERS: usize = 3;
+
+/// The line itself, and whether it is one.
+pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
+    let row = |name: &str, value: String| Row::new(name, [value]);
+    let made = spec.weight();
+    let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
+    let piece = format!("this piece {}; {faster}", grams_with_error(findings.basis_weight()));
+    let mut rows = vec![
+        row("Per metre of width", shown(HOUR * spec.mass_flow(), "kg/h")),
+        row("Belt", speed(spec.belt_speed())),
+        row("Basis weight", grams(made)).detail(piece),
+    ];
+    let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
+    let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
+    // Equal layers are shown once.
+    let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
+    let is_one_kind = kinds.clone().count() == 1;
+    if is_one_kind && all.len() > 1 {
+        rows.push(row("Beams", format!("{}, alike", all.len())));
+    }
+    for kind in kinds.take(MOST_LAYERS).map(|i| &all[i]) {
+        let alike = layers.iter().zip(&all).filter(|(_, other)| *other == kind);
+        let names: Vec<&str> = alike.map(|(layer, _)| layer.name.as_str()).collect();
+        let of = if is_one_kind { String::new() } else { format!(" of layer {}", names.join(", ")) };
+        rows.extend(kind.iter().map(|(name, value)| row(&format!("{name}{of}"), value.clone())));
+    }
+    let doubts = implausible(spec);
+    rows.push(row(
+        "Plausible",
+        if doubts.is_empty() { "yes, as lines are known to be" } else { "doubtful" }.to_owned(),
+    ));
+    let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
+    Card { id: "line", title: "The line", rows, apart: Default::default(), words }
+}
+
+fn shown(value: f64, unit: &str) -> String {
+    format!("{}{THIN}{unit}", significant(value, 3))
+}
+
+fn speed(speed: f64) -> String {
+    format!("{}{THIN}m/min ({})", significant(60.0 * speed, 4), shown(speed, "m/s"))
+}
+
+/// The numbers of a layer, with their names.
+///
+/// * `density` – of its filaments [kg/m³]
+/// * `width` – of the sheet [m]
+fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String)> {
+    let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
+    let size = diameter_of(titre, density);
+    let holes = significant(layer.filaments as f64 / width, 4);
+    let slot =
+        layer.air_at_slot_m_s.map_or_else(String::new, |air| format!(", {} at the slot", shown(air, "m/s")));
+    let cabin = layer.cabin_pressure_pa.map(|cabin| {
+        let cabin = Dimension::Pressure.pretty_to(cabin, 4).replace(' ', &THIN.to_string());
+        ("Cabin pressure", cabin + &slot)
+    });
+    let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
+    let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
+    let rows = [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)];
+    rows.into_iter().chain(cabin).collect()
+}
+
+/// By how much faster a belt is told of [%].
+const FASTER: f64 = 10.0;
+
+/// What a buyer counts.
+pub(crate) fn fabric(fabric: &Fabric) -> Card {
+    let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
+    let (apart, words) = (Default::default(), fabric.notes.clone());
+    Card { id: "buyer", title: "What a buyer counts", rows, apart, words }
+}
+
+/// The scale as a card; without pictures if the web is too small for them.
+///
+/// # Errors
+/// If a picture cannot be drawn.
+pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, Failure> {
+    let section = Section::new("scale", "How uniform is that?");
+    let section = match Scale::new(map, judged)? {
+        Some(scale) => section.view(View::new(&scale, &[])),
+        None => section,
+    };
+    Ok(section.paragraph(scale::words(judged)).told().picture())
+}
