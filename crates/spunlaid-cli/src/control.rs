@@ -35,7 +35,7 @@ pub(crate) fn settled_with<T>(
     quiet: bool,
     read: impl Fn(&Resources) -> Result<T, Error>,
 ) -> Result<T, Error> {
-    resources.settle(read, |resources| {
+    resources.resolve_tension(read, |resources| {
         let (done, most) = (AtomicU64::new(0), resources.most_steps());
         let label = match resources.wanted() {
             1 => "simulating the tension at the end of the spinline".to_owned(),

@@ -51,7 +51,7 @@ pub struct AirAround {
 }
 
 #[derive(Debug)]
-pub(super) struct Bricks {
+pub(super) struct OctreeCache {
     low: [f64; 3],
     high: [f64; 3],
     /// Side of an undivided brick.
@@ -98,7 +98,7 @@ struct PlaceInBrick {
     divisions: u32,
 }
 
-impl Bricks {
+impl OctreeCache {
     pub(super) fn new((low, high): ([f64; 3], [f64; 3])) -> Self {
         let extent = [0, 1, 2].map(|axis| high[axis] - low[axis]);
         let longest = extent.into_iter().fold(0.0, f64::max);

@@ -83,7 +83,7 @@ mod read;
 mod tree;
 
 pub use bricks::AirAround;
-use bricks::Bricks;
+use bricks::OctreeCache;
 pub use cells_of_file::{BlockKind, FieldCells};
 pub use evenness::{Overview, Spread};
 use holes::Holes;
@@ -109,7 +109,7 @@ const ROUNDING: f64 = 1e-9;
 pub struct Field {
     support: Support,
     turbulence: bool,
-    bricks: Bricks,
+    bricks: OctreeCache,
     /// Why there is no turbulence, if it was read from a file.
     lacks: Option<Fault>,
     /// What was read from a file, and from which arrays.
@@ -250,7 +250,7 @@ impl Field {
     fn thinned(mut self) -> Self {
         if let Support::Lattice(lattice) = self.support {
             self.support = Support::Lattice(lattice.thinned());
-            self.bricks = Bricks::new(self.support.bounds());
+            self.bricks = OctreeCache::new(self.support.bounds());
         }
         self
     }
@@ -292,7 +292,7 @@ impl Field {
     }
 
     fn new(support: Support, values: &Values) -> Self {
-        let bricks = Bricks::new(support.bounds());
+        let bricks = OctreeCache::new(support.bounds());
         let (sources, layout) = (Vec::new(), FieldLayout::default());
         let (turbulence, lacks, holes, measured_coordinate) = (values.has_turbulence(), None, None, None);
         let changes = OnceLock::new();

@@ -64,7 +64,7 @@ pub(crate) fn find_fit(
         let by = RunContext { done: &aside, ..watch.control(threads) };
         let web = |values: &[f64]| {
             let read = |resources: &Resources| file.web(values, resources);
-            Resources::default().settle(read, |resources| resources.fly(by))
+            Resources::default().resolve_tension(read, |resources| resources.fly(by))
         };
         let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
         let found = input.find(&web, by, &mut journal, &tell)?;

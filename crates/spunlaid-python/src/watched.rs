@@ -125,7 +125,7 @@ pub(crate) fn settled<T: Send>(
     let watch = Watch::default();
     watched(py, &watch, None, || {
         let by = watch.control(threads);
-        Resources::default().settle(read, |resources| resources.fly(by))
+        Resources::default().resolve_tension(read, |resources| resources.fly(by))
     })
 }
 

@@ -21,7 +21,7 @@ use flights::{Difference, compare, trajectories_of};
 use measure::{Trial, in_rounds, processor_time};
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Fibre, Flight, Root, Strand};
+use spunlaid::fibre::{Case, Fibre, FibreParameters, Flight, Root};
 use spunlaid::ground::{Isa, WIDTH};
 use spunlaid::simulation::Trajectory;
 use std::fmt::Write as _;
@@ -64,7 +64,7 @@ fn forces() -> String {
     {
         let fibre = Fibre { root: Root::Free, ..fibre };
         let drag = paper_drag().element_drag(&fibre, 1.204, 1.51e-5);
-        let strand = Strand { fibre, drag, gravity: 9.81, damping: 0.0 };
+        let strand = FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 };
         let (mut at, mut heading) = (V::default(), X);
         let mut position = vec![at];
         for j in 0..fibre.elements {

@@ -27,7 +27,7 @@
 //! let changes = changes.map(|(key, value)| (key.to_owned(), value.to_owned()));
 //! let (stop, progress) = (AtomicBool::new(false), AtomicU64::new(0));
 //! let computing = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &progress };
-//! // No reader flies fibres. `Resources::settle` flies for a spinline that ends at the tension of its fibre.
+//! // No reader flies fibres. `Resources::resolve_tension` flies for a spinline that ends at the tension of its fibre.
 //! let (case, _notes) = read_case((starter_case(), "starter.toml"), &changes)?;
 //!
 //! let mut results = Results::collector(0);

@@ -13,7 +13,7 @@ mod vtk;
 use common::*;
 use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, Lateral, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Flight, Strand};
+use spunlaid::fibre::{Case, FibreParameters, Flight};
 use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::input::read_case;
 use spunlaid::simulation::ensemble::fly_together;
@@ -172,7 +172,7 @@ fn steps_ask_for_no_memory() {
         let eddies = Eddies::along(1.0, 20, 0.05);
         let stream = [(case.air.clone(), StreamKey { seed: 1, replicate: 0 })];
         let turbulence = Wind::uniform(Isa::detect(), &stream, 20, 0.1).expect("fibres that agree");
-        let strands: [Strand; 1] = [case.strand()];
+        let strands: [FibreParameters; 1] = [case.strand()];
         let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
             .expect("fibres that agree");
         // As much for one step as for a hundred: none for a step itself.

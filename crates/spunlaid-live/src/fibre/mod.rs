@@ -208,7 +208,7 @@ impl Session {
         }
         self.show_frame();
         if self.statistics_shown.elapsed() >= TELLING {
-            self.tell();
+            self.send_statistics();
         }
     }
 

@@ -25,7 +25,7 @@ impl Session {
         self.board.show_picture(frame);
     }
 
-    pub(super) fn tell(&mut self) {
+    pub(super) fn send_statistics(&mut self) {
         self.statistics_shown = Instant::now();
         let statistics = self.measured.message(self.generation, self.fibres.flight());
         self.board.show_text(Topic::Numbers, serde_json::to_string(&statistics).unwrap_or_default());
@@ -39,7 +39,7 @@ impl Session {
             self.board.show_text(Topic::Keys, offered);
         }
         self.board.show_text(Topic::State, self.state(case).to_string());
-        self.tell();
+        self.send_statistics();
         self.show_frame();
     }
 

@@ -48,7 +48,7 @@ impl Drop for TensionSearch {
 
 fn fly(document: &Document, stop: &AtomicBool) -> Result<CaseWithNotes, Error> {
     let by = RunContext { threads: 1, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
-    Resources::default().settle(|resources| document.case(resources), |resources| resources.fly(by))
+    Resources::default().resolve_tension(|resources| document.case(resources), |resources| resources.fly(by))
 }
 
 impl Session {

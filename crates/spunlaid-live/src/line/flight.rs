@@ -103,7 +103,7 @@ impl Pilot {
             Work::Settle(turns) => {
                 let file = Arc::clone(&self.file);
                 let read = |resources: &Resources| file.turned(&turns, resources);
-                let line = self.resources.settle(read, |resources| resources.fly(by))?;
+                let line = self.resources.resolve_tension(read, |resources| resources.fly(by))?;
                 return Ok(End::Settled(Box::new(line)));
             }
             Work::Pin(spec) => {
@@ -146,7 +146,7 @@ impl Pilot {
     ) -> Result<(), Error> {
         let name = &self.name;
         let read = |resources: &Resources| Ok(read_line(text, name, resources)?.changes());
-        let changes = self.resources.settle(read, |resources| resources.fly(by))?;
+        let changes = self.resources.resolve_tension(read, |resources| resources.fly(by))?;
         let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
         let mut left: Vec<(usize, Change)> = one_of_each(changes.into_iter().enumerate());
         left.retain(|(place, _)| !tried.contains(place));

@@ -120,7 +120,7 @@ impl Session {
             let line = file.turned(&[], resources)?;
             Ok::<_, Error>((file, line))
         };
-        let (file, line) = resources.settle(read, |resources| resources.fly(by))?;
+        let (file, line) = resources.resolve_tension(read, |resources| resources.fly(by))?;
         if !line.spec.flies() {
             let what = format!(
                 "{name} is a web of known numbers: nothing of it is simulated that a page could show"

@@ -6,7 +6,7 @@ use crate::Failure;
 use spunlaid::fibre::Case;
 use spunlaid::ground::Vec3;
 use spunlaid::simulation::{Shape, Trajectory};
-use spunlaid::web::Strand;
+use spunlaid::web::WindowCurve;
 use std::fmt;
 use std::fmt::Write;
 
@@ -69,8 +69,8 @@ pub fn write_laid(staging: &Staging<'_>, trajectories: &[Trajectory]) -> Result<
 
 /// Writes `fibres.vtp`: a line for each piece of fibre, in machine direction (x) and cross direction (y) from
 /// the window's corner [m].
-pub fn write_strands(staging: &Staging<'_>, strands: &[Strand]) -> Result<(), Failure> {
-    let line = |strand: &Strand| Polyline {
+pub fn write_strands(staging: &Staging<'_>, strands: &[WindowCurve]) -> Result<(), Failure> {
+    let line = |strand: &WindowCurve| Polyline {
         number: strand.layer as u64 + 1,
         points: strand.points.iter().map(|[cd, md]| Vec3::new(*md, *cd, 0.0)).collect(),
         data: vec![vec![strand.filament as f64 + 1.0; strand.points.len()]],

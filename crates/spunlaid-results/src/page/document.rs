@@ -209,7 +209,7 @@ impl<'a> Section<'a> {
     }
 
     /// Shown by a terminal too, and not folded on the page.
-    pub(crate) fn told(self) -> Self {
+    pub(crate) fn printed(self) -> Self {
         self.open().both()
     }
 

@@ -164,7 +164,8 @@ mod tests {
         let rows = [Row::new("a", ["10\u{202f}mm", "as it was"]), Row::new("long", ["5", ""])];
         let section = Section::new("x", "Values").paragraph("All.").table(Table::of(columns).rows(rows));
         let page = Section::new("y", "Only on the page").paragraph("Much more.");
-        let report = Report::new("run", "Found.").lead("See [values](#x).").with(section.told()).with(page);
+        let report =
+            Report::new("run", "Found.").lead("See [values](#x).").with(section.printed()).with(page);
         let whole = "Found.\n\nValues\nAll.\n  Key   Value  How\n  a     10 mm  as it was\n  long      5\n";
         assert_eq!(report.text(80), whole);
     }

@@ -5,7 +5,7 @@ use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, Flight, Strand};
+use spunlaid::fibre::{Fibre, FibreParameters, Flight};
 use spunlaid::ground::{Isa, WIDTH};
 
 /// The step each scheme is simulated with: the paper's, and those with a like error or better.
@@ -19,7 +19,7 @@ pub const STEPS: [(Scheme, f64); 5] = [
 
 /// A fibre in its turbulence, to be simulated again and again from the same state.
 pub struct Setup {
-    strand: Strand,
+    strand: FibreParameters,
     eddies: Eddies,
     turbulence: Wind,
     h: f64,
@@ -40,7 +40,7 @@ impl Setup {
         let turbulence =
             Wind::uniform(Isa::detect(), &streams, eddies.count(), horizon).expect("fibres that agree");
         let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
-        Self { strand: Strand { fibre, drag, gravity: 9.81, damping }, eddies, turbulence, h, steps }
+        Self { strand: FibreParameters { fibre, drag, gravity: 9.81, damping }, eddies, turbulence, h, steps }
     }
 
     /// Table 1 as it is.

@@ -196,7 +196,7 @@ fn compare(base: &WebSpec, told: &[Told], like: &WebSpec, (seeds, threads): (usi
         };
         let (_, findings) = lay(&long, 1);
         let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
-        seen.and_then(|seen| findings.patches[seen].told()).map(|told| told.cv)
+        seen.and_then(|seen| findings.patches[seen].reported()).map(|told| told.cv)
     });
     let of = |web: usize| &cvs[web * seeds..][..seeds];
     println!(

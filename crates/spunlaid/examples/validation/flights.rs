@@ -4,7 +4,7 @@ use crate::common::*;
 use crate::title;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Flight, FrictionLaw, Snapshot, Strand};
+use spunlaid::fibre::{Case, FibreParameters, Flight, FrictionLaw, Snapshot};
 use spunlaid::ground::{Error, Estimate, Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::fly;
 use spunlaid::simulation::{Number, Recorded, Results};
@@ -39,7 +39,7 @@ fn simulated(scheme: Scheme, h: f64, duration: f64) -> (Snapshot, Snapshot) {
     let turbulence = Wind::uniform(Isa::detect(), &streams, eddies.count(), duration + 2.0 * h)
         .expect("fibres that agree");
     let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
-    let strands = [Strand { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];
+    let strands = [FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 }; WIDTH];
     let mut flight = Flight::assembled(Isa::detect(), &strands, (&eddies, &turbulence), scheme, h)
         .expect("fibres that agree");
     flight.advance((duration / h).round() as u64);

@@ -69,7 +69,7 @@ fn find(spec: &WebSpec) -> Found {
     let of_side = |side: &f64| {
         let patch = found.patches.iter().find(|patch| (patch.map.patch / side - 1.0).abs() < 1e-6);
         patch
-            .and_then(|patch| Some([patch.told()?.cv, patch.total_error().whole()?]))
+            .and_then(|patch| Some([patch.reported()?.cv, patch.total_error().whole()?]))
             .unwrap_or([f64::NAN; 2])
     };
     Found { cvs: SIDES.iter().map(of_side).collect(), time }

@@ -6,17 +6,17 @@ use crate::common::reference::{ReferenceDrag, forces as scalar_forces};
 use crate::common::*;
 use crate::title;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::fibre::{Fibre, FibreParameters, Flight, Root};
 use spunlaid::ground::{Isa, Vec3};
 use std::f64::consts::PI;
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };
 
-fn stubby(root: Root) -> Strand {
+fn stubby(root: Root) -> FibreParameters {
     let fibre =
         Fibre { length: 0.05, diameter: 300e-6, youngs_modulus: 1e6, elements: 10, root, ..table1_fibre() };
     let drag = paper_drag().element_drag(&fibre, AIR.air_density, AIR.viscosity);
-    Strand { fibre, drag, gravity: 9.81, damping: 0.0 }
+    FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 }
 }
 
 pub fn forces() {

@@ -29,15 +29,15 @@ pub use case::{
     Case, Checks, ERROR_TOLERANCE, FLIGHT_MEMORY_LIMIT, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run,
     StepChoice,
 };
-pub use chain::Strand;
+pub use chain::FibreParameters;
 pub use charge::{BREAKDOWN, Charge, ChargeEstimate, SheetHeight};
 pub(crate) use charge::{ChargedNode, STRONG, SheetField, Sheets};
 pub use drag::{
     BoundaryLayer, Drag, DragTable, ElementDrag, FrictionLaw, Growth, NormalLaw, Share, Source, TableLaw,
 };
 pub use energy::Energy;
-pub(crate) use flight::{Common, SurroundingRun};
 pub use flight::{EndNodeMotion, Flight, Job, LaidPoint, Snapshot};
+pub(crate) use flight::{FlightInvariants, SurroundingRun};
 pub use line::{Contact, Line};
 pub use load::{Heat, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
 pub use spinline::{

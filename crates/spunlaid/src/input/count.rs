@@ -25,7 +25,7 @@ impl OpenCase {
     pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Note>), Error> {
         self.spin()?;
         let fibre = &self.case.fibre;
-        self.case.air.settle(fibre.direction * fibre.length);
+        self.case.air.settle_along(fibre.direction * fibre.length);
         self.count_elements();
         let chosen = self.find_step();
         self.count_steps()?;

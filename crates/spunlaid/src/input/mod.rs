@@ -75,7 +75,7 @@ impl<'a> Overrides<'a> {
         Self { values, word, resources: None }
     }
 
-    /// The same for a reading with what is known from readings before: [`Resources::settle`] reads so.
+    /// The same for a reading with what is known from readings before: [`Resources::resolve_tension`] reads so.
     #[must_use]
     pub const fn with(self, resources: &'a Resources) -> Self {
         Self { resources: Some(resources), ..self }
@@ -94,7 +94,7 @@ impl<'a, T: AsRef<[(String, String)]> + ?Sized> From<&'a T> for Overrides<'a> {
 ///   [`Overrides`]
 ///
 /// Returns the case, with notes and warnings about it. A tension of flights at the end of its spinline is 0 N
-/// until [`Resources::settle`] has found it, which a note says.
+/// until [`Resources::resolve_tension`] has found it, which a note says.
 ///
 /// # Errors
 /// If the file cannot be read, or if the case cannot be run; then with every problem found.

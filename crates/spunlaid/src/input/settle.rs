@@ -1,6 +1,6 @@
 //! The tension at the end of a spinline from flights of the fibre below it: fly, feed the mean tension at the
 //! root back, solve the spinline again, until the speed stands. No reader flies: a file is read with tensions
-//! of 0 N, [`Resources::settle`] flies what is wanted, and the file is read again.
+//! of 0 N, [`Resources::resolve_tension`] flies what is wanted, and the file is read again.
 
 use super::data::DataFiles;
 use super::open::OpenCase;
@@ -53,7 +53,7 @@ impl Resources {
     ///
     /// # Errors
     /// Those of both.
-    pub fn settle<T, E>(
+    pub fn resolve_tension<T, E>(
         &mut self,
         read: impl Fn(&Self) -> Result<T, E>,
         mut fly: impl FnMut(&mut Self) -> Result<(), E>,

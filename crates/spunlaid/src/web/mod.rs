@@ -27,12 +27,12 @@ pub use fabric::{
 pub use laydown::{Footprint, LaidCurve, Trace, TraceSettings};
 pub(crate) use map::{
     Arrangement, DepositionGrid, Depositor, ExpectedCv, FEWEST_OF_FEW, FilledMaps, LEAST_SAVING, OneAir,
-    Strands, Subsample, TRIED, Titres, WindowOnSheet,
+    Subsample, TRIED, Titres, WindowCurves, WindowOnSheet,
 };
 pub use map::{
     ChargedCurtain, Clouds, Correlation, Curves, Defect, Edges, Fibres, FlownFibres, LaidWeb, Layer,
-    LayerFlown, Map, NeighbourCorrelation, OneFibre, PATCH_MEASURES, Row, Sheet, Strand, SubsampleCv,
-    SubsampleEstimate, SubsampleWarning, TimeSpent, WEB_MEASURES, Web, Window,
+    LayerFlown, Map, NeighbourCorrelation, OneFibre, PATCH_MEASURES, Row, Sheet, SubsampleCv,
+    SubsampleEstimate, SubsampleWarning, TimeSpent, WEB_MEASURES, Web, Window, WindowCurve,
 };
 pub use scan::{
     CELL, FEWEST, Format, Light, LightKind, Picture, SCAN_MEASURES, SCAN_PERIOD_MEASURES,

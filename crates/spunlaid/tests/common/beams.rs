@@ -2,7 +2,7 @@
 
 use super::*;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::fibre::{Fibre, FibreParameters, Flight, Root};
 use spunlaid::ground::{Isa, Lanes, Vec3, WIDTH};
 
 /// A beam along y, so slender that it bends and hardly stretches: `(d/L)² α/16` is a strain of 1e-5 at most.
@@ -26,8 +26,10 @@ pub fn at_rest(elements: usize, tip_load: [f64; WIDTH], gravity: [f64; WIDTH]) -
     // First mode: 3.516 √(EI/ρA)/L² = 0.88 rad/s; damping near critical for it stops everything.
     let stiffness = fibre.youngs_modulus * fibre.second_moment();
     let w1 = 3.516 * (stiffness / (fibre.density * fibre.cross_section())).sqrt();
-    let strands: Vec<Strand> =
-        gravity.iter().map(|&g| Strand { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 }).collect();
+    let strands: Vec<FibreParameters> = gravity
+        .iter()
+        .map(|&g| FibreParameters { fibre, drag: NO_DRAG, gravity: g, damping: 2.0 * w1 })
+        .collect();
     let h = 0.6 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 25.0 / w1;
     let (eddies, turbulence) = steady_air(0.0, elements, duration);

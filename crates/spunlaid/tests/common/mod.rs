@@ -10,7 +10,7 @@ pub mod reference;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{
-    Case, Drag, ElementDrag, Fibre, Flight, FrictionLaw, Growth, NormalLaw, Root, Run, Share, Strand,
+    Case, Drag, ElementDrag, Fibre, FibreParameters, Flight, FrictionLaw, Growth, NormalLaw, Root, Run, Share,
 };
 use spunlaid::ground::{Isa, Lanes, Vec3};
 
@@ -63,8 +63,8 @@ pub fn table1(scheme: Scheme, time_step: f64, duration: f64, replicates: u64) ->
 }
 
 /// A fibre in a vacuum.
-pub fn in_vacuum(fibre: Fibre, gravity: f64) -> Strand {
-    Strand { fibre, drag: NO_DRAG, gravity, damping: 0.0 }
+pub fn in_vacuum(fibre: Fibre, gravity: f64) -> FibreParameters {
+    FibreParameters { fibre, drag: NO_DRAG, gravity, damping: 0.0 }
 }
 
 /// Air of a steady velocity along x, without turbulence.
@@ -86,7 +86,7 @@ pub fn in_all_lanes(vectors: &[V]) -> Vec<Vec3<Lanes>> {
 /// the momentum one kick of semi-implicit Euler gives, by the kick's length.
 ///
 /// The root must be free, or its force is not seen.
-pub fn kernel_forces(strand: &Strand, air_velocity: f64, position: &[V], velocity: &[V]) -> Vec<V> {
+pub fn kernel_forces(strand: &FibreParameters, air_velocity: f64, position: &[V], velocity: &[V]) -> Vec<V> {
     let h = 1e-3;
     let (eddies, turbulence) = steady_air(air_velocity, strand.fibre.elements, 2.0 * h);
     let mut flight =

@@ -2,7 +2,7 @@
 //! arctangent, forces by unit normals, drag by Reynolds numbers. The yardstick of the kernel.
 
 use super::V;
-use spunlaid::fibre::{Root, Strand};
+use spunlaid::fibre::{FibreParameters, Root};
 use std::f64::consts::PI;
 
 pub struct ReferenceDrag {
@@ -12,7 +12,7 @@ pub struct ReferenceDrag {
 }
 
 /// Forces on the nodes [N]: tension, bending, gravity, drag in air of the given velocity per element.
-pub fn forces(s: &Strand, drag: Option<&ReferenceDrag>, air: &[V], r: &[V], v: &[V]) -> Vec<V> {
+pub fn forces(s: &FibreParameters, drag: Option<&ReferenceDrag>, air: &[V], r: &[V], v: &[V]) -> Vec<V> {
     let fibre = &s.fibre;
     let (n, d, l) = (fibre.elements, fibre.diameter, fibre.length / fibre.elements as f64);
     let area = PI * d * d / 4.0;
@@ -77,7 +77,7 @@ fn element_drag(drag: &ReferenceDrag, d: f64, l: f64, relative: V, t: V) -> V {
 }
 
 /// Potential energy of stretch and bending [J].
-pub fn elastic_energy(s: &Strand, r: &[V]) -> f64 {
+pub fn elastic_energy(s: &FibreParameters, r: &[V]) -> f64 {
     let fibre = &s.fibre;
     let (n, d, l) = (fibre.elements, fibre.diameter, fibre.length / fibre.elements as f64);
     let ka = fibre.youngs_modulus * PI * d * d / 4.0 / l;

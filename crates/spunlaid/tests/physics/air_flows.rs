@@ -98,7 +98,7 @@ fn analytic_a_constant_profile_is_the_uniform_flow() {
         cutoff_frequency: constant(100.0),
     });
     case.air.from_flow = TOLD;
-    case.air.settle(case.along());
+    case.air.settle_along(case.along());
     assert_eq!(case.check().unwrap(), []);
     for (one, other) in flights(&uniform).iter().zip(&flights(&case)) {
         assert_eq!(other.number("share_outside_flow"), 0.0);
@@ -255,7 +255,7 @@ fn analytic_turbulence_from_k_and_epsilon() {
     near(fast.rms, 2.0);
     near(fast.length_scale, length);
     near(fast.cutoff_frequency, 2.0 * slow.cutoff_frequency);
-    air.settle(Vec3::new(1.0, 0.0, 0.0));
+    air.settle_along(Vec3::new(1.0, 0.0, 0.0));
     near(air.velocity, 16.0);
     near(air.turbulence_intensity, 0.125);
     // Eddies twice as long at half the rms take twice the time to pass, and four times to decay.
@@ -322,7 +322,7 @@ fn analytic_a_field_turned_and_in_other_units_is_the_same_air() {
     turned.air.flow = placed(down, Vec3::new(0.3, 0.2, 7.0), Axis::ALL[5], 1e-3);
     for case in [&mut straight, &mut turned] {
         case.air.from_flow = TOLD;
-        case.air.settle(case.along());
+        case.air.settle_along(case.along());
         case.air.harmonics = case.air.default_harmonics(0.1);
         case.check().unwrap();
     }
@@ -381,7 +381,7 @@ fn check_identical(flow: impl Fn() -> Flow) {
     case.run.replicates = 11;
     case.air.flow = flow();
     case.air.from_flow = TOLD;
-    case.air.settle(case.along());
+    case.air.settle_along(case.along());
     case.air.harmonics = case.air.default_harmonics(0.1);
     let bits = |flight: &Trajectory| -> Vec<u64> {
         flight.samples.iter().flat_map(|s| [s.end.x, s.end.y, s.end.z]).map(f64::to_bits).collect()

@@ -5,7 +5,8 @@ use crate::common::*;
 use spunlaid::air::FileContent;
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{
-    BoundaryLayer, Drag, DragTable, Fibre, Flight, FrictionLaw, Job, NormalLaw, Root, Strand, TableLaw,
+    BoundaryLayer, Drag, DragTable, Fibre, FibreParameters, Flight, FrictionLaw, Job, NormalLaw, Root,
+    TableLaw,
 };
 use spunlaid::ground::Isa;
 use std::f64::consts::PI;
@@ -50,9 +51,14 @@ fn pairs_with_tables() -> impl Iterator<Item = Drag> {
     ])
 }
 
-fn strand(drag: Drag, root: Root, diameter: f64, direction: V) -> Strand {
+fn strand(drag: Drag, root: Root, diameter: f64, direction: V) -> FibreParameters {
     let fibre = Fibre { length: 0.0625, diameter, elements: 8, root, direction, ..table1_fibre() };
-    Strand { fibre, drag: drag.element_drag(&fibre, DENSITY, VISCOSITY), gravity: 9.81, damping: 0.0 }
+    FibreParameters {
+        fibre,
+        drag: drag.element_drag(&fibre, DENSITY, VISCOSITY),
+        gravity: 9.81,
+        damping: 0.0,
+    }
 }
 
 /// Force of a stream of velocity `v` on element `j` of a fibre [N], from the coefficients.
@@ -358,7 +364,7 @@ fn analytic_terminal_velocity_across_by_marheineke_and_wegener() {
 #[test]
 fn analytic_no_drag_at_no_velocity() {
     for drag in pairs() {
-        let strand = Strand { gravity: 0.0, ..strand(drag, Root::Free, 20e-6, X) };
+        let strand = FibreParameters { gravity: 0.0, ..strand(drag, Root::Free, 20e-6, X) };
         let l = strand.fibre.rest_length();
         let r: Vec<V> = (0..=8).map(|i| X * (l * i as f64)).collect();
         let mut last = f64::INFINITY;
@@ -382,10 +388,10 @@ fn identical_alone_or_in_company_on_any_instruction_set() {
     let (eddies, turbulence) = steady_air(7.0, 8, 1.0);
     for drag in pairs_with_tables() {
         for scheme in Scheme::ALL {
-            let strands: Vec<Strand> = (1..=8)
+            let strands: Vec<FibreParameters> = (1..=8)
                 .map(|i| strand(drag, Root::Pinned, 7e-6 * f64::from(i), V::new(0.6, 0.0, 0.8)))
                 .collect();
-            let fly = |isa: Isa, strands: &[Strand]| {
+            let fly = |isa: Isa, strands: &[FibreParameters]| {
                 let mut flight = Flight::assembled(isa, strands, (&eddies, &turbulence), scheme, 1e-7)
                     .expect("fibres that agree");
                 flight.advance(40);

@@ -4,7 +4,7 @@ use crate::common::reference::{ReferenceDrag, forces};
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, Flight, Root, Strand};
+use spunlaid::fibre::{Fibre, FibreParameters, Flight, Root};
 use spunlaid::ground::Isa;
 
 #[test]
@@ -13,7 +13,7 @@ fn analytic_every_element_feels_its_own_eddy() {
     let fibre = Fibre { elements: 30, root: Root::Free, ..table1_fibre() };
     let air = Air { turbulence_intensity: 0.5, ..table1_air() };
     let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
-    let strand = Strand { fibre, drag, gravity: 0.0, damping: 0.0 };
+    let strand = FibreParameters { fibre, drag, gravity: 0.0, damping: 0.0 };
     let law = ReferenceDrag { air_density: air.density, viscosity: air.kinematic_viscosity, beta: 0.9 };
     let l = fibre.rest_length();
     let r: Vec<V> = (0..=fibre.elements).map(|i| X * (l * i as f64)).collect();

@@ -4,20 +4,20 @@
 use crate::common::reference::{ReferenceDrag, elastic_energy, forces};
 use crate::common::*;
 use proptest::prelude::*;
-use spunlaid::fibre::{Fibre, Root, Strand};
+use spunlaid::fibre::{Fibre, FibreParameters, Root};
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };
 
 /// A stubby fibre, so that tension, bending, drag and gravity all count in the sum.
-fn stubby(root: Root) -> Strand {
+fn stubby(root: Root) -> FibreParameters {
     let fibre =
         Fibre { length: 0.05, diameter: 300e-6, youngs_modulus: 1e6, elements: 10, root, ..table1_fibre() };
     let drag = paper_drag().element_drag(&fibre, AIR.air_density, AIR.viscosity);
-    Strand { fibre, drag, gravity: 9.81, damping: 0.0 }
+    FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 }
 }
 
 /// A fibre bent by up to `angle` [rad] or so at each node, strained by up to a tenth.
-fn crooked(strand: &Strand, angle: f64, seed: usize) -> Vec<V> {
+fn crooked(strand: &FibreParameters, angle: f64, seed: usize) -> Vec<V> {
     let l = strand.fibre.rest_length();
     let mut at = V::default();
     let mut heading = X;
@@ -69,7 +69,7 @@ fn analytic_forces_equal_the_plain_scalar_model() {
 
 #[test]
 fn analytic_no_force_where_nothing_moves_or_bends() {
-    let strand = Strand { gravity: 0.0, ..stubby(Root::Free) };
+    let strand = FibreParameters { gravity: 0.0, ..stubby(Root::Free) };
     let l = strand.fibre.rest_length();
     let r: Vec<V> = (0..=strand.fibre.elements).map(|i| X * (l * i as f64)).collect();
     let v = vec![X * 7.0; r.len()];
@@ -85,7 +85,7 @@ proptest! {
 
     #[test]
     fn invariant_internal_forces_and_moments_sum_to_zero(seed in 0usize..10_000, angle in 0.0..4.0f64) {
-        let strand = Strand { gravity: 0.0, drag: NO_DRAG, ..stubby(Root::Free) };
+        let strand = FibreParameters { gravity: 0.0, drag: NO_DRAG, ..stubby(Root::Free) };
         let r = crooked(&strand, angle, seed);
         let f = kernel_forces(&strand, 0.0, &r, &vec![V::default(); r.len()]);
         let sum = f.iter().fold(V::default(), |s, &f| s + f);
@@ -100,7 +100,7 @@ proptest! {
         seed in 0usize..10_000, angle in 0.0..1.5f64, node in 1usize..11,
     ) {
         for root in [Root::Free, Root::Clamped] {
-            let strand = Strand { gravity: 0.0, drag: NO_DRAG, ..stubby(root) };
+            let strand = FibreParameters { gravity: 0.0, drag: NO_DRAG, ..stubby(root) };
             let r = crooked(&strand, angle, seed);
             let f = kernel_forces(&strand, 0.0, &r, &vec![V::default(); r.len()])[node];
             // Fourth-order central difference: step ε l leaves ε⁴ of truncation and 1e-16/ε of rounding.

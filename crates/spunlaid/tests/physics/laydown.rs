@@ -4,7 +4,7 @@ use crate::common::laying::{GRAVITY, Thread, flight, laid_until, spunbond};
 use crate::common::{X, in_all_lanes, steady_air};
 use spunlaid::air::Air;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Fibre, Flight, Strand};
+use spunlaid::fibre::{Case, Fibre, FibreParameters, Flight};
 use spunlaid::ground::{Isa, Lanes, RunContext, Vec3};
 use spunlaid::simulation::ensemble::turbulence_spectrum;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -117,7 +117,7 @@ fn identical_to_a_fibre_of_fixed_length_in_air_of_its_own_speed() {
     let length = elements as f64 * case.fibre.rest_length();
     let fibre = Fibre { length, elements: elements as usize, ..case.fibre };
     let drag = case.drag.element_drag(&fibre, case.air.density, case.air.kinematic_viscosity);
-    let strand = Strand { fibre, drag, gravity: 0.0, damping: 0.0 };
+    let strand = FibreParameters { fibre, drag, gravity: 0.0, damping: 0.0 };
     let (eddies, wind) = steady_air(0.0, fibre.elements, 1.0);
     let mut fixed = Flight::assembled(
         Isa::detect(),

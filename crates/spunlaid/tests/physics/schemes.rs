@@ -3,7 +3,7 @@
 use crate::common::*;
 use spunlaid::air::{Air, Eddies, StreamKey, Wind};
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Flight, Run, Snapshot, Strand};
+use spunlaid::fibre::{Case, FibreParameters, Flight, Run, Snapshot};
 use spunlaid::ground::{Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::fly_together;
 use spunlaid::simulation::{Job, Recorded};
@@ -11,10 +11,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;
 
-fn table1_strand(damping: f64) -> Strand {
+fn table1_strand(damping: f64) -> FibreParameters {
     let (fibre, air) = (table1_fibre(), table1_air());
     let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
-    Strand { fibre, drag, gravity: 9.81, damping }
+    FibreParameters { fibre, drag, gravity: 9.81, damping }
 }
 
 /// Eight replicates of Table 1 at the end of `duration`, simulated by steps of `h`.
@@ -143,7 +143,7 @@ fn invariant_implicit_tension_is_stable_far_beyond_the_axial_limit() {
     (fibre.length, fibre.diameter, fibre.elements) = (0.2, 18e-6, 200);
     let air = table1_air();
     let drag = paper_drag().element_drag(&fibre, air.density, air.kinematic_viscosity);
-    let strand = Strand { fibre, drag, gravity: 9.81, damping: 0.0 };
+    let strand = FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 };
     let eddies = Eddies::along(fibre.length, fibre.elements, 0.02);
     let streams = [(air.clone(), StreamKey { seed: 4, replicate: 0 })];
     let duration = 0.125;
@@ -276,7 +276,7 @@ fn identical_on_every_instruction_set() {
 #[test]
 fn identical_where_the_fibre_folds() {
     // Turns of 35°, 80° and 150°, in lanes of their own and packed together, on every instruction set.
-    let strand = Strand { drag: NO_DRAG, ..table1_strand(0.0) };
+    let strand = FibreParameters { drag: NO_DRAG, ..table1_strand(0.0) };
     let (eddies, turbulence) = steady_air(0.0, 20, 1.0);
     let folded = |turn: f64| -> Vec<V> {
         let l = strand.fibre.rest_length();

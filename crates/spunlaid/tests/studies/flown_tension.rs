@@ -46,7 +46,7 @@ fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunCont
 /// What a file is when everything has been simulated, and how many tensions that took.
 fn settled<T>(threads: usize, read: impl Fn(Overrides<'_>) -> Result<T, Error>) -> (T, usize) {
     let (stop, steps, mut wanted) = (AtomicBool::new(false), AtomicU64::new(0), 0);
-    let read = Resources::default().settle(
+    let read = Resources::default().resolve_tension(
         |resources| read(Overrides::from(&[][..]).with(resources)),
         |resources| {
             wanted += resources.wanted();

@@ -5,7 +5,7 @@ use spunlaid::ground::{Isa, RunContext};
 use spunlaid::web::map::uniformity::patch_cv;
 use spunlaid::web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
 use spunlaid::web::{
-    Edges, Fibres, LaidWeb, Layer, Map, OneFibre, Row, Sheet, Strand, Surrogate, Web, Window,
+    Edges, Fibres, LaidWeb, Layer, Map, OneFibre, Row, Sheet, Surrogate, Web, Window, WindowCurve,
 };
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -137,7 +137,7 @@ fn inside(web: &Web, off: usize) -> Window {
     Window { corner: [off; 2], sides: [web.sheet.width - 2.0 * off, web.sheet.length - 2.0 * off] }
 }
 
-fn fibres(web: &Web, window: Window) -> Vec<Strand> {
+fn fibres(web: &Web, window: Window) -> Vec<WindowCurve> {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     strands(web, window, RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid })
         .expect("fibres")

@@ -24,7 +24,7 @@ pub fn comparison_report<'a>(
     });
     Report::new("compare", title)
         .with_all(beside)
-        .with_all(pairs(comparisons).map(Section::told))
+        .with_all(pairs(comparisons).map(Section::printed))
         .with(Section::of_figures(figures))
         .with(methods("compare", Vec::new(), ""))
 }

@@ -34,7 +34,7 @@ pub fn fit_report<'a>(
         .file("web-toml", toml);
     Report::new("fit", title)
         .lead(summary)
-        .with(values(fit).told())
+        .with(values(fit).printed())
         .with(Section::of_figures(figures))
         .with(numbers(fit))
         .with(methods)

@@ -30,9 +30,9 @@ pub fn analysis_report<'a>(
     );
     Report::new("analyse", headline)
         .lead(summary + &remarks)
-        .with(of_air.file("air-toml", air).told())
+        .with(of_air.file("air-toml", air).printed())
         .with(Section::of_figures(figures))
-        .with(components.told())
+        .with(components.printed())
         .with(computed)
         .with(methods("analyse", Vec::new(), ""))
 }

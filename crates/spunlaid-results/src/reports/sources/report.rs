@@ -83,7 +83,7 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
              found in two ways from the same flights: from the drag on each element, and from what momentum the \
              filaments have lost; {difference}."
         ))
-        .told();
+        .printed();
     let openfoam = match has_order_of_openfoam(case) {
         _ if !sources.are_steady() => "",
         true => {

@@ -44,7 +44,7 @@ pub fn spinline_report<'a>(
     Report::new("spin", headline)
         .lead(summary(spec, rows))
         .with(thread)
-        .with(section(Section::new("results", "Results"), Vec::new(), results, &[]).told())
+        .with(section(Section::new("results", "Results"), Vec::new(), results, &[]).printed())
         .with(Section::of_figures(others).open())
         .with(computed)
         .with(methods("spin", vec![spec.drag.along.source()], "spinline.toml of the results"))

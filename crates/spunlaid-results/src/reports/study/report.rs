@@ -56,7 +56,7 @@ pub fn study_report<'a>(
 fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option<Section<'static>> {
     let section = Section::new("ranking", "What matters most");
     if let Some(refusal) = refusal {
-        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")).told());
+        return Some(section.paragraph(format!("The factors are not ranked: {refusal}.")).printed());
     }
     // The rows have the order of the effects on the amplitude.
     let first = rankings.first().filter(|_| study.factors.len() > 1)?;

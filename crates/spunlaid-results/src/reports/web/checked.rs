@@ -266,7 +266,7 @@ pub fn expected_of_web(
     threads: usize,
     [assumed, of_line]: [&[Change]; 2],
 ) -> Result<Vec<String>, Error> {
-    let (flights, abreast) = (spec.planned_flights(), threads.max(1) as f64);
+    let (flights, concurrent) = (spec.planned_flights(), threads.max(1) as f64);
     let mut each = Vec::new();
     for case in spec.cases() {
         // All filaments share a field, whose time is in the factors.
@@ -275,7 +275,7 @@ pub fn expected_of_web(
         // On all threads together, because they may share a core. A thread flies eight filaments at once.
         let paces = try_par_map(threads, threads.max(1), |_| pace(&alone, Isa::detect()))?;
         let pace = paces.iter().sum::<f64>() / paces.len() as f64;
-        each.push(pace / (WIDTH as f64 * abreast));
+        each.push(pace / (WIDTH as f64 * concurrent));
     }
     let flying = flights
         .iter()
@@ -286,12 +286,12 @@ pub fn expected_of_web(
         layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.feed_speed / layer.belt_speed
     };
     let cells = spec.layers.iter().map(laid).sum::<f64>() / spec.sheet.cell;
-    let web = format!("  the web: {}", duration(FIGURES + FINDING * flying + LAYING * cells / abreast));
+    let web = format!("  the web: {}", duration(FIGURES + FINDING * flying + LAYING * cells / concurrent));
     let each = each.iter().sum::<f64>() / each.len().max(1) as f64;
     let trial = |changes: &[Change], noun: &str, words: &str| {
         let seconds = match spec.flies() {
             true => TRIAL * steps(spec, changes) as f64 * each,
-            false => KNOWN * changes.len() as f64 / abreast,
+            false => KNOWN * changes.len() as f64 / concurrent,
         };
         let is_few = flights.iter().all(|flight| flight.is_few);
         let asked = if is_few && are_short(spec, changes) { "" } else { "; only with --advice" };

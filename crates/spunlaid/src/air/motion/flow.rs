@@ -337,7 +337,7 @@ impl Air {
     /// They are used where a single number is needed: in messages, and to choose the time step.
     ///
     /// * `along` – from the root to the end of the straight fibre [m]
-    pub fn settle(&mut self, along: Vec3<f64>) {
+    pub fn settle_along(&mut self, along: Vec3<f64>) {
         if self.is_uniform() {
             return;
         }

@@ -50,7 +50,7 @@ pub(crate) use wind::Sampling;
 pub use wind::{Stream, StreamKey, Wind};
 
 /// The air of a case, in SI units. If the flow varies from place to place, the numbers that come from it are those
-/// along the fibre, see [`Air::settle`].
+/// along the fibre, see [`Air::settle_along`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Air {
     /// Mean velocity `Ū` along x [m/s].

@@ -251,8 +251,8 @@ fn try_alone(
     };
     // A flight of eight fibres takes one thread, and many changes are tried side by side. All filaments in
     // one air take all threads.
-    let (abreast, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
-    try_par_map(abreast, changes.len(), |i| {
+    let (concurrent, threads) = if is_shared { (1, by.threads) } else { (by.threads, 1) };
+    try_par_map(concurrent, changes.len(), |i| {
         let changed = &changes[i..=i];
         let found = cvs(&changed[0].experiment.spec, RunContext { threads, done: &aside, ..by });
         by.done.fetch_add(steps(spec, changed), Ordering::Relaxed);
@@ -271,7 +271,7 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
 /// How uneven a web of filaments in shared turbulence is.
 fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     let of_map = |found: &PatchFindings| {
-        let (told, error) = (found.told()?, found.total_error().whole());
+        let (told, error) = (found.reported()?, found.total_error().whole());
         Some(ExpectedCv::alone(told.patch, told.cv, error.unwrap_or(f64::NAN)))
     };
     patches.iter().filter_map(of_map).collect()

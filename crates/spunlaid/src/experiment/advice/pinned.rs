@@ -93,14 +93,14 @@ impl PinnedWeb {
                 looks.take(seen, found).into_iter().for_each(&mut *see);
             };
             if !layer.compare(&self.spec, spec, &LOOKS, &mut seen, by)? {
-                return self.compare_abreast(spec, see, by);
+                return self.compare_concurrent(spec, see, by);
             }
         }
         Ok(())
     }
 
     /// Flies both webs side by side in a room that is large enough for both.
-    fn compare_abreast(
+    fn compare_concurrent(
         &self,
         spec: &WebSpec,
         see: &mut dyn FnMut(Seen),

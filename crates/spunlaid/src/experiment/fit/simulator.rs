@@ -111,7 +111,7 @@ impl Simulator for WebSimulator<'_> {
         };
         // Where a few filaments do not tell the CV of all, the map may be off by all of it.
         let of_map =
-            |patch: &PatchFindings| Some((patch.of_map - patch.told().map_or(0.0, |told| told.cv)).abs());
+            |patch: &PatchFindings| Some((patch.of_map - patch.reported().map_or(0.0, |told| told.cv)).abs());
         let causes = [errors(&|patch| patch.total_error().flight), errors(&of_map)];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }

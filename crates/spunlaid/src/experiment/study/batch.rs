@@ -2,7 +2,7 @@
 //! lanes stay empty.
 
 use super::{Experiment, Point};
-use crate::fibre::Common;
+use crate::fibre::FlightInvariants;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, RunContext, WIDTH};
 use crate::simulation::ensemble::{fly_each, in_order};
@@ -49,9 +49,11 @@ impl Packing {
         let mut groups: Vec<Group> = Vec::new();
         for batch in batches.iter().filter(|batch| !batch.replicates.is_empty()) {
             let (alike, work, width) = match &points[batch.point].experiment {
-                Experiment::Case(case) => {
-                    (Ok(Common::from_case(case)), case.run.steps as f64 * case.fibre.elements as f64, WIDTH)
-                }
+                Experiment::Case(case) => (
+                    Ok(FlightInvariants::from_case(case)),
+                    case.run.steps as f64 * case.fibre.elements as f64,
+                    WIDTH,
+                ),
                 // Spinlines take milliseconds, so that many make a bundle.
                 Experiment::Spinline(_) => (Err(batch.point / 64), 0.0, WIDTH),
                 // All filaments fly for each web, which takes minutes.
@@ -235,7 +237,8 @@ mod tests {
             batches.iter().flat_map(|b| b.replicates.clone().map(|r| (b.point, r))).collect();
         assert_eq!(jobs, expected);
         let in_group = |flight: usize| {
-            let common = |job: &(usize, u64)| Common::from_case(points[job.0].experiment.case().unwrap());
+            let common =
+                |job: &(usize, u64)| FlightInvariants::from_case(points[job.0].experiment.case().unwrap());
             let jobs = packing.jobs(flight);
             jobs.iter().all(|job| common(job) == common(&jobs[0]))
         };

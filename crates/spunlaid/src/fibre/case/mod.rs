@@ -14,7 +14,7 @@ use crate::air::{
     Air, AirAtPlaces, Eddies, EddyField, EddyTurbulence, Extent, Hint, Room, StationGrid, StreamKey,
 };
 use crate::fibre::body::{Fibre, linear_density};
-use crate::fibre::chain::{Scheme, Strand};
+use crate::fibre::chain::{FibreParameters, Scheme};
 use crate::fibre::drag::Drag;
 use crate::fibre::line::Line;
 use crate::fibre::spinline::{Solution, Spinline};
@@ -278,8 +278,8 @@ impl Case {
     }
 
     /// The fibre, its drag, gravity and damping, in the form that the chain uses.
-    pub fn strand(&self) -> Strand {
-        Strand {
+    pub fn strand(&self) -> FibreParameters {
+        FibreParameters {
             fibre: self.strand_at_start(),
             drag: self.drag.element_drag(&self.fibre, self.air.density, self.air.kinematic_viscosity),
             gravity: self.run.gravity,

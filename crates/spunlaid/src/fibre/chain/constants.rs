@@ -1,6 +1,6 @@
 //! The constants of eight fibres that a step needs. The elements of a fibre are all alike.
 
-use super::{Common, Strand};
+use super::{ChainInvariants, FibreParameters};
 use crate::fibre::body::Root;
 use crate::fibre::drag::DragLanes;
 use crate::fibre::line::Contact;
@@ -47,9 +47,9 @@ pub(crate) struct ElementConstants {
 
 impl Constants {
     /// The constants of up to eight fibres.
-    pub(crate) fn new(common: &Common, strands: &PerLane<Strand>) -> Self {
-        let node = |share: f64, held: &dyn Fn(&Strand) -> bool| {
-            let mass = |s: &Strand| share * s.fibre.element_mass();
+    pub(crate) fn new(common: &ChainInvariants, strands: &PerLane<FibreParameters>) -> Self {
+        let node = |share: f64, held: &dyn Fn(&FibreParameters) -> bool| {
+            let mass = |s: &FibreParameters| share * s.fibre.element_mass();
             let inverse_mass = strands.lanes(|s| if held(s) { 0.0 } else { 1.0 / mass(s) });
             Node {
                 mass: strands.lanes(mass),
@@ -58,7 +58,7 @@ impl Constants {
                 weight: strands.lanes(|s| mass(s) * s.gravity),
             }
         };
-        let root_stiffness = |s: &Strand| match s.fibre.root {
+        let root_stiffness = |s: &FibreParameters| match s.fibre.root {
             Root::Pinned | Root::Free => 0.0,
             Root::Clamped => 2.0 * s.fibre.rotational_stiffness(),
         };

@@ -17,7 +17,7 @@ use crate::ground::{Lanes, Nodes, PerLane, Vec3, WIDTH};
 
 /// One fibre and what acts on it, without the wind: the content of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strand {
+pub struct FibreParameters {
     /// The fibre.
     pub fibre: Fibre,
     /// Drag of one of its elements.
@@ -43,7 +43,7 @@ pub(crate) struct Stride {
 
 shared! {
     /// What the chains of one flight have in common.
-    pub(crate) struct Common {
+    pub(crate) struct ChainInvariants {
         elements: usize = "the number of elements (fibre.length, fibre.element_length)",
         drag_curves: [Option<Curve>; 2] = "the kind of drag.along or drag.across",
         damped: bool = "whether there is run.damping",
@@ -52,8 +52,8 @@ shared! {
     }
 }
 
-impl Common {
-    pub(crate) fn new(strand: &Strand, line: Option<&Line>) -> Self {
+impl ChainInvariants {
+    pub(crate) fn new(strand: &FibreParameters, line: Option<&Line>) -> Self {
         Self {
             elements: strand.fibre.elements,
             drag_curves: strand.drag.curves(),
@@ -87,7 +87,11 @@ pub struct Chain {
 
 impl Chain {
     /// Packs up to eight fibres, straight and at rest, with their roots at the origin.
-    pub(crate) fn straight(common: &Common, strands: &PerLane<Strand>, scheme: Scheme) -> Self {
+    pub(crate) fn straight(
+        common: &ChainInvariants,
+        strands: &PerLane<FibreParameters>,
+        scheme: Scheme,
+    ) -> Self {
         let (elements, constants) = (common.elements, Constants::new(common, strands));
         let position = (0..=elements).map(|i| constants.root_direction * constants.distance(i)).collect();
         Self {
@@ -103,7 +107,7 @@ impl Chain {
 
     /// Replaces the fibres by others with the same number of elements. Positions and velocities stay; tensions
     /// change in proportion to the axial stiffness.
-    pub(crate) fn become_of(&mut self, common: &Common, strands: &PerLane<Strand>) {
+    pub(crate) fn become_of(&mut self, common: &ChainInvariants, strands: &PerLane<FibreParameters>) {
         let former = std::mem::replace(&mut self.constants, Constants::new(common, strands));
         self.keep_held(&former);
         let [before, after] = [&former, &self.constants].map(|c| c.element.axial_stiffness);

@@ -33,7 +33,7 @@ mod tests {
     use crate::air::{Air, Eddies, StreamKey, Wind};
     use crate::fibre::body::{Fibre, Root};
     use crate::fibre::case::{Case, Run};
-    use crate::fibre::chain::{Scheme, Strand};
+    use crate::fibre::chain::{FibreParameters, Scheme};
     use crate::fibre::charge::{Charge, ChargedNode, CurtainScale, PERMITTIVITY, SheetField, Sheets};
     use crate::fibre::drag::{Drag, ElementDrag, FrictionLaw, Growth, NormalLaw, Share};
     use crate::fibre::flight::{Flight, Job};
@@ -74,7 +74,7 @@ mod tests {
     fn free(scheme: Scheme, damping: f64, h: f64, places: &[f64]) -> Flight {
         let none = Share { factor: 0.0, growth: Growth::Power(0.5) };
         let drag = ElementDrag { along: none, across: none };
-        let strand = Strand { fibre: FIBRE, drag, gravity: 0.0, damping };
+        let strand = FibreParameters { fibre: FIBRE, drag, gravity: 0.0, damping };
         let air = Air { harmonics: 8, ..Air::uniform(0.0, 0.0, 0.05, 100.0) };
         let eddies = Eddies::along(FIBRE.length, FIBRE.elements, 1.0);
         let key = StreamKey { seed: 0, replicate: 0 };

@@ -42,7 +42,7 @@ use crate::fibre::chain::{Chain, Scheme};
 use crate::fibre::energy::Energy;
 use crate::ground::place::Inlet;
 use crate::ground::{Isa, Lanes, Register, Vec3, WIDTH, Wide};
-pub(crate) use start::{Clock, Common};
+pub(crate) use start::{Clock, FlightInvariants};
 use std::sync::Arc;
 
 /// One replicate of a case: the smallest piece of work.

@@ -1,7 +1,7 @@
 //! Changes in flight.
 
 use super::start::surrounded;
-use super::{Common, Entry, Flight, SurroundingRun};
+use super::{Entry, Flight, FlightInvariants, SurroundingRun};
 use crate::fibre::case::keys::{self, Value};
 use crate::fibre::energy::Energy;
 use crate::ground::{Error, PerLane};
@@ -41,7 +41,7 @@ impl Flight {
 
     fn fly_on_as(&mut self, entries: Vec<Entry>, key: &'static str) -> Result<(), Error> {
         let jobs = PerLane::new(entries.iter().map(Entry::job).collect())?;
-        let common = Common::from_jobs(&jobs)?;
+        let common = FlightInvariants::from_jobs(&jobs)?;
         let air = surrounded(&common, &jobs, self.isa, SurroundingRun::run(&entries[0].case))?;
         let strands = jobs.map(|job| job.case.strand());
         let meshed_anew = self.chain.laying.is_none() && common.chain.elements != self.chain.elements();

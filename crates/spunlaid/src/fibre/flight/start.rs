@@ -6,7 +6,7 @@ use crate::air::{AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKe
 use crate::fibre::body::Fibre;
 use crate::fibre::case::Case;
 use crate::fibre::chain::work::WorkDone;
-use crate::fibre::chain::{self, Chain, Scheme, Strand};
+use crate::fibre::chain::{self, Chain, FibreParameters, Scheme};
 use crate::fibre::energy::Energy;
 use crate::ground::{Bits, Error, Fault, Isa, Lanes, PerLane, Vec3};
 use std::sync::Arc;
@@ -47,14 +47,14 @@ impl Flight {
     /// different kinds of drag laws, or the step is not positive.
     pub fn assembled(
         isa: Isa,
-        strands: &[Strand],
+        strands: &[FibreParameters],
         air: impl Into<Atmosphere>,
         scheme: Scheme,
         h: f64,
     ) -> Result<Self, Error> {
         let air = air.into();
         let strands = PerLane::new(strands.to_vec())?;
-        let common = strands.shared(|strand| chain::Common::new(strand, None))?;
+        let common = strands.shared(|strand| chain::ChainInvariants::new(strand, None))?;
         if common.elements == 0 {
             return Err(Error::Flight(Fault::plain("a fibre needs at least one element")));
         }
@@ -167,7 +167,7 @@ impl Flight {
 }
 
 /// The jobs of a flight whose cases can be run, and what they have in common.
-fn checked<'a>(jobs: &[Job<'a>]) -> Result<(PerLane<Job<'a>>, Common), Error> {
+fn checked<'a>(jobs: &[Job<'a>]) -> Result<(PerLane<Job<'a>>, FlightInvariants), Error> {
     let jobs = PerLane::new(jobs.to_vec())?;
     let mut last: Option<*const Case> = None;
     for job in jobs.iter() {
@@ -176,18 +176,18 @@ fn checked<'a>(jobs: &[Job<'a>]) -> Result<(PerLane<Job<'a>>, Common), Error> {
             job.case.check().map_err(Error::Rejected)?;
         }
     }
-    let common = Common::from_jobs(&jobs)?;
+    let common = FlightInvariants::from_jobs(&jobs)?;
     Ok((jobs, common))
 }
 
 /// The air of fibres that have this in common.
 pub(super) fn surrounded(
-    common: &Common,
+    common: &FlightInvariants,
     jobs: &PerLane<Job<'_>>,
     isa: Isa,
     air: SurroundingRun<'_>,
 ) -> Result<Atmosphere, Error> {
-    let Common { way, every, chain, turbulence, .. } = common;
+    let FlightInvariants { way, every, chain, turbulence, .. } = common;
     if let Some(cutoff) = turbulence.lateral_cutoff {
         let every = every.unwrap_or_else(|| way.as_ref().map_or(1, |way| way.every));
         let mut last: Option<(&Job<'_>, Arc<EddyField>)> = None;
@@ -265,8 +265,8 @@ impl Clock {
 shared! {
     /// What the fibres of one flight have in common. All else may differ from lane to lane: a flight is made
     /// from this value and from entries of each lane, and nothing else.
-    pub(crate) struct Common {
-        chain: chain::Common,
+    pub(crate) struct FlightInvariants {
+        chain: chain::ChainInvariants,
         clock: Clock,
         scheme: Scheme = "run.scheme",
         way: Option<Way>,
@@ -278,13 +278,13 @@ shared! {
     }
 }
 
-impl Common {
+impl FlightInvariants {
     pub(crate) fn from_case(case: &Case) -> Self {
         let Case { air, run, line, .. } = case;
         let looks = || case.steps_between_looks();
         let stations = case.stations();
         Self {
-            chain: chain::Common::new(&case.strand(), line.as_ref()),
+            chain: chain::ChainInvariants::new(&case.strand(), line.as_ref()),
             clock: Clock {
                 time_step: run.time_step.into(),
                 steps: run.steps,

@@ -1,18 +1,18 @@
-//! The thread as a boundary-value problem, for lines whose end does not follow from the tension at the die.
+//! The filament as a boundary-value problem, for lines whose end does not follow from the tension at the die.
 //!
 //! Where inertia outweighs viscosity, two tensions that differ in the last digit lead to different ends. Then the
-//! states at many places are sought together, and the thread is followed from each place to the next only
+//! states at many places are sought together, and the filament is followed from each place to the next only
 //! (multiple shooting). A known solution is moved to the wanted one in steps along the arc of the solutions, so
 //! that it gets around turning points.
 
 use super::End;
 use super::elimination::Factors;
-use super::integration::Step;
-use super::shot::{FASTEST, FIRST_STEP, Leg, Outcome, Shot};
-use super::thread::{
+use super::filament::{
     ACROSS, ALONG, HEAT, LN_SPEED, PROGRESS, PULL, Phase, SIZE, State, TEMPERATURE, TENSION,
 };
-use super::thread::{Thread, WORK};
+use super::filament::{Filament, WORK};
+use super::integration::Step;
+use super::shot::{FASTEST, FIRST_STEP, Leg, Outcome, Shot};
 use std::cell::Cell;
 
 /// Steps of the integration from one place to the next: few, so that an error does not grow by much.
@@ -38,7 +38,7 @@ const LEAST_COOLING: f64 = 0.1;
 /// The first move along the arc, the longest and the shortest.
 const MOVES: [f64; 3] = [0.02, 0.5, 1e-5];
 
-/// A thread between its ends.
+/// A filament between its ends.
 #[derive(Clone)]
 pub(super) struct Run {
     /// `ln F_0`, `F_0` in N.
@@ -61,7 +61,7 @@ pub(super) enum Arrival {
     Met(Box<Run>),
     /// Around a turning point, at this speed [m/s] or tension [N] at the end, and back beyond its start.
     TurnsBack(f64),
-    /// To threads that are too fast.
+    /// To filaments that are too fast.
     RunsAway,
     /// To a melt that cools no further before it is solid.
     StaysLiquid,
@@ -104,7 +104,7 @@ impl Effort {
 
 /// Threads of a line along the arc.
 pub(super) struct Branch<'a> {
-    thread: Thread<'a>,
+    filament: Filament<'a>,
     varies: Varies,
     /// The values of a state that change by themselves.
     active: &'static [usize],
@@ -128,31 +128,31 @@ struct Plane<'p> {
 type Unknowns = Vec<f64>;
 
 impl<'a> Branch<'a> {
-    pub(super) fn new(thread: &Thread<'a>, varies: Varies, run: &Run, effort: &'a Effort) -> Self {
+    pub(super) fn new(filament: &Filament<'a>, varies: Varies, run: &Run, effort: &'a Effort) -> Self {
         use super::Law;
-        let active: &[usize] = match (thread.line.law == Law::Newtonian, thread.line.crystallisation) {
+        let active: &[usize] = match (filament.line.law == Law::Newtonian, filament.line.crystallisation) {
             (true, false) => &[LN_SPEED, TEMPERATURE, TENSION],
             (true, true) => &[LN_SPEED, TEMPERATURE, TENSION, PROGRESS],
             (false, false) => &[LN_SPEED, TEMPERATURE, ALONG, ACROSS],
             (false, true) => &[LN_SPEED, TEMPERATURE, ALONG, ACROSS, PROGRESS],
         };
-        let thread = Thread { ends_slack: false, ..thread.clone() };
+        let filament = Filament { ends_slack: false, ..filament.clone() };
         let tension = largest_tension(&run.shot);
-        let cooling = (thread.line.die_temperature - run.shot.end[TEMPERATURE]).clamp(0.1, 50.0);
-        Self { thread, varies, active, tension, cooling, places: Vec::new(), effort }
+        let cooling = (filament.line.die_temperature - run.shot.end[TEMPERATURE]).clamp(0.1, 50.0);
+        Self { filament, varies, active, tension, cooling, places: Vec::new(), effort }
     }
 
     /// Moves a solution along the arc to the one that is asked for.
     pub(super) fn walk(mut self, run: Run) -> Arrival {
         let (value, goal) = match self.varies {
-            Varies::Forces => (self.thread.forces, 1.0),
+            Varies::Forces => (self.filament.forces, 1.0),
             Varies::End => (self.end_of(&run.shot), self.wanted_end()),
         };
         let towards = (goal - value).signum();
         let (mut here, mut before) = (Point { run, value }, None::<Point>);
         let (mut turn, mut length, mut most_cooling) = (None, MOVES[0], 0.0);
         for _ in 0..MOST_MOVES {
-            self.settle(&here.run, here.value);
+            self.accept(&here.run, here.value);
             let at = self.unknowns(&here).unwrap_or_default();
             let last = before.as_ref().and_then(|before| self.unknowns(before));
             let direction = self.direction(&at, last.as_ref(), towards);
@@ -229,14 +229,14 @@ impl<'a> Branch<'a> {
 
     /// What a shot has at its end, in the measure of what is known there.
     fn end_of(&self, shot: &Shot) -> f64 {
-        match self.thread.end {
+        match self.filament.end {
             End::TakeUp(_) => shot.end[LN_SPEED],
             End::Tension(_) | End::Flown(_) => shot.end[TENSION] / self.tension,
         }
     }
 
     fn wanted_end(&self) -> f64 {
-        match self.thread.end {
+        match self.filament.end {
             End::TakeUp(speed) => libm::log(speed),
             End::Tension(tension) | End::Flown(tension) => tension / self.tension,
         }
@@ -244,20 +244,20 @@ impl<'a> Branch<'a> {
 
     /// A speed [m/s] or a tension [N] in the measure of what is known at the end.
     fn known_at_end(&self, value: f64) -> f64 {
-        match self.thread.end {
+        match self.filament.end {
             End::TakeUp(_) => libm::exp(value),
             End::Tension(_) | End::Flown(_) => value * self.tension,
         }
     }
 
     /// Chooses the places by the steps of a shot: after so many of them, and where a small change has grown.
-    fn settle(&mut self, run: &Run, value: f64) {
-        let thread = self.thread(value);
+    fn accept(&mut self, run: &Run, value: f64) {
+        let filament = self.filament(value);
         let melt: Vec<&Step> = run.shot.steps.iter().take_while(|step| step.phase == Phase::Melt).collect();
         self.places.clear();
         let (mut steps, mut grown) = (0, 0.0);
         for (i, step) in melt.iter().enumerate() {
-            let growth = thread.growth(&step.from, step.start, step.end());
+            let growth = filament.growth(&step.from, step.start, step.end());
             let is_due = steps >= STEPS && i + LAST_STEPS < melt.len();
             if i > 0 && (is_due || grown + growth > GROWTH) {
                 self.places.push(self.place(step, 0.0));
@@ -295,20 +295,20 @@ impl<'a> Branch<'a> {
         Some(unknowns)
     }
 
-    /// The thread with what is changed along the arc.
-    fn thread(&self, value: f64) -> Thread<'a> {
-        let forces = if self.varies == Varies::Forces { value } else { self.thread.forces };
-        Thread { forces, ..self.thread.clone() }
+    /// The filament with what is changed along the arc.
+    fn filament(&self, value: f64) -> Filament<'a> {
+        let forces = if self.varies == Varies::Forces { value } else { self.filament.forces };
+        Filament { forces, ..self.filament.clone() }
     }
 
-    /// Follows the thread from a place, or from the die, to the next one. None if it does not get there.
-    fn leg(&self, number: usize, unknowns: &[f64], thread: &Thread<'a>) -> Option<Shot> {
-        let length = libm::sqrt(thread.line.length);
+    /// Follows the filament from a place, or from the die, to the next one. None if it does not get there.
+    fn leg(&self, number: usize, unknowns: &[f64], filament: &Filament<'a>) -> Option<Shot> {
+        let length = libm::sqrt(filament.line.length);
         let end = self.places.get(number).map_or(length, |place| place.s);
         let leg = match number.checked_sub(1).map(|before| &self.places[before]) {
             None => {
                 let first = FIRST_STEP * length;
-                Leg::new(thread, 0.0, thread.at_die(libm::exp(unknowns[0]))?, first, self.tension)
+                Leg::new(filament, 0.0, filament.at_die(libm::exp(unknowns[0]))?, first, self.tension)
             }
             Some(place) => {
                 let mut state = place.state;
@@ -316,7 +316,7 @@ impl<'a> Branch<'a> {
                 for (i, value) in self.active.iter().zip(&unknowns[first..]) {
                     state[*i] = value * place.sizes[*i];
                 }
-                Leg::new(thread, place.s, state, place.wanted, self.tension)
+                Leg::new(filament, place.s, state, place.wanted, self.tension)
             }
         };
         let shot = leg.follow(end);
@@ -325,10 +325,10 @@ impl<'a> Branch<'a> {
         (shot.outcome == Outcome::Complete && (is_last || shot.solidification.is_none())).then_some(shot)
     }
 
-    /// All parts of the thread.
+    /// All parts of the filament.
     fn legs(&self, unknowns: &Unknowns) -> Option<Vec<Shot>> {
-        let thread = self.thread(unknowns[unknowns.len() - 1]);
-        (0..=self.places.len()).map(|number| self.leg(number, unknowns, &thread)).collect()
+        let filament = self.filament(unknowns[unknowns.len() - 1]);
+        (0..=self.places.len()).map(|number| self.leg(number, unknowns, &filament)).collect()
     }
 
     /// What the end of a part adds to the equations: the gap to the place there, or what the end of the line misses.
@@ -358,18 +358,18 @@ impl<'a> Branch<'a> {
     fn derivatives(&self, unknowns: &Unknowns, legs: &[Shot], across: &Unknowns) -> Option<Vec<f64>> {
         let (size, width) = (unknowns.len(), self.active.len());
         let mut rows = vec![0.0; size * size];
-        let thread = self.thread(unknowns[size - 1]);
+        let filament = self.filament(unknowns[size - 1]);
         for (number, shot) in legs.iter().enumerate() {
             let here = self.ends(number, shot);
             let of_start = if number == 0 { 0..1 } else { 1 + (number - 1) * width..1 + number * width };
             let of_value = (self.varies == Varies::Forces).then_some(size - 1);
             for column in of_start.chain(of_value) {
                 let mut near = unknowns.clone();
-                // Back rather than on: a thread that gets faster may run away.
+                // Back rather than on: a filament that gets faster may run away.
                 near[column] -= CHANGE;
                 let there = match column == size - 1 {
-                    true => self.leg(number, &near, &self.thread(near[column])),
-                    false => self.leg(number, &near, &thread),
+                    true => self.leg(number, &near, &self.filament(near[column])),
+                    false => self.leg(number, &near, &filament),
                 };
                 for (i, (here, there)) in here.iter().zip(self.ends(number, &there?)).enumerate() {
                     rows[(number * width + i) * size + column] = (here - there) / CHANGE;
@@ -425,7 +425,7 @@ impl<'a> Branch<'a> {
     }
 }
 
-/// The parts of a thread as one.
+/// The parts of a filament as one.
 fn joined(legs: Vec<Shot>) -> Shot {
     const SUMS: [usize; 3] = [PULL, HEAT, WORK];
     let mut whole: Option<Shot> = None;

@@ -1,6 +1,6 @@
 //! How a solid filament goes on cooling below its spinline.
 
-use super::thread::STEFAN_BOLTZMANN;
+use super::filament::STEFAN_BOLTZMANN;
 use super::{Solution, Spinline};
 use std::f64::consts::PI;
 

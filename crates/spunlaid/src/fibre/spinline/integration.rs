@@ -4,8 +4,8 @@
 //! The friction of a boundary layer that begins at the die is infinite there like `1/√z`; in `s = √z` it is finite.
 
 use super::elimination::Factors;
-use super::thread::{
-    ACROSS, ALONG, LN_SPEED, PROGRESS, Phase, Rates, SIZE, State, TEMPERATURE, TENSION, Thread,
+use super::filament::{
+    ACROSS, ALONG, Filament, LN_SPEED, PROGRESS, Phase, Rates, SIZE, State, TEMPERATURE, TENSION,
 };
 
 /// The smallest distance at which the air is looked at, as a share of the line.
@@ -82,9 +82,9 @@ const STIFF_DENSE: [[f64; 5]; 2] = [
     ],
 ];
 
-/// Steps along a thread in one phase.
+/// Steps along a filament in one phase.
 pub(super) struct Stepper<'t, 'a> {
-    pub(super) thread: &'t Thread<'a>,
+    pub(super) filament: &'t Filament<'a>,
     pub(super) phase: Phase,
     /// Size of the tensions that occur [N].
     tension: f64,
@@ -112,28 +112,28 @@ pub(super) struct Step {
 }
 
 impl<'t, 'a> Stepper<'t, 'a> {
-    pub(super) fn new(thread: &'t Thread<'a>, tension: f64) -> Self {
-        Self { thread, phase: Phase::Melt, tension, hint: 0, is_stiff: false, is_elastic_wave: false }
+    pub(super) fn new(filament: &'t Filament<'a>, tension: f64) -> Self {
+        Self { filament, phase: Phase::Melt, tension, hint: 0, is_stiff: false, is_elastic_wave: false }
     }
 
     /// The rates at the distance `s²`.
     pub(super) fn rates(&mut self, s: f64, state: &State) -> Rates {
-        let distance = (s * s).max(LEAST_DISTANCE * self.thread.line.length);
-        self.thread.rates(distance, state, self.phase, &mut self.hint)
+        let distance = (s * s).max(LEAST_DISTANCE * self.filament.line.length);
+        self.filament.rates(distance, state, self.phase, &mut self.hint)
     }
 
     /// `d/ds = 2s d/dz`.
     fn slopes(&mut self, s: f64, state: &State) -> State {
-        let s = s.max(libm::sqrt(LEAST_DISTANCE * self.thread.line.length));
+        let s = s.max(libm::sqrt(LEAST_DISTANCE * self.filament.line.length));
         let rates = self.rates(s, state);
         self.is_elastic_wave |= rates.is_elastic_wave;
         std::array::from_fn(|i| 2.0 * s * rates.slopes[i])
     }
 
-    /// How far into a step thread and air have the same speed [√m], by halves, and whether so little air crosses
+    /// How far into a step filament and air have the same speed [√m], by halves, and whether so little air crosses
     /// that the heat transfer has a cusp there. None if they do not, or have it at the start.
     pub(super) fn cusp(&mut self, step: &Step) -> Option<(f64, bool)> {
-        let mut faster = |s: f64, state: &State| self.thread.faster_air(s * s, state, &mut self.hint);
+        let mut faster = |s: f64, state: &State| self.filament.faster_air(s * s, state, &mut self.hint);
         let ([before, across], [after, _]) = (faster(step.start, &step.from), faster(step.end(), &step.to));
         let speed = libm::exp(step.from[LN_SPEED]);
         if before.abs() < 1e-6 * speed || (before < 0.0) == (after < 0.0) {
@@ -176,7 +176,7 @@ impl<'t, 'a> Stepper<'t, 'a> {
     fn error(&self, from: &State, to: &State, of: impl Fn(usize) -> f64) -> f64 {
         let sizes = self.sizes(from, to);
         let squares = sizes.iter().enumerate().map(|(i, size)| {
-            let share = of(i) / (self.thread.tolerance * size);
+            let share = of(i) / (self.filament.tolerance * size);
             share * share
         });
         libm::sqrt(squares.sum::<f64>() / sizes.len() as f64)

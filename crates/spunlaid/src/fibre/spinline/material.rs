@@ -20,7 +20,7 @@ pub struct Material {
     pub viscosity_temperature: f64,
     /// Activation energy `E_a` of the viscosity [J/mol].
     pub activation_energy: f64,
-    /// Temperature `T_s` at which the thread is solid [K].
+    /// Temperature `T_s` at which the filament is solid [K].
     pub solidification_temperature: f64,
     /// Density `ρ_s` of the solid [kg/m³].
     pub solid_density: f64,
@@ -72,7 +72,7 @@ pub struct Crystals {
     pub hardening_factor: f64,
     /// Exponent `b` of the hardening [-].
     pub hardening_exponent: f64,
-    /// Transformed share `θ_s` at which the thread is solid [-].
+    /// Transformed share `θ_s` at which the filament is solid [-].
     pub freezing_share: f64,
 }
 

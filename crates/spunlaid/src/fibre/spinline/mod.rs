@@ -5,7 +5,7 @@
 //!                                                                                     theory.md (84) to (99)
 //!
 //! ```text
-//! Spinline (what is known) → Thread (balances at a place) → shot (one tension at the die)
+//! Spinline (what is known) → Filament (balances at a place) → shot (one tension at the die)
 //!   → shooting (the tension that meets the end), or boundary (all places together) → Solution
 //! curtain: row after row, each in the air that the one before has warmed and dragged
 //! ```
@@ -14,6 +14,7 @@ mod boundary;
 mod calibration;
 mod cooling;
 mod elimination;
+mod filament;
 mod integration;
 mod material;
 mod measures;
@@ -24,7 +25,6 @@ mod steady;
 mod surroundings;
 #[cfg(test)]
 mod tests;
-mod thread;
 
 use crate::air::motion::density_at;
 use crate::air::{Air, FileContent, HEAT_CAPACITY_OF_AIR};
@@ -51,7 +51,7 @@ pub struct Spinline {
     pub die_temperature: f64,
     /// Diameter of the hole [m].
     pub hole_diameter: f64,
-    /// Diameter of the thread at the die over that of the hole [-].
+    /// Diameter of the filament at the die over that of the hole [-].
     pub die_swell: f64,
     /// Mass flow of a hole `W` [kg/s].
     pub throughput: f64,
@@ -67,15 +67,15 @@ pub struct Spinline {
     pub law: Law,
     /// Whether the polymer crystallises on its way.
     pub crystallisation: bool,
-    /// Emissivity of the thread `ε` [-]; zero leaves radiation out.
+    /// Emissivity of the filament `ε` [-]; zero leaves radiation out.
     pub emissivity: f64,
-    /// Whether the work of stretching heats the thread.
+    /// Whether the work of stretching heats the filament.
     pub dissipation: bool,
     /// Factor on the Nusselt number [-].
     pub nusselt_factor: f64,
     /// Factor on the friction between filament and air [-].
     pub drag_factor: f64,
-    /// Stress at which the thread breaks [Pa]; infinite if it is not known.
+    /// Stress at which the filament breaks [Pa]; infinite if it is not known.
     pub break_stress: f64,
     /// The rows of holes, if they share the air that crosses them.
     pub curtain: Option<HoleRows>,
@@ -83,7 +83,7 @@ pub struct Spinline {
     pub gives_modulus: bool,
 }
 
-/// A spinline and the drag laws, of which the one along the thread is used.
+/// A spinline and the drag laws, of which the one along the filament is used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpinSpec {
     /// What is known of the line.
@@ -189,7 +189,7 @@ impl Spinline {
 
     /// The steady state, one filament alone in the air.
     ///
-    /// * `friction` – law of the friction between thread and air
+    /// * `friction` – law of the friction between filament and air
     ///
     /// # Errors
     /// If there is none that a line could run in, with the reason and what to do.

@@ -1,10 +1,10 @@
-//! Finds the tension at the die with which the thread meets what is known at the end of the line.
+//! Finds the tension at the die with which the filament meets what is known at the end of the line.
 
 use super::End;
 use super::boundary::{Arrival, Branch, Effort, Run, Varies, largest_tension};
+use super::filament::{Filament, LN_SPEED, Phase, TEMPERATURE, TENSION};
 use super::integration::Step;
 use super::shot::{FASTEST, Outcome, Shot, shoot};
-use super::thread::{LN_SPEED, Phase, TEMPERATURE, TENSION, Thread};
 
 /// The tensions between which the one at the die is sought [N].
 const TENSIONS: [f64; 2] = [1e-8, 1e2];
@@ -28,21 +28,21 @@ const FIRST_MOVE: f64 = 2e-3;
 /// Why no tension meets the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Miss {
-    /// The thread is faster, or more tense, at the end than it should be, under the smallest tension too.
+    /// The filament is faster, or more tense, at the end than it should be, under the smallest tension too.
     TooMuch,
     /// It is slack under every tension.
     Slack,
-    /// Between a slack thread and one that is too fast, none reaches the end.
+    /// Between a slack filament and one that is too fast, none reaches the end.
     NoThread,
-    /// Followed from a slow line on, the threads turn back here: at this speed [m/s] or tension [N] at the end.
+    /// Followed from a slow line on, the filaments turn back here: at this speed [m/s] or tension [N] at the end.
     TurnsBack(f64),
-    /// Followed from a slow line on, the threads end where the melt cools no further before it is solid.
+    /// Followed from a slow line on, the filaments end where the melt cools no further before it is solid.
     StaysLiquid,
     /// The melt is pushed, first at this distance from the die [m].
     Pushed(f64),
     /// None was found, and whether there is one is not known.
     NotFound,
-    /// The thread is still liquid at the end, at this temperature [K].
+    /// The filament is still liquid at the end, at this temperature [K].
     Liquid(f64),
     /// The melt is too elastic.
     ElasticWave,
@@ -56,19 +56,19 @@ pub(super) struct Hit {
     pub(super) has_second: bool,
 }
 
-/// Why shooting has found no thread, and the closest one that reaches the end.
+/// Why shooting has found no filament, and the closest one that reaches the end.
 type Missed = (Miss, Option<Box<Run>>);
 
 struct Shooting<'t, 'a> {
-    thread: &'t Thread<'a>,
+    filament: &'t Filament<'a>,
 }
 
 impl Shooting<'_, '_> {
     fn shot(&self, x: f64) -> Option<Shot> {
-        Some(shoot(self.thread, self.thread.at_die(libm::exp(x))?))
+        Some(shoot(self.filament, self.filament.at_die(libm::exp(x))?))
     }
 
-    /// By how much the thread misses the end under the tension `exp(x)`: negative if it should be pulled more.
+    /// By how much the filament misses the end under the tension `exp(x)`: negative if it should be pulled more.
     fn miss(&self, x: f64) -> (f64, Option<Miss>) {
         let Some(shot) = self.shot(x) else { return (f64::NEG_INFINITY, Some(Miss::Slack)) };
         let reason = match shot.outcome {
@@ -77,7 +77,7 @@ impl Shooting<'_, '_> {
             Outcome::RunsAway => Some(Miss::NoThread),
             Outcome::ElasticWave => Some(Miss::ElasticWave),
         };
-        let miss = match (shot.outcome, self.thread.end) {
+        let miss = match (shot.outcome, self.filament.end) {
             (Outcome::Slack, _) => f64::NEG_INFINITY,
             (Outcome::RunsAway | Outcome::ElasticWave, _) => f64::INFINITY,
             (Outcome::Complete, End::Tension(tension) | End::Flown(tension)) => shot.end[TENSION] - tension,
@@ -89,7 +89,7 @@ impl Shooting<'_, '_> {
     /// The first place above `from` at which the miss changes its sign, as two places and their misses.
     ///
     /// # Errors
-    /// If there is none: why the thread misses the end under the largest tension.
+    /// If there is none: why the filament misses the end under the largest tension.
     fn bracket(&self, from: f64, to: f64, stride: f64) -> Result<[(f64, f64); 2], Option<Miss>> {
         let mut before = (from, self.miss(from).0);
         let mut last = None;
@@ -105,7 +105,7 @@ impl Shooting<'_, '_> {
     }
 
     /// The change of sign next to a place: a state that is a little more or less pulled than before. Like the
-    /// one of a search it has a thread that should be pulled more below it. None if the state is lost.
+    /// one of a search it has a filament that should be pulled more below it. None if the state is lost.
     fn bracket_near(&self, from: f64) -> Option<[(f64, f64); 2]> {
         let mut before = (from, self.miss(from).0);
         let up = before.1 < 0.0;
@@ -128,25 +128,25 @@ impl Shooting<'_, '_> {
     fn hit(&self, bracket: [(f64, f64); 2], close: f64) -> Result<Run, Missed> {
         let at_die = brent(|x| self.miss(x).0, self.narrow(bracket)?, close);
         let run = self.run(at_die).ok_or((Miss::NoThread, None))?;
-        if meets(self.thread, &run.shot) { Ok(run) } else { Err((Miss::NotFound, Some(Box::new(run)))) }
+        if meets(self.filament, &run.shot) { Ok(run) } else { Err((Miss::NotFound, Some(Box::new(run)))) }
     }
 
-    /// The thread under a tension, if it reaches the end.
+    /// The filament under a tension, if it reaches the end.
     fn run(&self, at_die: f64) -> Option<Run> {
         let shot = self.shot(at_die).filter(|shot| shot.outcome == Outcome::Complete)?;
         Some(Run { at_die, shot })
     }
 
-    /// Halves the interval until the thread reaches the end from both of its ends.
+    /// Halves the interval until the filament reaches the end from both of its ends.
     ///
     /// # Errors
-    /// If it does not, with the thread closest to it that reaches the end.
+    /// If it does not, with the filament closest to it that reaches the end.
     fn narrow(&self, [mut low, mut high]: [(f64, f64); 2]) -> Result<[(f64, f64); 2], Missed> {
         let (mut of_slack, mut of_fast) = (None, None);
         while !(low.1.is_finite() && high.1.is_finite()) {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
-                // A thread that gets to the end tells more than one that does not.
+                // A filament that gets to the end tells more than one that does not.
                 let near = self.run(low.0).or_else(|| self.run(high.0)).map(Box::new);
                 let miss = match (of_slack, of_fast) {
                     (Some(liquid @ Miss::Liquid(_)), _) | (_, Some(liquid @ Miss::Liquid(_))) => liquid,
@@ -169,8 +169,8 @@ impl Shooting<'_, '_> {
 /// Finds the smallest tension at the die that meets the end.
 ///
 /// * `looks_on` – whether to look for a second one
-pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
-    let shooting = Shooting { thread };
+pub(super) fn find(filament: &Filament<'_>, looks_on: bool) -> Result<Hit, Miss> {
+    let shooting = Shooting { filament };
     let [least, most] = TENSIONS.map(libm::log);
     let (miss, reason) = shooting.miss(least);
     if miss >= 0.0 {
@@ -182,19 +182,19 @@ pub(super) fn find(thread: &Thread<'_>, looks_on: bool) -> Result<Hit, Miss> {
         bracket = shooting.bracket(least, bracket[1].0, SHORT_STRIDE).unwrap_or(bracket);
     }
     let found = shooting.hit(bracket, CLOSE);
-    let Run { at_die, shot } = found.or_else(|missed| continued(thread, missed))?;
+    let Run { at_die, shot } = found.or_else(|missed| continued(filament, missed))?;
     let has_second =
         looks_on && shooting.bracket(at_die + 1e-3, libm::log(MOST_OF_SECOND), SHORT_STRIDE).is_ok();
     Ok(Hit { tension: libm::exp(at_die), shot, has_second })
 }
 
-/// The thread that no single tension leads to: by continuation from one that is known.
+/// The filament that no single tension leads to: by continuation from one that is known.
 ///
 /// * `near` – the closest one that shooting has found, if any
-fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
+fn continued(filament: &Filament<'_>, (miss, near): Missed) -> Result<Run, Miss> {
     let effort = Effort::default();
-    let by_end = |run: Run| Branch::new(thread, Varies::End, &run, &effort).walk(run);
-    let is_beyond = match thread.end {
+    let by_end = |run: Run| Branch::new(filament, Varies::End, &run, &effort).walk(run);
+    let is_beyond = match filament.end {
         End::TakeUp(speed) => speed > FASTEST,
         End::Tension(tension) | End::Flown(tension) => !(0.0..=TENSIONS[1]).contains(&tension),
     };
@@ -204,19 +204,18 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
     let mut found = near.map_or(Arrival::Lost, |near| by_end(*near));
     if matches!(found, Arrival::Lost) {
         let shares = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
-        let is_free = thread.end == End::Tension(0.0);
-        let free = eased(thread, End::Tension(0.0), &shares[usize::from(is_free)..], &effort);
-        let is_slow =
-            |run: &Run| matches!(thread.end, End::TakeUp(speed) if libm::log(speed) < run.shot.end[LN_SPEED]);
+        let is_free = filament.end == End::Tension(0.0);
+        let free = eased(filament, End::Tension(0.0), &shares[usize::from(is_free)..], &effort);
+        let is_slow = |run: &Run| matches!(filament.end, End::TakeUp(speed) if libm::log(speed) < run.shot.end[LN_SPEED]);
         if free.as_ref().is_some_and(is_slow) {
             return Err(Miss::TooMuch);
         }
-        let slow = End::TakeUp(EASY_DRAW_RATIO * thread.die_speed());
-        found = free.or_else(|| eased(thread, slow, &[0.0], &effort)).map_or(Arrival::Lost, by_end);
+        let slow = End::TakeUp(EASY_DRAW_RATIO * filament.die_speed());
+        found = free.or_else(|| eased(filament, slow, &[0.0], &effort)).map_or(Arrival::Lost, by_end);
     }
     match found {
         // At a free end a melt is not pulled, and that it is liquid there is the reason.
-        Arrival::Met(run) if meets(thread, &run.shot) => match pushed(thread, &run.shot) {
+        Arrival::Met(run) if meets(filament, &run.shot) => match pushed(filament, &run.shot) {
             _ if run.shot.solidification.is_none() => Err(Miss::Liquid(run.shot.end[TEMPERATURE])),
             Some(distance) => Err(Miss::Pushed(distance)),
             None => Ok(*run),
@@ -228,14 +227,14 @@ fn continued(thread: &Thread<'_>, (miss, near): Missed) -> Result<Run, Miss> {
     }
 }
 
-/// A thread of this line with another end, found with little of inertia, weight, friction and surface tension first.
+/// A filament of this line with another end, found with little of inertia, weight, friction and surface tension first.
 ///
-/// * `shares` – of these forces, the first with which shooting finds a thread
-fn eased(thread: &Thread<'_>, end: End, shares: &[f64], effort: &Effort) -> Option<Run> {
+/// * `shares` – of these forces, the first with which shooting finds a filament
+fn eased(filament: &Filament<'_>, end: End, shares: &[f64], effort: &Effort) -> Option<Run> {
     let [least, most] = TENSIONS.map(libm::log);
-    let of = |forces: &f64| Thread { end, forces: *forces, ..thread.clone() };
-    let run = |eased: Thread<'_>| {
-        let shooting = Shooting { thread: &eased };
+    let of = |forces: &f64| Filament { end, forces: *forces, ..filament.clone() };
+    let run = |eased: Filament<'_>| {
+        let shooting = Shooting { filament: &eased };
         let found = shooting.hit(shooting.bracket(least, most, STRIDE).ok()?, CLOSE);
         let run = found.map_or_else(|(_, near)| along(&eased, Varies::End, *near?, effort), Some)?;
         Some((eased.forces, run))
@@ -244,26 +243,26 @@ fn eased(thread: &Thread<'_>, end: End, shares: &[f64], effort: &Effort) -> Opti
     if forces == 1.0 { Some(run) } else { along(&of(&forces), Varies::Forces, run, effort) }
 }
 
-/// The thread that a continuation leads to.
-fn along(thread: &Thread<'_>, varies: Varies, run: Run, effort: &Effort) -> Option<Run> {
-    match Branch::new(thread, varies, &run, effort).walk(run) {
+/// The filament that a continuation leads to.
+fn along(filament: &Filament<'_>, varies: Varies, run: Run, effort: &Effort) -> Option<Run> {
+    match Branch::new(filament, varies, &run, effort).walk(run) {
         Arrival::Met(run) => Some(*run),
         _ => None,
     }
 }
 
 /// Where the melt of a shot is pushed first [m].
-fn pushed(thread: &Thread<'_>, shot: &Shot) -> Option<f64> {
+fn pushed(filament: &Filament<'_>, shot: &Shot) -> Option<f64> {
     let mut melt = shot.steps.iter().filter(|step| step.phase == Phase::Melt);
     let distance = |step: &Step| step.end() * step.end();
     let is_pushed =
-        |step: &&Step| thread.rates(distance(step), &step.to, Phase::Melt, &mut 0).station.stress <= 0.0;
+        |step: &&Step| filament.rates(distance(step), &step.to, Phase::Melt, &mut 0).station.stress <= 0.0;
     melt.find(is_pushed).map(distance)
 }
 
 /// Whether a shot meets what is known at the end.
-fn meets(thread: &Thread<'_>, shot: &Shot) -> bool {
-    match thread.end {
+fn meets(filament: &Filament<'_>, shot: &Shot) -> bool {
+    match filament.end {
         End::TakeUp(speed) => (shot.end[LN_SPEED] - libm::log(speed)).abs() < MISSED,
         End::Tension(tension) | End::Flown(tension) => {
             (shot.end[TENSION] - tension).abs() < MISSED * largest_tension(shot)
@@ -275,8 +274,8 @@ fn meets(thread: &Thread<'_>, shot: &Shot) -> bool {
 /// one that did. None if the state is lost, and has to be sought.
 ///
 /// * `known` – the tension at the die of the other line [N], and whether that has a second state
-pub(super) fn follow(thread: &Thread<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
-    let shooting = Shooting { thread };
+pub(super) fn follow(filament: &Filament<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
+    let shooting = Shooting { filament };
     let run = shooting.hit(shooting.bracket_near(libm::log(tension))?, CLOSE_ENOUGH).ok()?;
     Some(Hit { tension: libm::exp(run.at_die), shot: run.shot, has_second })
 }

@@ -1,10 +1,10 @@
-//! A thread under one tension at the die, followed to the end of the line.
+//! A filament under one tension at the die, followed to the end of the line.
 
+use super::filament::{Filament, LN_SPEED, Phase, State, TEMPERATURE, TENSION};
 use super::integration::{Step, Stepper};
-use super::thread::{LN_SPEED, Phase, State, TEMPERATURE, TENSION, Thread};
 use super::{SolidificationCause, Station};
 
-/// A thread that is faster runs away [m/s].
+/// A filament that is faster runs away [m/s].
 pub(super) const FASTEST: f64 = 2000.0;
 /// Most steps of a shot; it takes some sixty.
 const MOST_STEPS: usize = 5_000;
@@ -18,35 +18,35 @@ pub(super) const FIRST_STEP: f64 = 0.02;
 /// How a shot ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Outcome {
-    /// The thread reaches the end of the line.
+    /// The filament reaches the end of the line.
     Complete,
     /// The melt is no longer pulled.
     Slack,
-    /// The thread gets faster without bound.
+    /// The filament gets faster without bound.
     RunsAway,
-    /// The thread gets as fast as its own elastic wave.
+    /// The filament gets as fast as its own elastic wave.
     ElasticWave,
 }
 
-/// A thread under one tension at the die.
+/// A filament under one tension at the die.
 #[derive(Clone)]
 pub(super) struct Shot {
     pub(super) outcome: Outcome,
     /// The state at the end.
     pub(super) end: State,
-    /// The point at which it becomes solid: what makes it solid, and the thread there.
+    /// The point at which it becomes solid: what makes it solid, and the filament there.
     pub(super) solidification: Option<(SolidificationCause, Station, f64)>,
     /// Its steps.
     pub(super) steps: Vec<Step>,
 }
 
-/// Follows the thread from a state at the die to the end of the line.
-pub(super) fn shoot(thread: &Thread<'_>, die: State) -> Shot {
-    let length = libm::sqrt(thread.line.length);
-    Leg::new(thread, 0.0, die, FIRST_STEP * length, die[TENSION]).follow(length)
+/// Follows the filament from a state at the die to the end of the line.
+pub(super) fn shoot(filament: &Filament<'_>, die: State) -> Shot {
+    let length = libm::sqrt(filament.line.length);
+    Leg::new(filament, 0.0, die, FIRST_STEP * length, die[TENSION]).follow(length)
 }
 
-/// A part of a thread: where it is, and what is behind.
+/// A part of a filament: where it is, and what is behind.
 pub(super) struct Leg<'t, 'a> {
     stepper: Stepper<'t, 'a>,
     shot: Shot,
@@ -62,17 +62,17 @@ impl<'t, 'a> Leg<'t, 'a> {
     /// * `start` – the root of its distance from the die [√m], and the state there
     /// * `wanted` – length of the first step [√m]
     /// * `tension` – size of the tensions that occur [N]
-    pub(super) fn new(thread: &'t Thread<'a>, s: f64, state: State, wanted: f64, tension: f64) -> Self {
+    pub(super) fn new(filament: &'t Filament<'a>, s: f64, state: State, wanted: f64, tension: f64) -> Self {
         let shot = Shot { outcome: Outcome::Complete, end: state, solidification: None, steps: Vec::new() };
-        Self { stepper: Stepper::new(thread, tension), shot, s, state, wanted }
+        Self { stepper: Stepper::new(filament, tension), shot, s, state, wanted }
     }
 
-    /// Follows the thread to the root of a distance from the die [√m].
+    /// Follows the filament to the root of a distance from the die [√m].
     pub(super) fn follow(mut self, end: f64) -> Shot {
-        let thread = self.stepper.thread;
-        let length = thread.line.length;
+        let filament = self.stepper.filament;
+        let length = filament.line.length;
         // The air may have a kink in each of its rows.
-        let rows = thread.air.rows().iter().copied().filter(|row| (1e-9 * length..length).contains(row));
+        let rows = filament.air.rows().iter().copied().filter(|row| (1e-9 * length..length).contains(row));
         let rows = rows.map(libm::sqrt).filter(|row| (self.s..end).contains(row));
         for end in rows.chain([end]).collect::<Vec<_>>() {
             while self.s < end {
@@ -94,7 +94,8 @@ impl<'t, 'a> Leg<'t, 'a> {
         // A remnant that is much shorter than a step would cost as much as one.
         let (left, wanted) = (end - self.s, self.wanted);
         let length = if wanted >= left { left } else { wanted.min(0.5 * left).max(wanted.min(left) * 0.6) };
-        self.stepper.is_stiff = self.stepper.thread.relaxations(&self.state, self.s, self.s + length) > STIFF;
+        self.stepper.is_stiff =
+            self.stepper.filament.relaxations(&self.state, self.s, self.s + length) > STIFF;
         let step = self.stepper.step(self.s, length, &self.state);
         self.wanted = step.next_length();
         if step.error > 1.0 || step.error.is_nan() {
@@ -108,16 +109,16 @@ impl<'t, 'a> Leg<'t, 'a> {
         self.arrive()
     }
 
-    /// The part of a step before the melt becomes solid, and before the thread overtakes the air or the air the
-    /// thread: its heat transfer has a cusp there, which an error of a step across it does not show.
+    /// The part of a step before the melt becomes solid, and before the filament overtakes the air or the air the
+    /// filament: its heat transfer has a cusp there, which an error of a step across it does not show.
     fn up_to_event(&mut self, mut step: Step) -> Step {
-        let thread = self.stepper.thread;
-        if self.stepper.phase == Phase::Melt && thread.until_solid(&step.to) <= 0.0 {
-            step = freeze(thread, &mut self.stepper, &step);
+        let filament = self.stepper.filament;
+        if self.stepper.phase == Phase::Melt && filament.until_solid(&step.to) <= 0.0 {
+            step = freeze(filament, &mut self.stepper, &step);
         }
         let Some((to_cusp, is_sharp)) = self.stepper.cusp(&step) else { return step };
         // Towards a sharp one in shorter and shorter steps, and away from it in longer and longer ones.
-        let shortest = AT_CUSP * libm::sqrt(thread.line.length);
+        let shortest = AT_CUSP * libm::sqrt(filament.line.length);
         if is_sharp && to_cusp > shortest {
             return self.stepper.step(step.start, 0.8 * to_cusp, &step.from);
         }
@@ -125,16 +126,16 @@ impl<'t, 'a> Leg<'t, 'a> {
         self.stepper.step(step.start, to_cusp, &step.from)
     }
 
-    /// What a thread does that has arrived at the end of a step.
+    /// What a filament does that has arrived at the end of a step.
     fn arrive(&mut self) -> Option<Outcome> {
-        let thread = self.stepper.thread;
+        let filament = self.stepper.filament;
         let rates = self.stepper.rates(self.s, &self.state);
         if self.stepper.phase == Phase::Melt {
-            if thread.ends_slack && rates.station.stress <= 0.0 {
+            if filament.ends_slack && rates.station.stress <= 0.0 {
                 return Some(Outcome::Slack);
             }
-            if thread.until_solid(&self.state) <= 0.0 {
-                let is_cold = thread.is_cold(&self.state);
+            if filament.until_solid(&self.state) <= 0.0 {
+                let is_cold = filament.is_cold(&self.state);
                 let by = if is_cold {
                     SolidificationCause::Temperature
                 } else {
@@ -142,7 +143,7 @@ impl<'t, 'a> Leg<'t, 'a> {
                 };
                 let cooling_rate = -rates.slopes[TEMPERATURE] * rates.station.speed;
                 self.shot.solidification = Some((by, rates.station, cooling_rate));
-                let orientation = thread.orientation(rates.station.stress);
+                let orientation = filament.orientation(rates.station.stress);
                 self.stepper.phase = Phase::Solid { orientation };
             } else if rates.is_elastic_wave {
                 return Some(Outcome::ElasticWave);
@@ -154,10 +155,10 @@ impl<'t, 'a> Leg<'t, 'a> {
     }
 }
 
-/// The part of a step in which the melt becomes solid: it ends where the thread is solid, by regula falsi (Illinois).
-fn freeze(thread: &Thread<'_>, stepper: &mut Stepper<'_, '_>, step: &Step) -> Step {
+/// The part of a step in which the melt becomes solid: it ends where the filament is solid, by regula falsi (Illinois).
+fn freeze(filament: &Filament<'_>, stepper: &mut Stepper<'_, '_>, step: &Step) -> Step {
     let (mut melt, mut solid) = (0.0, step.length);
-    let (mut above, mut below) = (thread.until_solid(&step.from), thread.until_solid(&step.to));
+    let (mut above, mut below) = (filament.until_solid(&step.from), filament.until_solid(&step.to));
     let mut last = *step;
     for _ in 0..60 {
         if below == 0.0 || solid - melt <= 1e-15 * step.end() || above <= 0.0 {
@@ -166,7 +167,7 @@ fn freeze(thread: &Thread<'_>, stepper: &mut Stepper<'_, '_>, step: &Step) -> St
         let share = above / (above - below);
         let length = melt + share.clamp(0.001, 0.999) * (solid - melt);
         let part = stepper.step(step.start, length, &step.from);
-        let left = thread.until_solid(&part.to);
+        let left = filament.until_solid(&part.to);
         if left > 0.0 {
             (melt, above, below) = (length, left, 0.5 * below);
         } else {

@@ -6,7 +6,7 @@ use crate::fibre::drag::FrictionLaw;
 /// A solved spinline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// The thread from the die to the end, at rising distances: evenly spaced, and the solidification point.
+    /// The filament from the die to the end, at rising distances: evenly spaced, and the solidification point.
     pub stations: Vec<Station>,
     /// Speed of the hole's melt `v_0` at the die [m/s].
     pub die_speed: f64,
@@ -16,7 +16,7 @@ pub struct Solution {
     pub final_diameter: f64,
     /// Mass per length of the cold filament [kg/m].
     pub linear_density: f64,
-    /// Where the thread becomes solid.
+    /// Where the filament becomes solid.
     pub solidification: Solidification,
     /// Tension at the die `F_0` [N].
     pub force_at_die: f64,
@@ -40,12 +40,12 @@ pub struct Solution {
     pub has_second: bool,
 }
 
-/// The thread at a distance from the die.
+/// The filament at a distance from the die.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Station {
     /// Distance from the die `z` [m].
     pub distance: f64,
-    /// Speed of the thread `v` [m/s].
+    /// Speed of the filament `v` [m/s].
     pub speed: f64,
     /// Its diameter `d` [m].
     pub diameter: f64,
@@ -59,19 +59,19 @@ pub struct Station {
     pub transformed: f64,
     /// Strain rate `v'` [1/s].
     pub strain_rate: f64,
-    /// Velocity of the air along the thread `u` [m/s].
+    /// Velocity of the air along the filament `u` [m/s].
     pub air_velocity: f64,
-    /// Velocity of the air across the thread `v_c` [m/s].
+    /// Velocity of the air across the filament `v_c` [m/s].
     pub air_cross_velocity: f64,
     /// Temperature of the air `T_a` [K].
     pub air_temperature: f64,
     /// Heat that goes into the air by convection [W/m].
     pub convection: f64,
-    /// Friction of the air on the thread `f_t`, downwards [N/m].
+    /// Friction of the air on the filament `f_t`, downwards [N/m].
     pub friction: f64,
 }
 
-/// The point at which the thread becomes solid.
+/// The point at which the filament becomes solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solidification {
     /// Distance from the die [m].
@@ -82,14 +82,14 @@ pub struct Solidification {
     pub diameter: f64,
     /// Stress there [Pa].
     pub stress: f64,
-    /// How fast the thread cools there [K/s].
+    /// How fast the filament cools there [K/s].
     pub cooling_rate: f64,
     /// What makes it solid.
     pub by: SolidificationCause,
 }
 
 named! {
-    /// What makes the thread solid.
+    /// What makes the filament solid.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum SolidificationCause {
         /// It is as cold as the solidification temperature.
@@ -105,8 +105,8 @@ impl Solution {
         self.final_speed / self.die_speed
     }
 
-    /// What is to be said where the Reynolds numbers along the thread lie beyond the rows of a law of a file. The usual
-    /// one is their mean over the friction.
+    /// What is to be said where the Reynolds numbers along the filament lie beyond the rows of a law of a file. The
+    /// usual one is their mean over the friction.
     pub fn beyond_table(&self, law: FrictionLaw) -> Option<String> {
         let FrictionLaw::Table(table) = law else { return None };
         let reynolds = |station: &Station| {
@@ -118,7 +118,7 @@ impl Solution {
         table.beyond([usual, self.stations.iter().map(reynolds).fold(0.0, f64::max)])
     }
 
-    /// The thread at the end of the line.
+    /// The filament at the end of the line.
     pub fn end(&self) -> Station {
         self.stations.last().copied().unwrap_or_default()
     }

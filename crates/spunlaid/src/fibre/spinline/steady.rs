@@ -1,10 +1,10 @@
 //! The steady state of one filament: the shot that meets the end, what it says, and why there may be none.
 
 use super::boundary::largest_tension;
+use super::filament::{Filament, HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, WORK};
 use super::shooting::{Hit, MISSED, Miss, find, follow};
 use super::shot::Shot;
 use super::solution::{Solidification, Solution, Station};
-use super::thread::{HEAT, LN_SPEED, PULL, Phase, TEMPERATURE, TENSION, Thread, WORK};
 use super::{End, Failure, Spinline, Surroundings, ZERO_CELSIUS};
 use crate::fibre::drag::FrictionLaw;
 use crate::ground::{Dimension, Fault};
@@ -18,11 +18,11 @@ const FAR: f64 = 0.3;
 
 /// The steady state of a filament in this air.
 pub(super) fn solve(line: &Spinline, friction: FrictionLaw, air: &Surroundings) -> Result<Solution, Failure> {
-    let thread = Thread::new(line, friction, air);
-    if let Some(failure) = impossible_line(&thread) {
+    let filament = Filament::new(line, friction, air);
+    if let Some(failure) = impossible_line(&filament) {
         return Err(failure);
     }
-    describe(&thread, &seek(&thread)?)
+    describe(&filament, &seek(&filament)?)
 }
 
 /// The steady state of a filament in this air, next to the state of a line that differs a little. If it is
@@ -33,8 +33,8 @@ pub(super) fn solve_near(
     air: &Surroundings,
     near: &Solution,
 ) -> Result<Solution, Failure> {
-    let thread = Thread::new(line, friction, air);
-    describe(&thread, &hit_near(&thread, near)?)
+    let filament = Filament::new(line, friction, air);
+    describe(&filament, &hit_near(&filament, near)?)
 }
 
 /// The speed at the end of such a filament [m/s].
@@ -44,47 +44,47 @@ pub(super) fn final_speed_near(
     air: &Surroundings,
     near: &Solution,
 ) -> Result<f64, Failure> {
-    let thread = Thread::new(line, friction, air);
-    let hit = hit_near(&thread, near)?;
-    // Only where a thread breaks decides more than its end does.
+    let filament = Filament::new(line, friction, air);
+    let hit = hit_near(&filament, near)?;
+    // Only where a filament breaks decides more than its end does.
     if hit.shot.solidification.is_none() || line.break_stress.is_finite() {
-        return Ok(describe(&thread, &hit)?.final_speed);
+        return Ok(describe(&filament, &hit)?.final_speed);
     }
     Ok(libm::exp(hit.shot.end[LN_SPEED]))
 }
 
 /// The shot that meets the end next to a known one; sought if it is lost.
-fn hit_near(thread: &Thread<'_>, near: &Solution) -> Result<Hit, Failure> {
-    if let Some(failure) = impossible_line(thread) {
+fn hit_near(filament: &Filament<'_>, near: &Solution) -> Result<Hit, Failure> {
+    if let Some(failure) = impossible_line(filament) {
         return Err(failure);
     }
     // A state that differs much is another one: only a search tells which of them a line runs in.
     let is_near = |hit: &Hit| (hit.shot.end[LN_SPEED] - libm::log(near.final_speed)).abs() < FAR;
-    match follow(thread, (near.force_at_die, near.has_second)).filter(is_near) {
-        Some(hit) => pulled(thread, hit),
-        None => seek(thread),
+    match follow(filament, (near.force_at_die, near.has_second)).filter(is_near) {
+        Some(hit) => pulled(filament, hit),
+        None => seek(filament),
     }
 }
 
 /// The shot that meets the end.
-fn seek(thread: &Thread<'_>) -> Result<Hit, Failure> {
-    let found = find(thread, thread.line.crystallisation);
-    pulled(thread, found.map_err(|miss| shooting_failure(thread, miss))?)
+fn seek(filament: &Filament<'_>) -> Result<Hit, Failure> {
+    let found = find(filament, filament.line.crystallisation);
+    pulled(filament, found.map_err(|miss| shooting_failure(filament, miss))?)
 }
 
-/// A thread that no godet pushes.
-fn pulled(thread: &Thread<'_>, hit: Hit) -> Result<Hit, Failure> {
-    match thread.end {
+/// A filament that no godet pushes.
+fn pulled(filament: &Filament<'_>, hit: Hit) -> Result<Hit, Failure> {
+    match filament.end {
         End::TakeUp(speed) if hit.shot.end[TENSION] < -MISSED * largest_tension(&hit.shot) => {
-            Err(slow_godet(thread, speed))
+            Err(slow_godet(filament, speed))
         }
         _ => Ok(hit),
     }
 }
 
-/// A take-up that is slower than the thread would run without it.
-fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
-    let free = Thread { end: End::Tension(0.0), ..thread.clone() };
+/// A take-up that is slower than the filament would run without it.
+fn slow_godet(filament: &Filament<'_>, speed: f64) -> Failure {
+    let free = Filament { end: End::Tension(0.0), ..filament.clone() };
     let free =
         find(&free, false).ok().map(|hit| libm::exp(hit.shot.end[LN_SPEED])).filter(|free| *free > speed);
     let faster = free.map_or(String::new(), |free| {
@@ -96,9 +96,9 @@ fn slow_godet(thread: &Thread<'_>, speed: f64) -> Failure {
     Failure::new("spinline.take_up_speed", Some(speed), Fault::new(message, remedy))
 }
 
-/// Why no thread can run in this line, as far as this is known before it is solved.
-fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
-    let line = thread.line;
+/// Why no filament can run in this line, as far as this is known before it is solved.
+fn impossible_line(filament: &Filament<'_>) -> Option<Failure> {
+    let line = filament.line;
     let celsius = |kelvin: f64| Dimension::Temperature.pretty(kelvin);
     let solidification = line.material.solidification_temperature;
     if line.die_temperature <= solidification {
@@ -107,9 +107,9 @@ fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
         let value = Some(line.die_temperature);
         return Some(Failure::new("spinline.die_temperature", value, Fault::new(message, remedy)));
     }
-    let coldest = thread.coldest_air();
+    let coldest = filament.coldest_air();
     if coldest >= solidification && !line.crystallisation {
-        let (key, value) = key_of_air(thread.air, coldest, "spinline.temperature");
+        let (key, value) = key_of_air(filament.air, coldest, "spinline.temperature");
         let message = format!(
             "leaves the air nowhere colder than {}, and the polymer solidifies at {}",
             celsius(coldest),
@@ -117,7 +117,7 @@ fn impossible_line(thread: &Thread<'_>) -> Option<Failure> {
         );
         return Some(Failure::new(key, value, Fault::new(message, "cool the air")));
     }
-    let die_speed = thread.die_speed();
+    let die_speed = filament.die_speed();
     match line.end {
         End::TakeUp(speed) if speed < die_speed => {
             let found = Dimension::Velocity.pretty(die_speed);
@@ -151,8 +151,8 @@ const STAYS_LIQUID: &str = "has no steady state: in the solutions followed from 
 const CHECK_PULL: &str = "check the viscosity of the melt, the air and the throughput";
 
 /// Why no tension at the die meets the end of the line.
-fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
-    let (line, air) = (thread.line, thread.air);
+fn shooting_failure(filament: &Filament<'_>, miss: Miss) -> Failure {
+    let (line, air) = (filament.line, filament.air);
     match (miss, line.end) {
         (Miss::Liquid(temperature), _) => liquid_end(line, temperature),
         (Miss::ElasticWave, _) => Failure::new(
@@ -163,22 +163,22 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
                 "raise spinline.material.modulus, or leave spinline.law out",
             ),
         ),
-        (Miss::TooMuch | Miss::Pushed(_), End::TakeUp(speed)) => slow_godet(thread, speed),
+        (Miss::TooMuch | Miss::Pushed(_), End::TakeUp(speed)) => slow_godet(filament, speed),
         (Miss::Pushed(distance), _) => {
             let place = Dimension::Length.pretty(distance);
             let message =
                 format!("has no steady state: the melt is no longer pulled at {place} from the die");
             Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, CHECK_PULL))
         }
-        _ if !thread.is_computable() => {
+        _ if !filament.is_computable() => {
             let message = "leads to numbers that are too large or too small to compute with";
             let remedy = "check it, and all other values of the line, and their units";
             Failure::new("spinline.throughput", Some(line.throughput), Fault::new(message, remedy))
         }
         (Miss::NoThread | Miss::TurnsBack(_) | Miss::StaysLiquid | Miss::NotFound, _)
-        | (Miss::Slack, End::TakeUp(_)) => no_thread(thread, miss),
+        | (Miss::Slack, End::TakeUp(_)) => no_thread(filament, miss),
         (Miss::Slack, End::Tension(tension) | End::Flown(tension)) if tension != 0.0 => {
-            no_thread(thread, miss)
+            no_thread(filament, miss)
         }
         (Miss::TooMuch | Miss::Slack, _) => {
             let velocity = match air {
@@ -194,8 +194,8 @@ fn shooting_failure(thread: &Thread<'_>, miss: Miss) -> Failure {
 }
 
 /// That no tension at the die meets the end, and how this is known.
-fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
-    let end = thread.end;
+fn no_thread(filament: &Filament<'_>, miss: Miss) -> Failure {
+    let end = filament.end;
     let message = match (miss, end) {
         (Miss::NotFound, _) => NOT_FOUND.to_owned(),
         (Miss::StaysLiquid, _) => STAYS_LIQUID.to_owned(),
@@ -222,12 +222,12 @@ fn no_thread(thread: &Thread<'_>, miss: Miss) -> Failure {
             tension,
             "write \"0 N\" for a free end, or a small tension like \"0.1 mN\"",
         ),
-        _ => ("spinline.throughput", thread.line.throughput, CHECK_PULL),
+        _ => ("spinline.throughput", filament.line.throughput, CHECK_PULL),
     };
     Failure::new(key, Some(value), Fault::new(message, remedy))
 }
 
-/// The thread is not solid at the end of the line.
+/// The filament is not solid at the end of the line.
 fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
     let (reached, solid) = (celsius(temperature), celsius(line.material.solidification_temperature));
@@ -242,8 +242,8 @@ fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
 }
 
 /// What a shot says.
-fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
-    let (line, shot) = (thread.line, &hit.shot);
+fn describe(filament: &Filament<'_>, hit: &Hit) -> Result<Solution, Failure> {
+    let (line, shot) = (filament.line, &hit.shot);
     let Some((by, at, cooling_rate)) = shot.solidification else {
         return Err(liquid_end(line, shot.end[TEMPERATURE]));
     };
@@ -255,7 +255,7 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
         cooling_rate,
         by,
     };
-    let stations = stations(thread, shot, at.distance);
+    let stations = stations(filament, shot, at.distance);
     let breaks = |station: &&Station| station.stress > line.break_stress && station.distance <= at.distance;
     if let Some(broken) = stations.iter().find(breaks) {
         let strongest = Dimension::Pressure.pretty(broken.stress);
@@ -268,14 +268,14 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
             Fault::new(message, remedy),
         ));
     }
-    let (largest_strain_rate, largest_strain_rate_at) = largest_strain_rate(thread, shot);
+    let (largest_strain_rate, largest_strain_rate_at) = largest_strain_rate(filament, shot);
     let material = &line.material;
     let final_speed = libm::exp(shot.end[LN_SPEED]);
     let linear_density = line.throughput / final_speed;
     let birefringence = material.birefringence(at.stress, at.temperature);
-    let (momentum_residual, energy_residual) = residuals(thread, hit, &stations);
+    let (momentum_residual, energy_residual) = residuals(filament, hit, &stations);
     Ok(Solution {
-        die_speed: thread.die_speed(),
+        die_speed: filament.die_speed(),
         final_speed,
         final_diameter: line.final_diameter(final_speed),
         linear_density,
@@ -294,15 +294,15 @@ fn describe(thread: &Thread<'_>, hit: &Hit) -> Result<Solution, Failure> {
     })
 }
 
-/// The thread at places evenly spaced in the root of the distance, at the rows of the air's table and where
+/// The filament at places evenly spaced in the root of the distance, at the rows of the air's table and where
 /// it becomes solid.
-fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
-    let length = thread.line.length;
+fn stations(filament: &Filament<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
+    let length = filament.line.length;
     let even = (0..=PARTS).map(|i| {
         let share = i as f64 / PARTS as f64;
         length * share * share
     });
-    let rows = thread.air.rows().iter().copied().filter(|row| (0.0..=length).contains(row));
+    let rows = filament.air.rows().iter().copied().filter(|row| (0.0..=length).contains(row));
     let mut distances: Vec<f64> = even.chain(rows).chain([frozen]).collect();
     distances.sort_by(f64::total_cmp);
     distances.dedup();
@@ -316,18 +316,18 @@ fn stations(thread: &Thread<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
         let step = steps.peek()?;
         let phase = if distance <= frozen { Phase::Melt } else { step.phase };
         let looked = distance.max(1e-14 * length);
-        Some(Station { distance, ..thread.rates(looked, &step.at(s), phase, &mut hint).station })
+        Some(Station { distance, ..filament.rates(looked, &step.at(s), phase, &mut hint).station })
     };
     distances.into_iter().filter_map(at).collect()
 }
 
 /// The largest strain rate [1/s] and its distance from the die [m]: of many places in each step, and then by
 /// thirds between the neighbours of the best.
-fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
+fn largest_strain_rate(filament: &Filament<'_>, shot: &Shot) -> (f64, f64) {
     let mut hint = 0;
     let mut rate = |step: &super::integration::Step, s: f64| {
-        let distance = (s * s).max(1e-14 * thread.line.length);
-        thread.rates(distance, &step.at(s), Phase::Melt, &mut hint).station.strain_rate
+        let distance = (s * s).max(1e-14 * filament.line.length);
+        filament.rates(distance, &step.at(s), Phase::Melt, &mut hint).station.strain_rate
     };
     let mut best = (f64::NEG_INFINITY, 0.0);
     for step in shot.steps.iter().filter(|step| step.phase == Phase::Melt) {
@@ -353,17 +353,17 @@ fn largest_strain_rate(thread: &Thread<'_>, shot: &Shot) -> (f64, f64) {
 }
 
 /// By how much the balances of momentum and of energy over the whole line fail [-].      theory.md (96), (97)
-fn residuals(thread: &Thread<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
-    let (line, end, material) = (thread.line, &hit.shot.end, &thread.line.material);
+fn residuals(filament: &Filament<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
+    let (line, end, material) = (filament.line, &hit.shot.end, &filament.line.material);
     let mass_flow = line.throughput;
-    let accelerated = mass_flow * (libm::exp(end[LN_SPEED]) - thread.die_speed());
+    let accelerated = mass_flow * (libm::exp(end[LN_SPEED]) - filament.die_speed());
     let forces = end[TENSION] - hit.tension - (accelerated - end[PULL]);
     let largest = stations.iter().map(|station| station.tension.abs()).fold(hit.tension, f64::max);
     // ∫ c_p dT from the end to the die.
     let [cold, hot] = [end[TEMPERATURE], line.die_temperature].map(|kelvin| kelvin - ZERO_CELSIUS);
     let cooled = (hot - cold) * (material.heat_capacity + 0.5 * material.heat_capacity_slope * (hot + cold));
     let fused = if line.crystallisation {
-        material.crystals.heat_of_fusion * material.crystals.crystallinity * thread.transformed(end)
+        material.crystals.heat_of_fusion * material.crystals.crystallinity * filament.transformed(end)
     } else {
         0.0
     };

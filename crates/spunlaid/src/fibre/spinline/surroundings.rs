@@ -23,7 +23,7 @@ pub enum Surroundings {
 /// The air at a place of the spinline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirState {
-    /// Velocity along the thread `u`, downwards [m/s].
+    /// Velocity along the filament `u`, downwards [m/s].
     pub velocity: f64,
     /// Velocity across it `v_c` [m/s].
     pub cross_velocity: f64,
@@ -34,7 +34,7 @@ pub struct AirState {
 /// How the air of a table or a field is changed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirChange {
-    /// Factor on the velocity along the thread [-].
+    /// Factor on the velocity along the filament [-].
     pub velocity_factor: f64,
     /// Factor on the velocity across it [-].
     pub cross_velocity_factor: f64,
@@ -69,9 +69,9 @@ impl AirChange {
 pub struct AirTable {
     /// Distances from the die `z`, rising [m].
     pub distance: Vec<f64>,
-    /// Velocity along the thread [m/s].
+    /// Velocity along the filament [m/s].
     pub velocity: Vec<f64>,
-    /// Velocity across the thread [m/s].
+    /// Velocity across the filament [m/s].
     pub cross_velocity: Vec<f64>,
     /// Temperature [K].
     pub temperature: Vec<f64>,

@@ -1,13 +1,13 @@
-//! Exact solutions of threads. The forces that an exact solution leaves out are made too small to be seen, by
+//! Exact solutions of filaments. The forces that an exact solution leaves out are made too small to be seen, by
 //! a small density.
 
+use super::filament::{Filament, GRAVITY, LN_SPEED, TEMPERATURE, TENSION};
 use super::shooting::find;
 use super::shot::{Outcome, Shot, shoot};
-use super::thread::{GRAVITY, LN_SPEED, TEMPERATURE, TENSION, Thread};
 use super::*;
 use std::f64::consts::PI;
 
-/// No friction between thread and air.
+/// No friction between filament and air.
 const NONE: FrictionLaw = FrictionLaw::Matsui { factor: 0.0 };
 /// The tolerance of exact checks: a hundred times that of a step.
 const EXACT: f64 = 1e-6;
@@ -17,7 +17,7 @@ const LENGTH: f64 = 0.1;
 const VISCOSITY: f64 = 100.0;
 const AREA: f64 = PI * 1e-6 / 4.0;
 
-/// A liquid thread of 1 mm that leaves the die at 0.01 m/s, of constant temperature.
+/// A liquid filament of 1 mm that leaves the die at 0.01 m/s, of constant temperature.
 fn isothermal(density: f64) -> Spinline {
     let material = Material {
         specific_volume: 1.0 / density,
@@ -44,8 +44,8 @@ fn isothermal(density: f64) -> Spinline {
 }
 
 fn shot(line: &Spinline, gravity: f64, tension: f64) -> Shot {
-    let thread = Thread { gravity, ..Thread::new(line, NONE, &line.air) };
-    let shot = shoot(&thread, thread.at_die(tension).expect("a pulled thread"));
+    let filament = Filament { gravity, ..Filament::new(line, NONE, &line.air) };
+    let shot = shoot(&filament, filament.at_die(tension).expect("a pulled filament"));
     assert_eq!(shot.outcome, Outcome::Complete);
     shot
 }
@@ -65,8 +65,8 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 fn analytic_drawing_of_a_newtonian_thread() {
     // Matovich and Pearson: F = 3ηA₀v₀ ln D/L, v = v₀ D^(z/L).
     let line = Spinline { end: End::TakeUp(20.0 * SPEED), ..isothermal(1e-6) };
-    let thread = Thread { gravity: 0.0, ..Thread::new(&line, NONE, &line.air) };
-    let hit = find(&thread, false).unwrap_or_else(|miss| panic!("{miss:?}"));
+    let filament = Filament { gravity: 0.0, ..Filament::new(&line, NONE, &line.air) };
+    let hit = find(&filament, false).unwrap_or_else(|miss| panic!("{miss:?}"));
     close(hit.tension, 7.058_527_877e-5, EXACT);
     close(speed(&hit.shot, LENGTH / 2.0), 0.044_721_359_55, EXACT);
 }
@@ -74,8 +74,8 @@ fn analytic_drawing_of_a_newtonian_thread() {
 #[test]
 fn analytic_inertia() {
     let line = Spinline { end: End::TakeUp(400.0 * SPEED), ..isothermal(1000.0) };
-    let thread = Thread { gravity: 0.0, ..Thread::new(&line, NONE, &line.air) };
-    let hit = find(&thread, false).unwrap_or_else(|miss| panic!("{miss:?}"));
+    let filament = Filament { gravity: 0.0, ..Filament::new(&line, NONE, &line.air) };
+    let hit = find(&filament, false).unwrap_or_else(|miss| panic!("{miss:?}"));
     close(hit.tension, 1.363_755_121e-4, EXACT);
     close(speed(&hit.shot, LENGTH / 2.0), 0.182_137_409_3, EXACT);
     close(hit.shot.end[TENSION], 1.677_128_988e-4, EXACT);
@@ -97,7 +97,7 @@ fn analytic_surface_tension() {
     close(speed(&shot(&line, 0.0, 1.5e-4), LENGTH), 2.841_783_015, 2.0 * EXACT);
 }
 
-/// The draw ratio of a viscoelastic thread under the tension that draws a Newtonian one by e².
+/// The draw ratio of a viscoelastic filament under the tension that draws a Newtonian one by e².
 fn drawn(law: Law, deborah: f64, change: impl Fn(&mut Material)) -> f64 {
     let mut line = Spinline { law, ..isothermal(1e-6) };
     line.material.modulus = VISCOSITY * SPEED / (deborah * LENGTH);
@@ -146,7 +146,7 @@ fn analytic_exponential_law_is_the_linear_one_for_small_stress() {
 
 #[test]
 fn analytic_thread_of_large_stress() {
-    // An upper-convected Maxwell thread under a large tension: v = v₀ + z/λ.
+    // An upper-convected Maxwell filament under a large tension: v = v₀ + z/λ.
     let mut line = Spinline { law: Law::Giesekus, ..isothermal(1e-12) };
     (line.material.mobility, line.material.modulus) = (0.0, VISCOSITY / 0.1);
     close(shot(&line, 0.0, 1.0).end[LN_SPEED].exp(), 1.01, 1e-4);
@@ -156,8 +156,9 @@ fn analytic_thread_of_large_stress() {
 fn analytic_cooling() {
     // T − T_a = e^(−z/ℓ), ℓ = W c_p/(π k Nu) = 1/3 m.
     let line = isothermal(1000.0);
-    let thread = Thread { gravity: 0.0, heat_transfer: Some(0.015), ..Thread::new(&line, NONE, &line.air) };
-    let shot = shoot(&thread, thread.at_die(1e-9).expect("a thread"));
+    let filament =
+        Filament { gravity: 0.0, heat_transfer: Some(0.015), ..Filament::new(&line, NONE, &line.air) };
+    let shot = shoot(&filament, filament.at_die(1e-9).expect("a filament"));
     close(shot.end[TEMPERATURE] - 273.15, 153.347_279_7, EXACT);
 }
 
@@ -167,15 +168,15 @@ fn analytic_drawing_of_a_cooling_thread() {
     let mut line = Spinline { end: End::TakeUp(20.0 * SPEED), ..isothermal(1e-6) };
     (line.material.heat_capacity, line.material.activation_energy) = (1e12, 44e3);
     let drawn = |line: &Spinline| {
-        let thread =
-            Thread { gravity: 0.0, heat_transfer: Some(0.015), ..Thread::new(line, NONE, &line.air) };
-        find(&thread, false).unwrap_or_else(|miss| panic!("{miss:?}"))
+        let filament =
+            Filament { gravity: 0.0, heat_transfer: Some(0.015), ..Filament::new(line, NONE, &line.air) };
+        find(&filament, false).unwrap_or_else(|miss| panic!("{miss:?}"))
     };
     close(drawn(&line).tension, 1.886_176_177e-4, EXACT);
     line.material.solidification_temperature = 150.0 + ZERO_CELSIUS;
     let hit = drawn(&line);
     close(hit.tension, 2.371_019_557e-4, EXACT);
-    close(hit.shot.solidification.expect("a solid thread").1.distance, 0.054_237_066_74, EXACT);
+    close(hit.shot.solidification.expect("a solid filament").1.distance, 0.054_237_066_74, EXACT);
 }
 
 #[test]
@@ -191,9 +192,9 @@ fn analytic_crystallisation_at_a_constant_temperature() {
     line.material.stress_optical_coefficient = 1e-9;
     line.length = 2.746_636_5 * SPEED;
     let shot = shot(&line, 0.0, 1e-12);
-    let thread = Thread::new(&line, NONE, &line.air);
+    let filament = Filament::new(&line, NONE, &line.air);
     close(shot.end[LN_SPEED].exp(), SPEED, 1e-6);
-    close(thread.transformed(&shot.end), 0.184_010_436_9, EXACT);
+    close(filament.transformed(&shot.end), 0.184_010_436_9, EXACT);
 }
 
 #[test]
@@ -299,7 +300,7 @@ fn invariant_drawn_lines_meet_their_end_or_are_refused() {
     assert!(solved > 70 && not_found <= 2, "{solved} solved, {not_found} not found");
 }
 
-/// Where a thread overtakes air that does not cross it, its heat transfer has a cusp. Against a solution with a
+/// Where a filament overtakes air that does not cross it, its heat transfer has a cusp. Against a solution with a
 /// thousandth of the error of a step.
 #[test]
 fn invariant_cusps_of_the_heat_transfer_are_seen() {
@@ -309,9 +310,9 @@ fn invariant_cusps_of_the_heat_transfer_are_seen() {
         let Surroundings::Uniform(air) = &mut line.air else { continue };
         (air.cross_velocity, air.velocity, line.law) = (0.0, 0.3 + 0.1 * seed as f64, Law::Newtonian);
         line.end = End::TakeUp(20.0 + seed as f64);
-        let coarse = Thread::new(&line, friction, &line.air);
-        let fine = Thread { tolerance: 1e-11, ..coarse.clone() };
-        let [Ok(found), Ok(exact)] = [&coarse, &fine].map(|thread| find(thread, false)) else { continue };
+        let coarse = Filament::new(&line, friction, &line.air);
+        let fine = Filament { tolerance: 1e-11, ..coarse.clone() };
+        let [Ok(found), Ok(exact)] = [&coarse, &fine].map(|filament| find(filament, false)) else { continue };
         let frozen = |shot: &Shot| shot.solidification.map_or(f64::NAN, |(_, station, _)| station.distance);
         let [a, b] = [&found, &exact].map(|hit| frozen(&hit.shot));
         if a.is_finite() {

@@ -91,7 +91,7 @@ pub struct TurnedLine {
     /// Notes and warnings.
     pub notes: Vec<Note>,
     /// Whether flights have still to find a tension: until then the web is that of a tension of 0 N
-    /// (`Resources::settle`).
+    /// (`Resources::resolve_tension`).
     pub needs_flights: bool,
 }
 

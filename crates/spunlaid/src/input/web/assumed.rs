@@ -1,6 +1,6 @@
 //! Numbers that the file of a web says are assumed values.
 
-use super::read::Reading;
+use super::read::WebParser;
 use super::{flies_none, is_of_case};
 use crate::experiment::setting::SETTINGS;
 use crate::fibre::case::keys::{self, Kind};
@@ -104,7 +104,7 @@ fn keys_of_web(web: &WebSpec, name: &str) -> Result<(Vec<String>, &'static WebKe
 /// The key that names the settings of the running line.
 const TURNABLE: &str = "web.turnable";
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Refuses settings that a line does not have.
     pub(super) fn check_turnable(&mut self, web: &WebSpec) {
         let is_known = |name: &&String| SETTINGS.iter().any(|setting| setting.name == *name);

@@ -1,6 +1,6 @@
 //! Checks layers together: with each other, and with the sheet on which they lie.
 
-use super::read::{BELT_SPEED, Reading};
+use super::read::{BELT_SPEED, WebParser};
 use crate::experiment::plausible::implausible;
 use crate::fibre::{BREAKDOWN, Note, Remark, STRONG};
 use crate::ground::error::Place;
@@ -16,7 +16,7 @@ const OF_FLIGHTS: [&str; 3] = ["web.simulated", "web.error", "web.time"];
 /// Most mass per length of a filament over that of the others.
 const MOST_TITRE: f64 = 2.0;
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Refuses two layers of one name.
     pub(super) fn check_names(&mut self, prefixes: &[String]) {
         let name_of = |prefix| self.key_values.text(&format!("{prefix}name"));
@@ -237,7 +237,7 @@ impl Reading<'_> {
     }
 }
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Checks the charge of a layer.
     pub(super) fn check_charge(&mut self, prefix: &str, web: &WebSpec, layer: &LayerSpec) {
         let [charge, walls] = ["charge", "walls"].map(|name| format!("{prefix}line.{name}"));

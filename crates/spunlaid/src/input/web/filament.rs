@@ -4,7 +4,7 @@
 
 use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
-use super::read::{CASE, Reading, THROUGHPUT};
+use super::read::{CASE, THROUGHPUT, WebParser};
 use crate::fibre::case::keys::{self, Value};
 use crate::fibre::{Case, Note, Remark};
 use crate::ground::{Dimension, Error, Fault, Problem};
@@ -75,7 +75,7 @@ impl Filament {
     }
 }
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// The filament of a layer; none if the file that it names cannot be read, which is noted.
     pub(super) fn filament(&mut self, prefix: &str) -> Option<Filament> {
         let (mut values, path) = if self.is_written(&format!("{prefix}{CASE}")) {

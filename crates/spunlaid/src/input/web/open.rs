@@ -4,7 +4,7 @@
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use super::filament::Filament;
-use super::read::{CASE, Reading, as_web};
+use super::read::{CASE, WebParser, as_web};
 use super::{WrittenWeb, flies_none};
 use crate::fibre::case::keys;
 use crate::fibre::{Note, Remark};
@@ -15,7 +15,7 @@ use crate::web::map::Filaments;
 
 /// The file of a web, read as far as it goes before its filaments are spun and simulated.
 pub(super) struct OpenWeb<'a> {
-    reading: Reading<'a>,
+    reading: WebParser<'a>,
     web: WebSpec,
     layers: Vec<Layer>,
 }
@@ -25,7 +25,7 @@ pub(super) fn open(written: WrittenWeb, resources: &Resources) -> OpenWeb<'_> {
     let WrittenWeb { values: key_values, path, named } = written;
     let (notes, basis_weight_key, prefixes) = (Vec::new(), String::new(), prefixes(&key_values));
     let mut reading =
-        Reading { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
+        WebParser { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
     let mut web = WebSpec::unknown();
     let mut layers: Vec<Layer> = prefixes.iter().map(|prefix| reading.layer(prefix)).collect();
     reading.fill(&mut web, "web", "web.", false);
@@ -84,7 +84,7 @@ impl OpenWeb<'_> {
         if reading.key_values.problems.is_empty() {
             reading.doubt_numbers(&web);
         }
-        let Reading { mut key_values, notes, .. } = reading;
+        let WebParser { mut key_values, notes, .. } = reading;
         if key_values.problems.is_empty() {
             let Some(problem) = web.air_beyond_memory() else { return Ok((web, sorted(notes))) };
             key_values.problems.push(key_values.placed(problem));
@@ -124,7 +124,7 @@ impl OpenWeb<'_> {
     }
 }
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// A layer. Its values are NaN where there is a problem with them, which is noted.
     fn layer(&mut self, prefix: &str) -> Layer {
         let way = self.way(prefix);
@@ -182,7 +182,7 @@ pub(super) struct Layer {
     pub(super) spun: Option<f64>,
 }
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// What tells how the filaments of a layer lie.
     fn way(&mut self, prefix: &str) -> Way {
         let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));

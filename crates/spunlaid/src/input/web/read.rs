@@ -22,7 +22,7 @@ pub(super) const THROUGHPUT: &str = "line.throughput";
 pub(super) const BELT_SPEED: &str = "line.belt_speed";
 
 /// A file while it is read.
-pub(super) struct Reading<'a> {
+pub(super) struct WebParser<'a> {
     pub(super) key_values: WrittenValues,
     /// Its path.
     pub(super) path: PathBuf,
@@ -44,7 +44,7 @@ pub(super) fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
     web.layers.into_iter().for_each(|changed| *layer = changed);
 }
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Warnings about written values that are most likely slips.
     pub(super) fn unusual(&self) -> Vec<Note> {
         let entry = |(full, written_value): (&str, &WrittenValue)| {

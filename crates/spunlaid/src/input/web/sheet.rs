@@ -1,7 +1,7 @@
 //! The sheet: its size, cells, patches and edges.
 
 use super::open::Layer;
-use super::read::{BELT_SPEED, CASE, Reading};
+use super::read::{BELT_SPEED, CASE, WebParser};
 use crate::fibre::case::whole_parts;
 use crate::ground::{Dimension, Fault};
 use crate::simulation::layers::full_names::without_numbers;
@@ -20,7 +20,7 @@ const MOST_PATCHES: usize = 100;
 /// The window that is chosen [m].
 const WINDOW: f64 = 20e-3;
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Sets what a file leaves out of the sheet, and checks it.
     pub(super) fn complete_sheet(&mut self, web: &mut WebSpec) {
         let Sheet { width, length, .. } = web.sheet;
@@ -144,7 +144,7 @@ fn chosen_cell(width: f64, length: f64) -> f64 {
 /// The key that stands in its place.
 const BASIS_WEIGHT: &str = "line.basis_weight";
 
-impl Reading<'_> {
+impl WebParser<'_> {
     /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
     /// are simulated above it.
     pub(super) fn lay_weight(&mut self, web: &mut WebSpec, layers: &mut [Layer]) {

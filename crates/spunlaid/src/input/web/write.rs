@@ -8,7 +8,7 @@ use crate::simulation::layers::full_names::{DEFECTS, ROWS, entries};
 use crate::simulation::layers::keys::WEB;
 use crate::simulation::{WebKey, WebSpec};
 
-/// Writes a web as TOML, with the cases that it flies: every key, in SI units. Reading the text gives the
+/// Writes a web as TOML, with the cases that it flies: every key, in SI units. WebParser the text gives the
 /// same web to the last bit.
 pub fn write_web(spec: &WebSpec) -> String {
     write_with(spec, &|number, key| value_to_write(spec.layers.get(number)?.source.case()?, key))

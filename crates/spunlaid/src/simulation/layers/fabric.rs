@@ -2,7 +2,7 @@
 
 use super::{LayerSpec, WebSpec};
 use crate::web::fabric::LaidPatch;
-use crate::web::fabric::{Filaments, columns_sold, tell};
+use crate::web::fabric::{Filaments, columns_sold, estimate};
 use crate::web::map::uniformity::variance_of_mean;
 use crate::web::map::{Evidence, Findings, PatchFindings, holes};
 use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
@@ -38,7 +38,7 @@ impl WebSpec {
             error_of_weight: self.error_of_part(web, found).or(found.error_of_weight).unwrap_or(0.0),
             defects: self.streak_sources(web),
         };
-        tell(&laid, &self.fabric, threads)
+        estimate(&laid, &self.fabric, threads)
     }
 
     /// Standard error of the mean weight of a part that is sold, as a fraction of it; None if all of the web is.

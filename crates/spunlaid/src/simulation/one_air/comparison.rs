@@ -9,7 +9,7 @@
 use super::flyer::Flyer;
 use super::layer_beam::{LayerBeam, beam_on};
 use super::sampled::Compared;
-use super::shared_air::{fly_abreast, memory_abreast};
+use super::shared_air::{fly_concurrent, memory_concurrent};
 use super::{Beam, BeamFindings};
 use crate::fibre::{Contact, LaidPoint, Line};
 use crate::ground::threads::par_map;
@@ -65,7 +65,7 @@ impl Flyer<'_> {
     ) -> Result<Vec<Result<SubsampleEstimate, Error>>, Error> {
         let by = RunContext { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: steps };
         layer.check_memory()?;
-        let simulated = fly_abreast(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
+        let simulated = fly_concurrent(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
         let simulated: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(simulated).collect();
         let of_web = |web: usize| {
             let of_beam = layer.beams[web].as_ref().map_err(again)?;
@@ -93,7 +93,7 @@ impl Flyer<'_> {
                 }
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
-            few.tell((&sheet, layer.blocks), (&beam, &simulated), curves.as_ref(), (threads, self.stop))
+            few.estimate((&sheet, layer.blocks), (&beam, &simulated), curves.as_ref(), (threads, self.stop))
         }))
     }
 }
@@ -166,7 +166,7 @@ impl<'a> Comparison<'a> {
 
     /// Refuses webs whose common air does not fit into the memory that it may take.
     fn check_memory(&self) -> Result<(), Fault> {
-        let needed = memory_abreast(&self.flown_beams(), &self.sheet);
+        let needed = memory_concurrent(&self.flown_beams(), &self.sheet);
         if needed <= self.memory_limit {
             return Ok(());
         }

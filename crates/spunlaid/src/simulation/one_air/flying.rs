@@ -1,7 +1,7 @@
 //! The filaments of a beam while they fly.
 
 use super::charge::BeamField;
-use super::lane_group::{BeltStretch, Pack, Reach, side_by_side};
+use super::lane_group::{BeltStretch, Pack, Reach, adjacent_filaments};
 use super::neighbours::Neighbours;
 use super::{Beam, BeamFindings};
 use crate::air::EddyField;
@@ -50,7 +50,7 @@ impl<'a> Flying<'a> {
         let line = beam.case.line.filter(|line| line.belt_speed > 0.0);
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let packs =
-            side_by_side(beam.places).into_iter().map(|numbers| (numbers, Mutex::new(None))).collect();
+            adjacent_filaments(beam.places).into_iter().map(|numbers| (numbers, Mutex::new(None))).collect();
         let stretch = BeltStretch::before(&beam, &line, (sheet, sink.window));
         let field = BeamField::new(&beam);
         Ok(Self { beam, line, packs, sink, stretch, reach: Reach::default(), field, done: 0 })
@@ -101,7 +101,7 @@ impl<'a> Flying<'a> {
         if self.has_lost_too_many() {
             return;
         }
-        self.stretch.settle(&self.reach);
+        self.stretch.reconcile(&self.reach);
         if let Some(together) = &mut self.sink.neighbours {
             self.packs.iter().for_each(|(_, pack)| {
                 lock(pack).iter_mut().for_each(|pack| pack.compare(together));

@@ -94,7 +94,7 @@ impl Flyer<'_> {
             let Some(few) = &layer.few else { return Ok((layer, simulated, None)) };
             let (beam, on) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
             let curves = few.curves(&layer.sheet, &beam, &simulated)?;
-            let told = few.tell(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
+            let told = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
             let more = told.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();

@@ -9,7 +9,7 @@ use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa, WIDTH};
 use crate::simulation::observe::{NodeStates, StretchedBalance};
-use crate::web::{Depositor, Sheet, Strands, Window, WindowOnSheet};
+use crate::web::{Depositor, Sheet, Window, WindowCurves, WindowOnSheet};
 use std::sync::Arc;
 
 /// Neighbours across the web that are shared out to packs by their places in the slot.
@@ -27,7 +27,7 @@ fn steps_between_looks(to_birth: u64) -> u64 {
 }
 
 /// The filaments of each pack: neighbours read the same part of the air.
-pub(super) fn side_by_side(places: &[Inlet]) -> Vec<Vec<usize>> {
+pub(super) fn adjacent_filaments(places: &[Inlet]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
         sort_by_key(area, |filament| places[*filament].y);
@@ -231,7 +231,7 @@ impl BeltStretch {
     }
 
     /// Finds the place of the sheet as soon as all filaments have laid the fibre of their start.
-    pub(super) fn settle(&mut self, reach: &Reach) {
+    pub(super) fn reconcile(&mut self, reach: &Reach) {
         if self.back.is_none() && reach.fed > self.start {
             self.back = Some(reach.start - self.length);
         }
@@ -257,7 +257,7 @@ pub(super) struct Filament {
     /// All points, if they are kept.
     pub(super) kept: Option<Vec<LaidPoint>>,
     /// Its parts in the window.
-    pub(super) strands: Strands,
+    pub(super) strands: WindowCurves,
     /// Why it is lost.
     pub(super) lost: Option<Error>,
 }
@@ -266,7 +266,7 @@ impl Filament {
     pub(super) fn new(number: usize, place: Inlet, kept: bool) -> Self {
         let kept = kept.then(Vec::new);
         let (waiting, deviations) = (Vec::new(), Vec::new());
-        Self { number, place, waiting, deviations, kept, strands: Strands::default(), lost: None }
+        Self { number, place, waiting, deviations, kept, strands: WindowCurves::default(), lost: None }
     }
 
     /// Takes points that it has laid, and draws its pieces on the sheet as soon as it is known where that is.

@@ -14,8 +14,8 @@ use crate::web::map::inlets;
 use crate::web::map::uniformity::patch_cv;
 use crate::web::surrogate::identify;
 use crate::web::{
-    Belt, Curves, Depositor, Edges, FlownCurves, FlownFibres, Library, OneAir, Sheet, Strand, SubsampleCv,
-    SubsampleEstimate, Titres, Trace, TraceSettings, Window,
+    Belt, Curves, Depositor, Edges, FlownCurves, FlownFibres, Library, OneAir, Sheet, SubsampleCv,
+    SubsampleEstimate, Titres, Trace, TraceSettings, Window, WindowCurve,
 };
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -192,7 +192,7 @@ impl LayerBeam<'_> {
         few: &mut SubsampleEstimate,
         brush: &Depositor<'_>,
         by: (usize, &AtomicBool),
-    ) -> Result<Vec<Strand>, Error> {
+    ) -> Result<Vec<WindowCurve>, Error> {
         let FilledLayer { spec, number, .. } = *layer;
         let (sheet, window, simulated) = (&spec.sheet, spec.window(), &self.sheet);
         let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);

@@ -213,7 +213,7 @@ impl SubsamplePlan {
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
-    pub(super) fn tell(
+    pub(super) fn estimate(
         &self,
         (sheet, blocks): (&Sheet, [usize; 2]),
         (beam, simulated): (&Beam<'_>, &BeamFindings),
@@ -225,13 +225,13 @@ impl SubsamplePlan {
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
         let with_pitches = |told: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..told };
         let Some(curves) = curves else {
-            let told = filaments.tell(None, by.0)?;
+            let told = filaments.estimate(None, by.0)?;
             return Ok(with_pitches(SubsampleEstimate { correlation: f64::NAN, ..told }));
         };
         let covariances = Covariances::fit(curves, by.0);
         let filled =
             self.filled((sheet, simulated.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
-        let told = filaments.tell(Some(&filled), by.0)?;
+        let told = filaments.estimate(Some(&filled), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
         Ok(with_pitches(SubsampleEstimate { correlation: correlation[0].min(correlation[1]), ..told }))
     }

@@ -64,7 +64,7 @@ pub(super) type Watch<'w> = &'w mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> R
 ///
 /// # Errors
 /// For each beam as of [`Beam::fly`]; and if it is stopped.
-pub(super) fn fly_abreast(
+pub(super) fn fly_concurrent(
     beams: &[Beam<'_>],
     (sheet, memory): (&Sheet, f64),
     by: RunContext<'_>,
@@ -102,7 +102,7 @@ fn room_of(beams: &[Beam<'_>], sheet: &Sheet) -> Room {
 }
 
 /// Most memory that the air of one of some beams takes that fly abreast [B].
-pub(super) fn memory_abreast(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
+pub(super) fn memory_concurrent(beams: &[Beam<'_>], sheet: &Sheet) -> f64 {
     let room = room_of(beams, sheet);
     beams.iter().map(|beam| beam.memory_in(&room, HIGHEST)).fold(0.0, f64::max)
 }
@@ -404,7 +404,7 @@ mod tests {
         let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
         let beams = [Beam::new(&lost, &places), Beam::new(&good, &places)];
         // One after the other: there is no memory for two airs.
-        let found = fly_abreast(&beams, (&sheet, -1.0), by).unwrap();
+        let found = fly_concurrent(&beams, (&sheet, -1.0), by).unwrap();
         assert!(found[0].is_err() && found[1].as_ref().unwrap().back.is_finite(), "{found:?}");
     }
 }

@@ -205,10 +205,10 @@ impl Flyer<'_> {
         let Some(first) = beams.first() else { return Ok(Vec::new()) };
         let fits =
             (spec.memory_limit / first.beam().memory_of_air(&first.sheet, LARGER_WAVES).max(1.0)) as usize;
-        let abreast = beams.len().min(self.threads).min(fits).max(1);
-        let (threads, stop) = (self.threads.div_ceil(abreast), self.stop);
+        let concurrent = beams.len().min(self.threads).min(fits).max(1);
+        let (threads, stop) = (self.threads.div_ceil(concurrent), self.stop);
         let found = self.watched(&beams, |done| {
-            try_par_map(abreast, beams.len(), |i| {
+            try_par_map(concurrent, beams.len(), |i| {
                 let by = RunContext { threads, isa: Isa::detect(), stop, done };
                 let laid = coarsely(&beams[i], by)?;
                 let beam = beams[i].beam();
@@ -262,7 +262,7 @@ fn look_at(
     let Some(few) = &of_beam.few else { return Ok(None) };
     let beam = of_beam.beam();
     let curves = few.curves(sheet, &beam, laid)?;
-    few.tell((sheet, blocks_on(sheet)), (&beam, laid), Some(&curves), by).map(Some)
+    few.estimate((sheet, blocks_on(sheet)), (&beam, laid), Some(&curves), by).map(Some)
 }
 
 /// The same sheet in cells twice as large, if its patches are whole numbers of them.

@@ -4,8 +4,8 @@ use super::Curtain;
 use crate::ground::threads::try_par_map;
 use crate::ground::{Error, Fault, Lanes, WIDTH};
 use crate::web::map::{
-    CanvasPart, DepositionGrid, Depositor, LaidWeb, NO_CORNERS, Sheet, Strand, Strands, Titres, Window,
-    WindowOnSheet, widen,
+    CanvasPart, DepositionGrid, Depositor, LaidWeb, NO_CORNERS, Sheet, Titres, Window, WindowCurve,
+    WindowCurves, WindowOnSheet, widen,
 };
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,7 +63,7 @@ pub(crate) fn draw(
     belt: Belt<'_>,
     brush: &Depositor<'_>,
     (threads, stop): (usize, &AtomicBool),
-) -> Result<Vec<Strand>, Error> {
+) -> Result<Vec<WindowCurve>, Error> {
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).next_multiple_of(WIDTH).clamp(WIDTH, MOST_TOGETHER);
@@ -171,9 +171,9 @@ fn draw_neighbours(
     points_on: Range<usize>,
     brush: &Depositor<'_>,
     stop: &AtomicBool,
-) -> Result<Vec<Strand>, Error> {
+) -> Result<Vec<WindowCurve>, Error> {
     let window = WindowOnSheet::new(of.belt.window, of.belt.sheet);
-    let mut strands: Vec<Strands> = of.filaments.clone().map(|_| Strands::default()).collect();
+    let mut strands: Vec<WindowCurves> = of.filaments.clone().map(|_| WindowCurves::default()).collect();
     let (mut part, mut points) = (CanvasPart::new(brush.canvas), Vec::new());
     let last = points_on.end.saturating_sub(1);
     for first in (points_on.start..last).step_by(BLOCK) {
@@ -204,7 +204,7 @@ fn draw_neighbours(
         }
     }
     part.pass_on();
-    Ok(strands.into_iter().flat_map(Strands::into_parts).collect())
+    Ok(strands.into_iter().flat_map(WindowCurves::into_parts).collect())
 }
 
 /// Lays all filaments of a curtain on a sheet; the parts of them in the window are returned too.
@@ -218,7 +218,7 @@ pub fn lay(
     belt: Belt<'_>,
     element: f64,
     by: (usize, &AtomicBool),
-) -> Result<(LaidWeb, Vec<Strand>), Error> {
+) -> Result<(LaidWeb, Vec<WindowCurve>), Error> {
     lay_with(curtain, belt, element, Titres::default(), by)
 }
 
@@ -229,7 +229,7 @@ pub(crate) fn lay_with(
     element: f64,
     titres: Titres,
     by: (usize, &AtomicBool),
-) -> Result<(LaidWeb, Vec<Strand>), Error> {
+) -> Result<(LaidWeb, Vec<WindowCurve>), Error> {
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = DepositionGrid::new(belt.sheet, &[element], basis_weight)?;
@@ -247,7 +247,7 @@ mod tests {
     const CELL: f64 = 1e-3;
     const ELEMENT: f64 = 1e-9;
 
-    fn laid(curtain: &dyn Curtain, belt: Belt<'_>, threads: usize) -> (LaidWeb, Vec<Strand>) {
+    fn laid(curtain: &dyn Curtain, belt: Belt<'_>, threads: usize) -> (LaidWeb, Vec<WindowCurve>) {
         lay(curtain, belt, ELEMENT, (threads, &AtomicBool::new(false))).unwrap()
     }
 

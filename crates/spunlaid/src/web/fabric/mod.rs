@@ -11,18 +11,20 @@
 //! ```
 
 mod air_through;
+mod estimate;
 mod light;
 mod marks;
 mod measures;
 mod patches;
 mod streaks;
 mod strips;
-mod tell;
 #[cfg(test)]
 mod tests;
 mod usable;
 
 pub use air_through::{Filaments, air_speed};
+pub(crate) use estimate::{ABOUT, PATCHES, columns_sold};
+pub use estimate::{AirThrough, Fabric, FabricPatch, Laid, LaidPatch, Opacity, estimate, of_scan};
 pub use light::{bare_area, formation, opacity, scattering};
 pub use marks::Marks;
 pub use measures::{
@@ -32,8 +34,6 @@ pub(crate) use patches::NONE_FOUND;
 pub use patches::{ThinPlaces, thin_places};
 pub use streaks::{Streak, StreakSource, streaks};
 pub use strips::{StripPlace, StripSize, Strips, strips};
-pub(crate) use tell::{ABOUT, PATCHES, columns_sold};
-pub use tell::{AirThrough, Fabric, FabricPatch, Laid, LaidPatch, Opacity, of_scan, tell};
 pub use usable::{Usable, usable};
 
 use crate::ground::Known;

@@ -142,7 +142,7 @@ fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
     };
     let at_random = kind(&kinds[0], 0.6) + kind(&kinds[1], 0.4);
     for saleable_width in [None, Some(50e-3)] {
-        let fabric = tell(&laid, &FabricKeys { saleable_width, ..FabricKeys::USUAL }, 1);
+        let fabric = estimate(&laid, &FabricKeys { saleable_width, ..FabricKeys::USUAL }, 1);
         let with_number = fabric.patches.iter().find(|patch| patch.formation.is_some()).unwrap();
         assert_eq!(fabric.patches.iter().filter(|patch| patch.formation.is_some()).count(), 1);
         let Some(Known::Value(number, Some(error))) = with_number.formation else { panic!("no error") };
@@ -432,7 +432,7 @@ fn streaky_fabric_of(seed: u64, off: Option<f64>, reported: impl Fn(PatchCv) -> 
         error_of_weight: 0.0,
         defects: Vec::new(),
     };
-    tell(&laid, &FabricKeys { measured_opacity: Some(0.35), ..FabricKeys::USUAL }, 1)
+    estimate(&laid, &FabricKeys { measured_opacity: Some(0.35), ..FabricKeys::USUAL }, 1)
 }
 
 /// A sheet that holds too few clouds or streaks for an error of its CV has none of its thin spots and weights either:

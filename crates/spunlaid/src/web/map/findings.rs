@@ -65,7 +65,8 @@ impl Findings {
     /// too few filaments were simulated.
     pub fn texture_md(&self) -> Option<Estimate> {
         let texture = self.clouds.as_ref()?.texture_md();
-        let is_known = |patch: &PatchFindings| patch.told().is_some_and(|told| told.standard_error.is_some());
+        let is_known =
+            |patch: &PatchFindings| patch.reported().is_some_and(|told| told.standard_error.is_some());
         let is_known = self.patches.iter().any(is_known);
         Some(Estimate { standard_error: texture.standard_error.filter(|_| is_known), ..texture })
     }
@@ -106,14 +107,14 @@ pub struct PatchFindings {
 
 impl PatchFindings {
     /// The CV of the web; None if a few filaments were simulated and do not tell it.
-    pub fn told(&self) -> Option<PatchCv> {
+    pub fn reported(&self) -> Option<PatchCv> {
         self.doubt.is_none().then_some(self.map)
     }
 
     /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
     /// not told.
     pub fn with_total_error(&self) -> Option<PatchCv> {
-        let told = self.told()?;
+        let told = self.reported()?;
         Some(PatchCv { standard_error: self.total_error().whole().or(told.standard_error), ..told })
     }
 
@@ -364,7 +365,7 @@ impl Findings {
         if self.margins != [0.0; 2] {
             doubts.push(Doubt::ThinEdges { margins: self.margins });
         }
-        let unsure = self.patches.iter().filter_map(PatchFindings::told);
+        let unsure = self.patches.iter().filter_map(PatchFindings::reported);
         let unsure = unsure.filter(|map| map.standard_error.is_none());
         doubts.extend(of_sides(unsure.map(|map| map.patch), |sides| Doubt::NoError { sides }));
         doubts
@@ -418,7 +419,7 @@ fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
     });
     let mut doubts: Vec<Doubt> = too_few.collect();
     let missing = few().flat_map(|few| few.missing).fold(0.0, f64::max);
-    let apart = |patch: &PatchFindings| Some((patch.map.patch, patch.of_map / patch.told()?.cv - 1.0));
+    let apart = |patch: &PatchFindings| Some((patch.map.patch, patch.of_map / patch.reported()?.cv - 1.0));
     let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
     let off: Vec<(f64, f64)> = apart.into_iter().filter(|(_, apart)| apart.abs() > OF_MAP).collect();
     let most = off.iter().map(|(_, apart)| *apart).max_by(|a, b| a.abs().total_cmp(&b.abs()));

@@ -2,7 +2,7 @@
 
 use super::basis_weight::Map;
 use super::few_findings::SubsampleEstimate;
-use super::window::Strand;
+use super::window::WindowCurve;
 use crate::fibre::{SheetHeight, WayPlace};
 use crate::ground::statistics::student_t_95_at;
 use crate::ground::{Estimate, Fault};
@@ -48,7 +48,7 @@ pub enum Evidence {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LayerFlown {
     /// Single fibres of a window.
-    pub strands: Vec<Strand>,
+    pub strands: Vec<WindowCurve>,
     /// How filaments come down together, over their distance.
     pub neighbours: Vec<NeighbourCorrelation>,
     /// What a few filaments say about the web of all; None if all were simulated.
@@ -77,9 +77,9 @@ impl LaidWeb {
     }
 
     /// The single fibres of all layers in the window.
-    pub fn strands(&self) -> Vec<Strand> {
+    pub fn strands(&self) -> Vec<WindowCurve> {
         let of_layer = |(layer, simulated): (usize, &LayerFlown)| {
-            simulated.strands.iter().map(|strand| Strand { layer, ..strand.clone() }).collect::<Vec<_>>()
+            simulated.strands.iter().map(|strand| WindowCurve { layer, ..strand.clone() }).collect::<Vec<_>>()
         };
         self.simulated.iter().enumerate().flat_map(of_layer).collect()
     }

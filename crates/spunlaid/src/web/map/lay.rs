@@ -4,7 +4,7 @@ use super::Web;
 use super::canvas::{CanvasPart, DepositionGrid};
 use super::laid_web::LaidWeb;
 use super::plan::{Plan, plans};
-use super::window::{Strand, Strands, Window, WindowOnSheet};
+use super::window::{Window, WindowCurve, WindowCurves, WindowOnSheet};
 use crate::ground::threads::{lock, try_par_map};
 use crate::ground::{Error, Lanes, RunContext, WIDTH};
 use std::ops::Range;
@@ -60,7 +60,7 @@ pub fn lay(web: &Web, by: RunContext<'_>) -> Result<LaidWeb, Error> {
 ///
 /// # Errors
 /// As [`lay`](super::lay).
-pub fn strands(web: &Web, window: Window, by: RunContext<'_>) -> Result<Vec<Strand>, Error> {
+pub fn strands(web: &Web, window: Window, by: RunContext<'_>) -> Result<Vec<WindowCurve>, Error> {
     let plans = plans(web)?;
     let sets = |(layer, plan): (usize, &Plan<'_>)| {
         (0..plan.places.len()).step_by(WIDTH).map(move |first| (layer, first)).collect::<Vec<_>>()
@@ -86,11 +86,11 @@ fn strands_of(
     (layer, plan): (usize, &Plan<'_>),
     first: usize,
     by: RunContext<'_>,
-) -> Result<Vec<Strand>, Error> {
+) -> Result<Vec<WindowCurve>, Error> {
     let count = WIDTH.min(plan.places.len() - first);
     let [places, mut along] = plan.start(web, first, count);
     let advance = plan.layer.belt_ratio() * plan.piece;
-    let mut kept: Vec<Strands> = (0..count).map(|_| Strands::default()).collect();
+    let mut kept: Vec<WindowCurves> = (0..count).map(|_| WindowCurves::default()).collect();
     plan.walk(web, &[(first, count)], by, |_, points| {
         let longest = (points.len() - 1) as f64 * (plan.piece + advance);
         for (lane, kept) in kept.iter_mut().enumerate() {
@@ -108,6 +108,6 @@ fn strands_of(
         }
         along = Lanes(along.0.map(|at| at - advance * (points.len() - 1) as f64));
     })?;
-    let strands = kept.into_iter().flat_map(Strands::into_parts);
-    Ok(strands.map(|strand| Strand { layer, ..strand }).collect())
+    let strands = kept.into_iter().flat_map(WindowCurves::into_parts);
+    Ok(strands.map(|strand| WindowCurve { layer, ..strand }).collect())
 }

@@ -13,7 +13,7 @@ type OfPatch = Measure<PatchFindings>;
 /// The measures of the patches of each size, in the order of `summary.json`, where the interval follows the
 /// first, of the tables and of studies.
 pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
-    share("cv", "CV over patches of # mm", |patch| Some(patch.told()?.cv))
+    share("cv", "CV over patches of # mm", |patch| Some(patch.reported()?.cv))
         .meaning("coefficient of variation of the basis weight of the map over square patches")
         .kept("cv_#_mm", "cv_#_mm")
         .main()

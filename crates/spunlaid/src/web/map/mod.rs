@@ -68,8 +68,8 @@ pub use orientation::{Orientation, orientation};
 use std::sync::Arc;
 pub use uniformity::nearest_to_seen;
 pub use waves::{Places, Streaks};
-pub use window::{Strand, Window};
-pub(crate) use window::{Strands, WindowOnSheet};
+pub use window::{Window, WindowCurve};
+pub(crate) use window::{WindowCurves, WindowOnSheet};
 
 /// A sheet and what is laid on it.
 #[derive(Clone, Debug)]

@@ -26,7 +26,7 @@ const SHORTEST: usize = 5;
 /// The last word of the keys of their random numbers.
 const SINGLE: u64 = 12;
 /// Fibres laid at the same time.
-const ABREAST: usize = 8;
+const CONCURRENT: usize = 8;
 
 /// What single fibres say about patches of one side.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,11 +73,11 @@ pub fn one_fibre(
     let trace = reach + largest;
     let least = (SHORTEST * reach).max(4 * largest);
     let mut found = vec![FibreSums::default(); sides.len()];
-    let rows = (CELLS / (ABREAST * apart)).max(least);
-    let abreast = (4 * CELLS / (rows * apart)).clamp(1, ABREAST) as u64;
+    let rows = (CELLS / (CONCURRENT * apart)).max(least);
+    let concurrent = (4 * CELLS / (rows * apart)).clamp(1, CONCURRENT) as u64;
     let fibres = sample.fibres.max(1);
-    for first in (0..fibres).step_by(abreast as usize) {
-        let (fibres, seed) = (abreast.min(fibres - first), seed_of_batch(sample.seed, first));
+    for first in (0..fibres).step_by(concurrent as usize) {
+        let (fibres, seed) = (concurrent.min(fibres - first), seed_of_batch(sample.seed, first));
         add(layer, sides, OneFibre { fibres, seed, ..sample }, [apart, trace, rows], by, &mut found)?;
     }
     let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));

@@ -1,6 +1,6 @@
 //! How the filaments of a layer are drawn: where they come down, in which pieces, with which random numbers.
 
-use super::canvas::{CanvasPart, OUTSIDE, Pens};
+use super::canvas::{CanvasPart, LaneDepositors, OUTSIDE};
 use super::defects::{PLACES, Titres, inlets};
 use super::{Fibres, Layer, Sheet, Web};
 use crate::ground::random::{stream, uniform};
@@ -134,7 +134,7 @@ impl<'a> Plan<'a> {
                 pens.is_bounded = true;
                 pens
             };
-            let mut pens: Vec<Pens> = sets.iter().map(of_set).collect();
+            let mut pens: Vec<LaneDepositors> = sets.iter().map(of_set).collect();
             self.walk(web, &sets, by, |set, points| {
                 let ((first, count), pens) = (sets[set], &mut pens[set]);
                 let of_lane = |lane: usize| {

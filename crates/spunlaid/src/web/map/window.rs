@@ -20,7 +20,7 @@ pub struct Window {
 
 /// A part of a fibre within a window.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Strand {
+pub struct WindowCurve {
     /// Number of the layer, from 0.
     pub layer: usize,
     /// Number of the filament in its layer, counted across the web from 0.
@@ -95,13 +95,13 @@ impl WindowOnSheet {
 
 /// The parts of a filament in a window, while it is laid piece by piece.
 #[derive(Debug, Default)]
-pub(crate) struct Strands {
-    strands: Vec<Strand>,
+pub(crate) struct WindowCurves {
+    strands: Vec<WindowCurve>,
     /// Whether the last of them goes on.
     enters: bool,
 }
 
-impl Strands {
+impl WindowCurves {
     /// Keeps a piece of a filament that is in the window.
     ///
     /// * `from`, `to` – its ends on the sheet [m]
@@ -122,10 +122,10 @@ impl Strands {
         let end = [start[0] + by[0], start[1] + by[1]];
         let shown = window.holds(start) || window.holds(end);
         // Where the sheet goes on, a piece may begin at the other edge.
-        let is_there = |strand: &Strand| strand.points.last().is_some_and(|last| is_same(*last, start));
+        let is_there = |strand: &WindowCurve| strand.points.last().is_some_and(|last| is_same(*last, start));
         match self.strands.last_mut().filter(|strand| shown && self.enters && is_there(strand)) {
             Some(strand) => strand.points.push(end),
-            None if shown => self.strands.push(Strand { layer: 0, filament, points: vec![start, end] }),
+            None if shown => self.strands.push(WindowCurve { layer: 0, filament, points: vec![start, end] }),
             None => {}
         }
         self.enters = shown;
@@ -133,13 +133,13 @@ impl Strands {
         if !is_same(arrived, end) && window.holds(arrived) {
             // It comes in at the other edge.
             let start = [arrived[0] - by[0], arrived[1] - by[1]];
-            self.strands.push(Strand { layer: 0, filament, points: vec![start, arrived] });
+            self.strands.push(WindowCurve { layer: 0, filament, points: vec![start, arrived] });
             self.enters = true;
         }
     }
 
     /// The parts, in the order of the filament.
-    pub(crate) fn into_parts(self) -> Vec<Strand> {
+    pub(crate) fn into_parts(self) -> Vec<WindowCurve> {
         self.strands
     }
 }

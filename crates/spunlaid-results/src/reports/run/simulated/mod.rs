@@ -329,7 +329,7 @@ impl Flights {
     }
 
     /// Shows all that was recorded of a replicate, and puts into the file what memory has of it.
-    fn settle<R: Row>(
+    fn write_in_order<R: Row>(
         &self,
         replicate: u64,
         held: &[Vec<R>],
@@ -453,13 +453,14 @@ impl<'a> Tables<'a> {
     /// If it cannot be read back or written.
     pub fn add(&mut self, replicate: u64) -> Result<(), Failure> {
         let (flights, held) = (self.flights, self.flights.take(replicate));
-        flights.settle(replicate, &held.samples, |samples| {
+        flights.write_in_order(replicate, &held.samples, |samples| {
             let mut tables = self.samples.iter_mut();
             tables.try_for_each(|(columns, table)| add_rows(table, replicate, samples, columns))
         })?;
         let laid = self.laid.as_mut();
         laid.map_or(Ok(()), |table| {
-            flights.settle(replicate, &held.points, |points| add_rows(table, replicate, points, &POINT))
+            flights
+                .write_in_order(replicate, &held.points, |points| add_rows(table, replicate, points, &POINT))
         })
     }
 

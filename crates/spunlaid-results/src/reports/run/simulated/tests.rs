@@ -238,7 +238,7 @@ fn what_is_forgotten_does_not_come_back() {
     assert!(simulated.log.count([POINTS, 0]) > 0);
     simulated.begin(0);
     simulated.lay(0, &points(1)).unwrap();
-    simulated.settle(0, &simulated.take(0).points, |_| Ok(())).unwrap();
+    simulated.write_in_order(0, &simulated.take(0).points, |_| Ok(())).unwrap();
     assert_eq!(simulated.log.count([POINTS, 0]), 4);
 }
 

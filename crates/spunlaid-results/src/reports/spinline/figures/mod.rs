@@ -38,13 +38,13 @@ const BEYOND_FREEZING: f64 = 1.25;
 type Quantity = fn(&Station) -> f64;
 
 /// A row of filaments to draw: its name, nothing if there is only one, and its colour.
-struct ThreadRow<'a> {
+struct FilamentRow<'a> {
     name: &'static str,
     colour: Colour,
     solution: &'a Solution,
 }
 
-impl ThreadRow<'_> {
+impl FilamentRow<'_> {
     fn points(&self, quantity: Quantity) -> impl Iterator<Item = (f64, f64)> {
         self.solution.stations.iter().map(move |station| (station.distance * MM, quantity(station)))
     }
@@ -57,12 +57,12 @@ impl ThreadRow<'_> {
 
 /// The figures of a thread; of a curtain those of its first and of its last row.
 fn thread_figures(prefix: &str, solutions: &[Solution]) -> Vec<Figure> {
-    let rows: Vec<ThreadRow<'_>> = match solutions {
+    let rows: Vec<FilamentRow<'_>> = match solutions {
         [] => return Vec::new(),
-        [solution] => vec![ThreadRow { name: "", colour: BLUE, solution }],
+        [solution] => vec![FilamentRow { name: "", colour: BLUE, solution }],
         [first, .., last] => vec![
-            ThreadRow { name: "first row", colour: BLUE, solution: first },
-            ThreadRow { name: "last row", colour: VERMILION, solution: last },
+            FilamentRow { name: "first row", colour: BLUE, solution: first },
+            FilamentRow { name: "last row", colour: VERMILION, solution: last },
         ],
     };
     let frozen = rows.iter().map(|row| row.solution.solidification.distance).fold(0.0, f64::max);
@@ -88,15 +88,15 @@ fn chart(prefix: &str, name: &str, title: &str, up: Axis) -> Chart {
 /// A chart with a quantity of each row, and where the row solidifies.
 ///
 /// * `is_keyed` – whether the chart has a legend
-fn with_rows(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
+fn with_rows(chart: Chart, rows: &[FilamentRow<'_>], quantity: Quantity, is_keyed: bool) -> Chart {
     with_points(chart, rows, |row| row.points(quantity), is_keyed)
 }
 
 /// The same with points for each row.
 fn with_points<'a, P: Iterator<Item = (f64, f64)>>(
     chart: Chart,
-    rows: &'a [ThreadRow<'a>],
-    points: impl Fn(&'a ThreadRow<'a>) -> P,
+    rows: &'a [FilamentRow<'a>],
+    points: impl Fn(&'a FilamentRow<'a>) -> P,
     is_keyed: bool,
 ) -> Chart {
     rows.iter().enumerate().fold(chart, |chart, (i, row)| {
@@ -112,7 +112,7 @@ fn with_points<'a, P: Iterator<Item = (f64, f64)>>(
 }
 
 /// The words of a caption that say what frozen means.
-fn about_solidification(rows: &[ThreadRow<'_>]) -> String {
+fn about_solidification(rows: &[FilamentRow<'_>]) -> String {
     let [first, ..] = rows else { return String::new() };
     let rows = if first.name.is_empty() { "" } else { " of each row" };
     format!(
@@ -120,7 +120,7 @@ fn about_solidification(rows: &[ThreadRow<'_>]) -> String {
     )
 }
 
-fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+fn drawing(prefix: &str, rows: &[FilamentRow<'_>]) -> Figure {
     let title = "Speed and diameter of the filament";
     let speed = chart(prefix, "speed", title, Axis::logarithmic("Speed *v* (m/s)").decades(4));
     let speed = with_rows(speed, rows, |station| station.speed, true);
@@ -140,7 +140,7 @@ fn drawing(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
 }
 
 /// The air that the rows meet.
-fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
+fn with_air(chart: Chart, rows: &[FilamentRow<'_>], quantity: Quantity) -> Chart {
     let dashes = [&[][..], &[2.0, 3.0]];
     rows.iter().zip(dashes).fold(chart, |chart, (row, dash)| {
         let series = Series { dash, ..Series::new(&row.label("air"), GREEN) };
@@ -148,7 +148,7 @@ fn with_air(chart: Chart, rows: &[ThreadRow<'_>], quantity: Quantity) -> Chart {
     })
 }
 
-fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+fn temperature(prefix: &str, rows: &[FilamentRow<'_>]) -> Figure {
     let title = "Temperature of the filament and of the air";
     let chart = chart(prefix, "temperature", title, Axis::linear("Temperature *T* (°C)"));
     let chart = with_rows(chart, rows, |station| station.temperature - ZERO_CELSIUS, true);
@@ -160,7 +160,7 @@ fn temperature(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
     Figure::new(&chart, caption)
 }
 
-fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+fn tension(prefix: &str, rows: &[FilamentRow<'_>]) -> Figure {
     let title = "Tension and stress of the filament";
     let tension = chart(prefix, "tension", title, Axis::linear("Tension *F* (mN)").zero_based());
     let tension = with_rows(tension, rows, |station| station.tension * 1e3, true);
@@ -180,7 +180,7 @@ fn tension(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
 }
 
 /// From the solidification point on it is zero, at once.
-fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
+fn strain_rate(prefix: &str, rows: &[FilamentRow<'_>], until: f64) -> Figure {
     let title = "Strain rate of the filament";
     let up = Axis::linear("Strain rate d*v*/d*z* (1/s)").zero_based().in_column("strain_rate_per_s");
     let chart = chart(prefix, "strain_rate", title, up);
@@ -202,7 +202,7 @@ fn strain_rate(prefix: &str, rows: &[ThreadRow<'_>], until: f64) -> Figure {
     Figure::new(&chart, caption)
 }
 
-fn transformed(prefix: &str, rows: &[ThreadRow<'_>]) -> Figure {
+fn transformed(prefix: &str, rows: &[FilamentRow<'_>]) -> Figure {
     let title = "Transformed fraction of the polymer";
     let up = Axis::linear("Transformed fraction *θ* (–)").zero_based().in_column("transformed");
     let chart = chart(prefix, "transformed", title, up);

@@ -54,7 +54,7 @@ fn alone(change: &Change) -> Option<usize> {
 /// The CV of the web as it is.
 fn cv_over(findings: &Findings, patch: f64) -> f64 {
     let found = findings.patches.iter().find(|found| found.map.patch == patch);
-    found.and_then(|found| found.told()).map_or(f64::NAN, |told| told.cv)
+    found.and_then(|found| found.reported()).map_or(f64::NAN, |told| told.cv)
 }
 
 /// Adds the changes that could not be simulated or laid, if there are any.

@@ -95,7 +95,7 @@ pub fn summary_of_web(
         // With half and twice of each assumed value, of which the error knows nothing.
         let known =
             |assumed_values: &&Advice| assumed_values.tried.iter().any(|tried| tried.on(side).is_some());
-        if let (Some(assumed_values), Some(told)) = (assumed_values.filter(known), patch.told()) {
+        if let (Some(assumed_values), Some(told)) = (assumed_values.filter(known), patch.reported()) {
             numbers["cv_assumed"] = json(assumed_values.range(side).map(|ratio| ratio * told.cv));
         }
         numbers

@@ -32,7 +32,7 @@ impl From<Card> for Section<'static> {
     fn from(Card { id, title, rows, apart: (heading, apart), words }: Card) -> Self {
         let table = Table::new(["", ""]).laid_out(Layout::Facts).rows(rows);
         let table = if apart.is_empty() { table } else { table.group(heading.to_owned(), apart) };
-        Section::new(id, title).table(table).paragraphs(words).told().card()
+        Section::new(id, title).table(table).paragraphs(words).printed().card()
     }
 }
 
@@ -121,5 +121,5 @@ pub(crate) fn scale_card(map: &Map, judged: Judged) -> Result<Section<'static>, 
         Some(scale) => section.view(View::new(&scale, &[])),
         None => section,
     };
-    Ok(section.paragraph(scale::words(judged)).told().picture())
+    Ok(section.paragraph(scale::words(judged)).printed().picture())
 }

@@ -274,7 +274,7 @@ pub(super) fn assumed_card(spec: &WebSpec, findings: &Findings, tried: Advised<'
     let judged = tried.assumed_values.and_then(|assumed_values| {
         let patch = judged_by(findings, assumed_values)?;
         let found = findings.patches.iter().find(|found| found.map.patch == patch)?;
-        Some((assumed_values, patch, found.told()?.cv))
+        Some((assumed_values, patch, found.reported()?.cv))
     });
     let Some((assumed_values, patch, cv)) = judged else {
         return card(

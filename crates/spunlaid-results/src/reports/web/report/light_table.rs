@@ -11,7 +11,7 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::web::{Fabric, Map, Marked, Marks, Strand, Streak, StripPlace, Window};
+use spunlaid::web::{Fabric, Map, Marked, Marks, Streak, StripPlace, Window, WindowCurve};
 
 const MM: f64 = 1e3;
 /// Most points of fibres in the page.
@@ -145,7 +145,7 @@ pub(crate) struct Fibres {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strands<'a> {
     pub(crate) window: Window,
-    pub(crate) strands: &'a [Strand],
+    pub(crate) strands: &'a [WindowCurve],
     /// Diameter of a fibre [m].
     pub(crate) diameter: f64,
 }
@@ -167,7 +167,7 @@ impl Strands<'_> {
     }
 
     /// As many as the page can hold, the first ones.
-    fn drawn(&self) -> impl Iterator<Item = &Strand> {
+    fn drawn(&self) -> impl Iterator<Item = &WindowCurve> {
         let mut points = 0;
         self.strands.iter().take_while(move |strand| {
             points += strand.points.len();

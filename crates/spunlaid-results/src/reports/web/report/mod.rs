@@ -32,7 +32,7 @@ use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{ChargedCurtain, Fabric, Strand, SubsampleEstimate, Web};
+use spunlaid::web::{ChargedCurtain, Fabric, SubsampleEstimate, Web, WindowCurve};
 use spunlaid_charts::Figure;
 
 /// A web.
@@ -50,7 +50,7 @@ pub fn web_report<'a>(
     (findings, fabric): (&Findings, &Fabric),
     tried: Advised<'_>,
     (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
-    (pictures, strands): (&Pictures, &[Strand]),
+    (pictures, strands): (&Pictures, &[WindowCurve]),
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
@@ -85,7 +85,7 @@ pub fn web_report<'a>(
             ]
             .map(Section::from),
         )
-        .with(Section::new("doubt", "Contributions to its error").paragraph(error).told())
+        .with(Section::new("doubt", "Contributions to its error").paragraph(error).printed())
         .with(uneven(web, findings, sentences))
         .with(effects(spec, findings, tried))
         .with(fabric_section(fabric))
@@ -274,7 +274,7 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
             Dimension::ElectricField.pretty(BREAKDOWN),
         ))
     };
-    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(told)).told()
+    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(told)).printed()
 }
 
 /// What the error in the headline is made of, in sentences.

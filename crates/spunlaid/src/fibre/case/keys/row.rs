@@ -22,7 +22,7 @@ pub(super) const FED: &Condition = &Condition { words: "of a fed fibre", holds: 
 /// What a key is in memory.
 pub(crate) trait KeyField {
     /// Its value; None if there is none.
-    fn tell(&self) -> Option<Value>;
+    fn report(&self) -> Option<Value>;
 
     /// Sets it.
     fn take(&mut self, value: &Value) -> Result<(), Fault>;
@@ -32,7 +32,7 @@ pub(crate) trait KeyField {
 macro_rules! fields {
     ($($type:ty: $tell:expr, $take:ident;)+) => {
         $(impl KeyField for $type {
-            fn tell(&self) -> Option<Value> {
+            fn report(&self) -> Option<Value> {
                 let tell: fn(&Self) -> Value = $tell;
                 Some(tell(self))
             }
@@ -56,8 +56,8 @@ fields! {
 }
 
 impl<F: KeyField + Default> KeyField for Option<F> {
-    fn tell(&self) -> Option<Value> {
-        self.as_ref()?.tell()
+    fn report(&self) -> Option<Value> {
+        self.as_ref()?.report()
     }
 
     fn take(&mut self, value: &Value) -> Result<(), Fault> {
@@ -69,7 +69,7 @@ impl<F: KeyField + Default> KeyField for Option<F> {
 macro_rules! named_fields {
     ($($type:ty),+) => {
         $(impl $crate::fibre::case::keys::row::KeyField for $type {
-            fn tell(&self) -> Option<$crate::fibre::case::keys::Value> {
+            fn report(&self) -> Option<$crate::fibre::case::keys::Value> {
                 Some(self.name().into())
             }
 
@@ -85,13 +85,13 @@ macro_rules! named_fields {
 macro_rules! at {
     ($($field:ident).+) => {
         Access {
-            get: |input| $crate::fibre::case::keys::row::KeyField::tell(&input.$($field).+),
+            get: |input| $crate::fibre::case::keys::row::KeyField::report(&input.$($field).+),
             set: |input, value| $crate::fibre::case::keys::row::KeyField::take(&mut input.$($field).+, value),
         }
     };
     ($get:ident, $set:ident, $($field:ident).+) => {
         Access {
-            get: |input| $crate::fibre::case::keys::row::KeyField::tell(&$get(input)?.$($field).+),
+            get: |input| $crate::fibre::case::keys::row::KeyField::report(&$get(input)?.$($field).+),
             set: |input, value| $crate::fibre::case::keys::row::KeyField::take(&mut $set(input)?.$($field).+, value),
         }
     };
@@ -105,7 +105,7 @@ macro_rules! within {
             get: |$input| {
                 use $crate::fibre::case::keys::row::KeyField as _;
                 match $get {
-                    $pattern => $part $(.$field)* .tell(),
+                    $pattern => $part $(.$field)* .report(),
                     _ => None,
                 }
             },
@@ -268,7 +268,7 @@ impl NewKey {
     }
 
     /// A key of a file that is read as a whole: its value can be told, and is never set alone.
-    pub(crate) const fn told<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
+    pub(crate) const fn reported<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
         self.access(AccessTo { get, set: |_, _| Err(read_with_case()) })
     }
 }

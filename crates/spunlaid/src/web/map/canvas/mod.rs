@@ -9,8 +9,8 @@ use super::{Edges, Sheet};
 use crate::ground::threads::lock;
 use crate::ground::{Fault, Isa, Lanes, WIDTH};
 use raster::Draw;
+pub(crate) use raster::LaneDepositors;
 pub(super) use raster::OUTSIDE;
-pub(crate) use raster::Pens;
 use std::sync::{Mutex, PoisonError};
 
 /// Basis weight of the thickest ropes that are reckoned with, over the mean: filaments that hang in the same
@@ -94,10 +94,10 @@ impl DepositionGrid {
     /// * `at` – where their straight traces are, in cross and in machine direction [m]
     /// * `advance` – of the belt while a piece is laid [m]
     /// * `longest` – piece, but for rare exceptions [m]
-    pub(crate) fn pens(&self, at: [Lanes; 2], advance: f64, longest: f64) -> Pens {
+    pub(crate) fn pens(&self, at: [Lanes; 2], advance: f64, longest: f64) -> LaneDepositors {
         let at = at.map(|at| Lanes(at.0.map(|at| at / self.cell)));
         let (advance, parts) = (advance / self.cell, self.parts(longest));
-        Pens { advance, parts, is_bounded: false, quanta: Lanes::ZERO, at }
+        LaneDepositors { advance, parts, is_bounded: false, quanta: Lanes::ZERO, at }
     }
 
     /// Parts of a piece of this length [m], none longer than a cell.
@@ -263,7 +263,7 @@ impl<'a> CanvasPart<'a> {
     /// Draws the pieces between points, and goes on along the straight traces.
     ///
     /// * `points` – [ξ₁, ξ₂] of each curve, seen from its straight trace [m]
-    pub(crate) fn draw(&mut self, pens: &mut Pens, points: &[[Lanes; 2]]) {
+    pub(crate) fn draw(&mut self, pens: &mut LaneDepositors, points: &[[Lanes; 2]]) {
         self.canvas.isa.run(Draw { pens, part: self, points });
         if self.far.len() > MOST_FAR {
             self.pass_on();

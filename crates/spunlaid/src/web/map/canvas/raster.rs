@@ -15,7 +15,7 @@ const TWO_52: f64 = 4_503_599_627_370_496.0;
 /// What a cell gets of a piece is the part of the piece within it, in whole quanta: the parts of a piece are
 /// differences of one rounded running sum, so none is lost and none is made.
 #[derive(Debug)]
-pub(crate) struct Pens {
+pub(crate) struct LaneDepositors {
     /// Cells by which the belt moves while a piece is laid.
     pub(super) advance: f64,
     /// Parts of a piece that are drawn one by one, none longer than a cell.
@@ -30,7 +30,7 @@ pub(crate) struct Pens {
 
 /// Draws the pieces between points, [ξ₁, ξ₂] of each curve [m], and goes on along the straight traces.
 pub(super) struct Draw<'a, 'b> {
-    pub(super) pens: &'a mut Pens,
+    pub(super) pens: &'a mut LaneDepositors,
     pub(super) part: &'a mut CanvasPart<'b>,
     pub(super) points: &'a [[Lanes; 2]],
 }
@@ -164,7 +164,7 @@ impl<S: Register> Ink<S> {
         &mut self,
         ends: ([Wide<S>; 2], [Wide<S>; 2]),
         longest: Lanes,
-        pens: &Pens,
+        pens: &LaneDepositors,
         part: &mut CanvasPart<'_>,
     ) {
         for i in (0..WIDTH).filter(|i| pens.quanta.0[*i] > 0.0) {

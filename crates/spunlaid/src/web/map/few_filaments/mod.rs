@@ -104,7 +104,7 @@ impl Subsample<'_> {
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted.
-    pub(crate) fn tell(
+    pub(crate) fn estimate(
         &self,
         filled: Option<&FilledMaps>,
         threads: usize,

@@ -126,7 +126,7 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
     let curves = |count: usize| even(count).map(|z| curve(z, &field.along(0.0, 0.0)));
     let all = on_map(&sheet, curves(96));
     for (found, all) in
-        few(&sheet, Arrangement::Rows, 96, curves(24)).tell(None, 2).unwrap().cvs.iter().zip(all)
+        few(&sheet, Arrangement::Rows, 96, curves(24)).estimate(None, 2).unwrap().cvs.iter().zip(all)
     {
         // Pieces are cut at the edges of cells in whole quanta.
         assert!((found.cv / all - 1.0).abs() < 1e-3, "{} {all}", found.cv);
@@ -139,7 +139,7 @@ fn limit_a_row_of_equal_curves_does_not_know_its_pitch() {
 fn limit_all_filaments_are_as_uneven_as_themselves() {
     let (sheet, field) = (sheet(&[2.0, 10.0]), Field::new(2));
     let curves = || even(24).enumerate().map(|(i, z)| curve(z, &field.along(3.0 * i as f64, z)));
-    for found in few(&sheet, Arrangement::Slot, 24, curves()).tell(None, 2).unwrap().cvs {
+    for found in few(&sheet, Arrangement::Slot, 24, curves()).estimate(None, 2).unwrap().cvs {
         assert_eq!(found.cv.to_bits(), (found.few * found.few).sqrt().to_bits());
     }
 }
@@ -153,7 +153,7 @@ fn limit_independent_filaments_have_an_own_part_only() {
         even(count).enumerate().map(move |(i, z)| curve(z, &place(i)))
     };
     let all = on_map(&sheet, curves(240));
-    let found = few(&sheet, Arrangement::Slot, 240, curves(64)).tell(None, 2).unwrap().cvs;
+    let found = few(&sheet, Arrangement::Slot, 240, curves(64)).estimate(None, 2).unwrap().cvs;
     for (found, all) in found.iter().zip(all) {
         let own = found.own.sqrt();
         // Sixty-four curves with some hundred lengths of memory each, and as many clouds on the map.
@@ -179,7 +179,7 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
             |i: usize, z: f64| field.curve_with_own(z, SHARED, &Field::new(1000 * (seed + 1) + i as u64));
         let all = on_map(&sheet, even(480).enumerate().map(|(i, z)| of(i, z)));
         let every_tenth = even(480).enumerate().filter(|(i, _)| i % 10 == 5).map(|(i, z)| of(i, z));
-        let found = few(&sheet, Arrangement::Slot, 480, every_tenth).tell(None, 2).unwrap().cvs;
+        let found = few(&sheet, Arrangement::Slot, 480, every_tenth).estimate(None, 2).unwrap().cvs;
         for ((sums, found), all) in sums.iter_mut().zip(found).zip(all) {
             let off = found.cv / all - 1.0;
             let parts = [1.0 + off, found.few / all, off * off, (found.by_pitch / all).powi(2)];
@@ -214,7 +214,7 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
         let found: Vec<Vec<SubsampleCv>> = (0..CHOICES)
             .map(|choice| {
                 let curves = even(FEW).enumerate().map(|(i, z)| of(choice, i, z));
-                few(&sheet, Arrangement::Slot, 480, curves).tell(None, 2).unwrap().cvs
+                few(&sheet, Arrangement::Slot, 480, curves).estimate(None, 2).unwrap().cvs
             })
             .collect();
         for patch in 0..sheet.patches.len() {
@@ -244,7 +244,7 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
     let sheet = sheet(&[5.0]);
     let field = Field::new(4);
     let found = few(&sheet, Arrangement::AtRandom, 120, even(48).map(|z| field.curve(z)));
-    let found = found.tell(None, 2).unwrap().cvs;
+    let found = found.estimate(None, 2).unwrap().cvs;
     let squares: Vec<Vec<f64>> = (0..WEBS)
         .map(|seed| {
             let mut random = SplitMix64::seed_from_u64(seed);
@@ -272,7 +272,8 @@ fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     let simulated = few(&sheet, Arrangement::AtRandom, 120, row(24));
     let filled = few(&sheet, Arrangement::AtRandom, 120, row(192)).map(None).unwrap();
     let filled = FilledMaps { of_all: filled.clone(), of_every_second: filled, patches: 0.0..1.0 };
-    let [comb, found] = [None, Some(filled)].map(|filled| simulated.tell(filled.as_ref(), 2).unwrap().cvs[0]);
+    let [comb, found] =
+        [None, Some(filled)].map(|filled| simulated.estimate(filled.as_ref(), 2).unwrap().cvs[0]);
     let squares = (0..WEBS).map(|seed| {
         let mut random = SplitMix64::seed_from_u64(seed);
         let mut place = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64 * WIDTH;
@@ -292,7 +293,7 @@ fn identical_for_any_number_of_threads() {
     let (sheet, field) = (sheet(&[5.0]), Field::new(5));
     let row = || even(24).map(|z| field.curve(z));
     let [one, three] =
-        [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).tell(None, threads).unwrap());
+        [1, 3].map(|threads| few(&sheet, Arrangement::Slot, 240, row()).estimate(None, threads).unwrap());
     assert_eq!(one, three);
 }
 
@@ -302,7 +303,7 @@ fn a_lost_filament_is_left_out() {
     let (sheet, field) = (sheet(&[10.0]), Field::new(6));
     let row = |lost: usize| {
         let curves = even(48).enumerate().map(|(i, z)| field.curve(z).filter(|_| i != lost));
-        few(&sheet, Arrangement::Slot, 480, curves).tell(None, 2).unwrap().cvs[0]
+        few(&sheet, Arrangement::Slot, 480, curves).estimate(None, 2).unwrap().cvs[0]
     };
     let (whole, without) = (row(48), row(17));
     assert!(whole.cv != without.cv && (without.cv / whole.cv - 1.0).abs() < 0.05, "{whole:?} {without:?}");
@@ -317,9 +318,9 @@ fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
     let filled_as = |count: usize| {
         let map = few(&sheet, Arrangement::Slot, 480, row(count)).map(None).unwrap();
         let filled = FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0 };
-        simulated.tell(Some(&filled), 2).unwrap().cvs[0]
+        simulated.estimate(Some(&filled), 2).unwrap().cvs[0]
     };
-    let (alone, right, wrong) = (simulated.tell(None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
+    let (alone, right, wrong) = (simulated.estimate(None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
     assert!(wrong.cv > alone.cv + 2.0 * alone.by_pitch, "{alone:?} {wrong:?}");
     assert!(wrong.by_pitch > 0.8 * (wrong.cv - alone.cv), "{alone:?} {wrong:?}");
     assert!(right.by_pitch < alone.by_pitch, "{alone:?} {right:?}");
@@ -336,5 +337,5 @@ fn rejects_a_cell_that_is_too_full_for_the_sum_of_both_halves() {
     let is_full = |half| move |few: &Subsample<'_>| few.map(half).is_err();
     let first = { heaped }.find(is_full(None)).unwrap();
     assert!(!is_full(Some(0))(&first) && !is_full(Some(1))(&first));
-    assert!(first.tell(None, 1).unwrap_err().to_string().contains("more fibre than can be counted"));
+    assert!(first.estimate(None, 1).unwrap_err().to_string().contains("more fibre than can be counted"));
 }

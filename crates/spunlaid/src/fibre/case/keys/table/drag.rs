@@ -11,7 +11,7 @@ use crate::ground::{Dimension, Fault};
 macro_rules! laws {
     ($($Law:ident),+) => {
         $(impl KeyField for $Law {
-            fn tell(&self) -> Option<Value> {
+            fn report(&self) -> Option<Value> {
                 Some(match self {
                     Self::Table(law) => Content::DragLaw(law.file().clone()).into(),
                     law => law.name().into(),

@@ -62,7 +62,7 @@ pub(crate) const ONE_SOURCE: &str =
 pub(super) const LAYDOWN: &[WebKey] = &[
     key("laydown.case", Kind::Text("spunbond.toml"))
         // What stands there is written into the file of the web.
-        .told(|_: &WebSpec| None)
+        .reported(|_: &WebSpec| None)
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
             "Path of the case of a fed fibre, relative to this file. It is simulated, and its laid fibres make the \

@@ -1,8 +1,8 @@
 //! The spinline and the constants of its polymer.
 
 mod air;
+mod filament;
 mod material;
-mod thread;
 
 use crate::fibre::case::Case;
 use crate::fibre::case::keys::Key;
@@ -51,7 +51,7 @@ pub(super) fn spinline(case: &mut Case) -> Result<&mut Spinline, Fault> {
 use of_spinline;
 
 /// The keys of the spinline, concern by concern.
-pub(super) const KEYS: &[&[Key]] = &[LINE, air::KEYS, thread::END_KEYS, thread::KEYS, CURTAIN];
+pub(super) const KEYS: &[&[Key]] = &[LINE, air::KEYS, filament::END_KEYS, filament::KEYS, CURTAIN];
 /// The constants of the polymer.
 pub(super) const MATERIAL: &[&[Key]] = &[material::KEYS];
 

@@ -1,4 +1,4 @@
-//! The thread at a place: how its state changes with the distance from the die.
+//! The filament at a place: how its state changes with the distance from the die.
 
 use super::material::{Crystals, Material};
 use super::{AirChange, End, Law, Melt, Spinline, Station, Surroundings};
@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 /// Number of values of a [`State`].
 pub(super) const SIZE: usize = 9;
-/// What changes along the thread, by these indices.
+/// What changes along the filament, by these indices.
 pub(super) type State = [f64; SIZE];
 
 /// `ln v`, `v` in m/s.
@@ -38,7 +38,7 @@ pub(super) const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Gas constant [J/(mol K)].
 const GAS_CONSTANT: f64 = 8.314_462_618;
 
-/// Whether the thread flows at a place.
+/// Whether the filament flows at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Phase {
     Melt,
@@ -48,9 +48,9 @@ pub(super) enum Phase {
     },
 }
 
-/// A thread in its surroundings.
+/// A filament in its surroundings.
 #[derive(Clone, Debug)]
-pub(super) struct Thread<'a> {
+pub(super) struct Filament<'a> {
     pub(super) line: &'a Spinline,
     /// What is known at the end.
     pub(super) end: End,
@@ -75,13 +75,13 @@ pub(super) struct Thread<'a> {
 pub(super) struct Rates {
     /// `d/dz` of each value.
     pub(super) slopes: State,
-    /// The thread at the place.
+    /// The filament at the place.
     pub(super) station: Station,
-    /// Whether the thread is as fast as its own elastic wave.
+    /// Whether the filament is as fast as its own elastic wave.
     pub(super) is_elastic_wave: bool,
 }
 
-impl<'a> Thread<'a> {
+impl<'a> Filament<'a> {
     pub(super) fn new(line: &'a Spinline, friction: FrictionLaw, air: &'a Surroundings) -> Self {
         let air_change = match air {
             Surroundings::Table(_) | Surroundings::Field { .. } => line.air_change,
@@ -132,7 +132,7 @@ impl<'a> Thread<'a> {
         self.line.crystallisation.then_some(&self.line.material.crystals)
     }
 
-    /// Diameter of the thread at the die `d_0` [m].
+    /// Diameter of the filament at the die `d_0` [m].
     fn die_diameter(&self) -> f64 {
         self.line.die_swell * self.line.hole_diameter
     }
@@ -218,7 +218,7 @@ impl<'a> Thread<'a> {
         }
     }
 
-    /// By how much the air is faster than the thread, along it, and its velocity across [m/s].
+    /// By how much the air is faster than the filament, along it, and its velocity across [m/s].
     ///
     /// * `hint` – the row of the air's table above which the last look was
     pub(super) fn faster_air(&self, distance: f64, state: &State, hint: &mut usize) -> [f64; 2] {
@@ -250,7 +250,7 @@ impl<'a> Thread<'a> {
         }
     }
 
-    /// Friction of the air on the thread, downwards [N/m].                                         theory.md (86)
+    /// Friction of the air on the filament, downwards [N/m].                                         theory.md (86)
     fn friction(&self, distance: f64, diameter: f64, faster: f64, air_temperature: f64) -> f64 {
         if faster == 0.0 {
             return 0.0;
@@ -261,7 +261,7 @@ impl<'a> Thread<'a> {
         self.line.drag_factor * 0.5 * PI * diameter * density * coefficient * faster.abs() * faster
     }
 
-    /// Heat that the air takes from the thread, by convection and by radiation [W/m].    theory.md (88), (89)
+    /// Heat that the air takes from the filament, by convection and by radiation [W/m].    theory.md (88), (89)
     fn heat(
         &self,
         diameter: f64,
@@ -376,11 +376,11 @@ impl<'a> Thread<'a> {
 }
 
 impl Spinline {
-    /// `k Nu` of a thread in air [W/(m K)].                                                         theory.md (89)
+    /// `k Nu` of a filament in air [W/(m K)].                                                         theory.md (89)
     ///
-    /// * `diameter` – of the thread [m]
+    /// * `diameter` – of the filament [m]
     /// * `faster`, `cross` – velocity of the air relative to it, along and across [m/s]
-    /// * `film` – mean temperature of thread and air [K]
+    /// * `film` – mean temperature of filament and air [K]
     pub(super) fn convection(&self, diameter: f64, [faster, cross]: [f64; 2], film: f64) -> f64 {
         let speeds = faster * faster + 64.0 * cross * cross;
         let nusselt = self.nusselt_factor

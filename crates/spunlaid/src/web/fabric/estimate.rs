@@ -141,7 +141,7 @@ pub struct Opacity {
 }
 
 /// Tells everything that is known of a fabric.
-pub fn tell(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
+pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let (first, map) = part(laid, keys);
     let map = map.as_ref();
     let corner = first as f64 * map.cell;
@@ -419,7 +419,7 @@ pub fn of_scan(findings: &Findings) -> Fabric {
         error_of_weight: 0.0,
         defects: Vec::new(),
     };
-    let mut fabric = tell(&laid, &FabricKeys::USUAL, 1);
+    let mut fabric = estimate(&laid, &FabricKeys::USUAL, 1);
     let formation = match titre {
         Some(_) => "",
         None => {
