@@ -116,7 +116,7 @@ to each cell is written for the CFD program, and their heat if they come from a 
 is a web, or a case with [line] and [web], because the filaments per metre of width have to be
 known.
 
-With --at the air of the case is given at the positions of a table: velocity u, v, w and its magnitude
+With --at the air of the case is given at the positions of a table: velocity u, v, w, its magnitude
 [m/s], k [m²/s²], length [m] and cut-off frequency [Hz] of the eddies, for every kind of air. Cells
 are empty where the air is not known, as outside of a field.
 
@@ -270,7 +270,7 @@ Every run is compared with the first. Runs with the same seed and the same eddie
 replicate by replicate, which shows small differences; others by Welch's t. Webs, laid by
 `spunlaid web` or scanned (`spunlaid analyse scan.png`), are compared patch by patch. You may
 name a file instead of a folder: a web is laid first, a case simulated, a scan analysed; the
-results are in results/NAME_flown and results/NAME_analysed. Analyse a scan that needs options
+results are in results/NAME_simulated and results/NAME_analysed. Analyse a scan that needs options
 first.
 
 The results folder holds

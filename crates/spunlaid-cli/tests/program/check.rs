@@ -130,7 +130,7 @@ fn analytic_check_tells_the_numbers_of_a_web() {
         "#   5000 holes per metre of width, each with 0.5 g/min: filaments of 2 dtex, 16.73 µm, fed at 41.67 \
         m/s; 20 m of filament on each metre of belt\n",
         "#   500 mm wide and 500 mm long, 1000 × 1000 cells of 500 µm; 2500 filaments cross it\n",
-        "#   nothing is simulated: the spread and the noise are given\n",
+        "#   nothing is simulated: the standard deviations and the noise are given\n",
         "#   the filaments are independent of each other, which gives a lower bound of the CV\n",
         "# expected, on ",
         "\n#   the web: about ",
@@ -174,8 +174,8 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     for part in [
         "#   brief.toml: its eddies lie in space (air.lateral = \"von-karman\")\n",
         // Eight in the length scale of the case, 16 mm.
-        "#   250 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm; the web of 500 follows \
-        from them (web.simulated)\n",
+        "#   250 filaments are simulated in shared turbulence, on a sheet of 500 mm × 500 mm; the web of 500 is \
+        estimated from them (web.simulated)\n",
         "#   the field takes ",
         "\n#   the web: about ",
         "\n#   advice, ",
@@ -188,7 +188,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     // As many as the file says, and all of them.
     let said = success(&mut desk.with("check web.toml", &["web.simulated=100", "line.slot_gap=20 mm"]));
     assert!(
-        said.contains("#   50 filaments fly in one field of eddies, on a sheet of 500 mm × 500 mm;"),
+        said.contains("#   50 filaments are simulated in shared turbulence, on a sheet of 500 mm × 500 mm;"),
         "{said}"
     );
     assert!(!said.contains("--set line.slot_gap"), "{said}");
@@ -201,8 +201,8 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     let said = success(&mut desk.with("check web.toml", &narrow));
     assert!(
         said.contains(
-            "#   80 filaments fly in one field of eddies, on a sheet of 160 mm × 500 mm; the web \
-            of 500 follows"
+            "#   80 filaments are simulated in shared turbulence, on a sheet of 160 mm × 500 mm; the web \
+            of 500 is estimated"
         ),
         "{said}"
     );
@@ -210,7 +210,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
     let said = String::from_utf8(together.stdout).unwrap();
     assert!(
         said.contains(
-            "#   all 500 filaments fly in one field of eddies, so that neighbours come down together\n"
+            "#   all 500 filaments are simulated in shared turbulence, so neighbours land together\n"
         ),
         "{said}"
     );

@@ -163,10 +163,12 @@ fn my_scan_is_compared_with_my_line_in_one_step() {
     let picture = concat!(env!("CARGO_MANIFEST_DIR"), "/../spunlaid/tests/scan_fixtures/web.png");
     fs::copy(picture, desk.path("scan.png")).unwrap();
     let said = success(&mut desk.spunlaid("compare scan.png web.toml"));
-    let told = "web_flown against scan_analysed: what differs is not known: the level of the lamp is an \
+    let told = "web_simulated against scan_analysed: what differs is not known: the level of the lamp is an \
          assumed value";
     assert!(said.contains(told), "{said}");
-    for folder in ["results/scan_analysed", "results/web_flown", "results/scan_analysed_against_web_flown"] {
+    for folder in
+        ["results/scan_analysed", "results/web_simulated", "results/scan_analysed_against_web_flown"]
+    {
         assert!(desk.path(folder).join("report.html").is_file(), "{folder}");
     }
     // What stands in the folders is compared as well, and with the same words; a second time the same is made.

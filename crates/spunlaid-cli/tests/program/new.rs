@@ -321,7 +321,7 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
     let (same, said) = written("PP, MFR 35 g/10min", "0.55 g/(min hole)", "2", "20", "60");
     assert!(same == files);
     for note in [
-        "note: the melt flow rate beside the polymer is not used: write it as --melt-flow-rate",
+        "note: the melt flow rate next to the polymer is not used: write it as --melt-flow-rate",
         "note: 2 has no unit and is taken as 2 dtex",
         "note: 20 has no unit and is taken as 20 g/m²",
         "note: 60 has no unit and is taken as 60 m/s",
@@ -353,7 +353,7 @@ fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
     // 5000 holes/m × 0.6 g/min over 250 m/min.
     for part in [
         "belt_speed = \"250 m/min\"   # of the whole web: 5000 holes/m × 0.6 g/min / 4.167 m/s = 12 g/m²\n",
-        "slot_gap = \"25 mm\"   # of the slot: the filaments",
+        "slot_gap = \"25 mm\"   # slot gap: the filaments",
         "assumed = \"air.length_factor\"",
     ] {
         assert!(web.contains(part), "{part}\n{web}");

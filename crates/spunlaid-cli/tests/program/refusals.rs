@@ -272,7 +272,7 @@ fn rejects_folders_with_files_of_others_without_force() {
         fs::write(desk.path("theirs/thesis.tex"), "mine").unwrap();
         let said = refusal(&mut desk.spunlaid(&command), 1);
         let wanted = "error: theirs: holds other files already (notes and 1 more), and results are not mixed \
-            with them; name another folder, or write beside them (--out, --force)\n";
+            with them; name another folder, or write next to them (--out, --force)\n";
         assert!(said.ends_with(wanted), "{command}: {said}");
         assert_eq!(desk.entries("theirs"), names(&["thesis.tex", "notes"]), "{command}");
         if !command.starts_with("fit ") {

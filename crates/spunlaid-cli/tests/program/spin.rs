@@ -62,7 +62,7 @@ fn a_spinline_of_the_repository_is_solved_in_one_command() {
         "the balance of momentum holds to",
         "no diameter that it gives has been compared with a measured one",
         "(3 to 5 times too low for polypropylene)",
-        "the modulus that follows from it is too low",
+        "The modulus that follows from it is too low",
         "open a/report.html",
     ] {
         assert!(said.contains(part), "{part}\n{said}");
@@ -201,7 +201,7 @@ fn check_reads_a_spinline_alone() {
     let json = |name: &str| success(&mut desk.spunlaid(&format!("spin {name} --json")));
     assert_eq!(json("printed.toml"), json("line.toml"));
     let said = refusal(&mut desk.with("check line.toml", &TOO_SHORT), 1);
-    assert!(said.contains("freezes at 110 °C"), "{said}");
+    assert!(said.contains("solidifies at 110 °C"), "{said}");
 }
 
 #[test]
@@ -216,7 +216,7 @@ fn check_tells_throughput_and_line_density_of_every_fed_fibre() {
     let desk = Desk::with_case(&fed());
     let said = success(&mut desk.spunlaid("check brief.toml"));
     assert!(said.contains(": 0.5 g/min from each hole"), "{said}");
-    assert!(said.contains("from the spinline: The thread is drawn"), "{said}");
+    assert!(said.contains("from the spinline: The filament is drawn"), "{said}");
     // A fibre of fixed length has none.
     let desk = Desk::new();
     assert!(!success(&mut desk.spunlaid("check brief.toml")).contains("g/min"));
@@ -236,7 +236,7 @@ fn a_run_that_begins_at_the_die_shows_its_spinline() {
     for part in [
         "id=\"spinline\"",
         "id=\"figure-spinline_influences\"",
-        "freezes",
+        "solidifies",
         "no diameter that it gives has been compared",
     ] {
         assert!(page.contains(part), "{part}");

@@ -23,7 +23,7 @@ fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
     // Advice takes such a web for each change, and has to be asked for.
     assert!(
         table.contains(
-            "\nChange first\nWhat would make it more even was not tried: spunlaid web with --advice"
+            "\nChange first\nWhat would make it more uniform was not computed: spunlaid web with --advice"
         ),
         "{table}"
     );
@@ -134,7 +134,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let mean = cells.iter().map(|cell| f64::from(*cell)).sum::<f64>() / cells.len() as f64;
     assert!((mean / weight - 1.0).abs() < 0.01, "{mean} {weight}");
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
-    let sentence = "Of all filaments, 40 were simulated, evenly across, on a sheet of \
+    let sentence = "40 filaments were simulated, evenly spaced across, on a sheet of \
         160\u{202f}mm × 625\u{202f}mm, and as many";
     assert!(page.contains(sentence), "no {sentence}");
 
@@ -178,13 +178,13 @@ fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     );
     fs::write(desk.path("web.toml"), &web).unwrap();
     let table = success(&mut desk.spunlaid("web web.toml --out w --sheet w.pdf"));
-    let unknown = "The CV of the web is not known: too few filaments were simulated.";
+    let unknown = "CV not known: too few filaments simulated.";
     // Eight in the length scale of 16 mm, as many as fly first where the file does not say.
-    let remedy = "Leave web.simulated out: then as many fly as it takes, 500 or more for each metre";
+    let remedy = "Leave web.simulated out to simulate as many as needed, 500 or more for each metre";
     let page = String::from_utf8(desk.read("w/report.html")).unwrap();
     for text in [&table, &page] {
         assert!(text.contains(unknown) && text.contains(remedy), "{text}");
-        assert!(!text.contains("The weight varies by") && !text.contains("times less"), "{text}");
+        assert!(!text.contains(" patches.") && !text.contains("times less"), "{text}");
     }
     let summary = desk.summary("w");
     let layer = &summary["layers"][0];

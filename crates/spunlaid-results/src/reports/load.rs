@@ -65,9 +65,9 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         false => "",
     };
     Some(section.brief().caption(format!(
-        "The force is the drag on the simulated filaments (without implicit tension the balance of their momentum), ± \
-        one standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is taken \
-        to keep its mass flow.{heat}"
+        "The force is the drag on the simulated filaments (without implicit tension: the balance of momentum), ± \
+        one standard error, times the filaments per metre; docs/theory.md has the equations. The air of the slot is \
+        taken to keep its mass flow.{heat}"
     )))
 }
 

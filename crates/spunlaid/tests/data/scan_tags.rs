@@ -74,7 +74,7 @@ fn a_camera_of_few_bits_is_known_by_the_tag_of_its_file() {
         };
         let said = analyse(&picture, &settings(None)).unwrap_err().to_string();
         assert!(said.contains("no level above 4095, though the file has 16 bits"), "{tags:?}: {said}");
-        assert!(said.contains("4095 if the camera has 12 bits, else 65535"), "{tags:?}: {said}");
+        assert!(said.contains("4095 if the camera has 12 bits, otherwise 65535"), "{tags:?}: {said}");
         assert!(analyse(&picture, &settings(Some(4095.0))).is_ok());
     }
     let of_16_bits: Vec<u16> = web().iter().map(|level| level * 257).collect();

@@ -327,7 +327,7 @@ fn rejects_turbulence_that_cannot_be() {
 fn turbulence_without_a_length_or_without_strength_is_told() {
     // In the first half there is no ε.
     let half = in_field(&duct(HEADS, |i, [u, k, epsilon]| [u, k, if i < 18 { 0.0 } else { epsilon }]));
-    assert!(half.contains("has k above zero and ε = 0 at") && half.contains("of 64 places"), "{half}");
+    assert!(half.contains("has k above zero and ε = 0 at") && half.contains("of 64 points"), "{half}");
     let still = in_field(&duct(HEADS, |_, [u, _, epsilon]| [u, 0.0, epsilon]));
     assert!(still.contains("has k = 0 everywhere along the fibre"), "{still}");
 }

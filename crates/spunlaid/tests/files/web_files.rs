@@ -388,7 +388,7 @@ fn rejects_guesses_that_have_no_half() {
             "air.length_scale",
             "names air.length_scale, which is given by a file; name air.length_factor",
         ),
-        (FLOWN, "fibre.diameter, air.spectrum", "names air.spectrum, of which"),
+        (FLOWN, "fibre.diameter, air.spectrum", "names air.spectrum, which cannot be halved"),
     ] {
         let refused = read_web(text, &set("web.assumed", assumed)[..]).unwrap_err().to_string();
         assert!(refused.contains("web.assumed") && refused.contains(message), "{assumed}: {refused}");

@@ -58,8 +58,11 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
         );
     }
     // Both slots become deeper together; eddies half as long keep the smallest waves.
-    let both =
-        changes[1].experiment.set.iter().filter(|(key, value)| key.ends_with(".depth") && value == "40 mm");
+    let both = changes[1]
+        .experiment
+        .set
+        .iter()
+        .filter(|(key, value)| key.ends_with(".slot_gap") && value == "40 mm");
     assert_eq!(both.count(), 2, "{:?}", changes[1].experiment.set);
     let cutoffs: Vec<f64> =
         changes.iter().map(|change| change.experiment.spec.lateral_cutoff(0).unwrap()).collect();

@@ -206,7 +206,10 @@ fn continued(filament: &Filament<'_>, (miss, near): Missed) -> Result<Run, Miss>
         let shares = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
         let is_free = filament.end == End::Tension(0.0);
         let free = eased(filament, End::Tension(0.0), &shares[usize::from(is_free)..], &effort);
-        let is_slow = |run: &Run| matches!(filament.end, End::TakeUp(speed) if libm::log(speed) < run.shot.end[LN_SPEED]);
+        let is_slow = |run: &Run| {
+            let end = run.shot.end[LN_SPEED];
+            matches!(filament.end, End::TakeUp(speed) if libm::log(speed) < end)
+        };
         if free.as_ref().is_some_and(is_slow) {
             return Err(Miss::TooMuch);
         }

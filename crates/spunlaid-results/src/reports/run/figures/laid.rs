@@ -184,8 +184,8 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     let caption = format!(
         "Fraction of the fibre per square centimetre of belt, about the straight trace that a fibre \
          would leave if it landed at one point; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the \
-         table: {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a normal \
-         distribution it would be 39.3 % and 86.5 %.",
+         table: {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a \
+         normal distribution it would be 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),
         one_of(curves.len(), "replicate"),
         significant(md, 3),

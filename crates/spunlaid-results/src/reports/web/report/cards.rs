@@ -65,10 +65,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
         rows.extend(kind.iter().map(|(name, value)| row(&format!("{name}{of}"), value.clone())));
     }
     let doubts = implausible(spec);
-    rows.push(row(
-        "Plausible",
-        if doubts.is_empty() { "yes, as lines are known to be" } else { "doubtful" }.to_owned(),
-    ));
+    rows.push(row("Within usual ranges", if doubts.is_empty() { "yes" } else { "no, see below" }.to_owned()));
     let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
     Card { id: "line", title: "The line", rows, apart: Default::default(), words }
 }
