@@ -208,7 +208,7 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
                 match flight.coarse_sheets {
                     0 => String::new(),
                     sheets => format!(
-                        "; about {} in other turbulence, with a coarse mesh, for the wanted error of the CV (web.error)",
+                        "; about {} in other turbulence with a coarse mesh, to reach the error of the CV (web.error)",
                         counted(sheets, "more sheet")
                     ),
                 }
