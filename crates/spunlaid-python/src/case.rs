@@ -1,7 +1,7 @@
 //! `Case`: a case file with changes, read and checked.
 
 use crate::source::{Source, full_path, stem};
-use crate::value::{overrides, to_python};
+use crate::value::{overrides, quoted, to_python};
 use crate::warning::{CALLED, warn_at, warn_of_at};
 use crate::watched::{guarded, settled};
 use numpy::PyArray1;
@@ -16,6 +16,7 @@ use spunlaid::input::{
     Overrides, Resources, read_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
 use spunlaid_results::reports::air::{POINT_COLUMNS, outside, point_row};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -139,14 +140,17 @@ impl Case {
 
     /// The same case with other values: with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6}).
     ///
-    /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. What follows
-    /// from the changed keys follows again.
+    /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. "+20 %" and
+    /// "-2 m/s" are changes of the value of this case. What follows from the changed keys follows again.
     fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (mut changes, new) = (self.changes.clone(), overrides(values)?);
         let is_set = |value: &str| value.trim().trim_matches('"') != "auto";
         let set = new.iter().filter(|(_, value)| is_set(value)).map(|(key, _)| key.trim());
         let replaced = keys::CASE.replaced_by(&set.collect::<Vec<_>>());
-        changes.retain(|(other, _)| new.iter().all(|(key, _)| key != other) && !replaced.contains(&&**other));
+        // "+20 %" is a change of the value before, which therefore stays.
+        let is_change = |value: &str| value.trim().starts_with(['+', '-', '−']);
+        let is_replaced = |other: &str| new.iter().any(|(key, value)| key == other && !is_change(value));
+        changes.retain(|(other, _)| !is_replaced(other) && !replaced.contains(&&**other));
         changes.extend(new);
         Self::parsed(py, Arc::clone(&self.text), self.file.clone(), changes)
     }
@@ -283,7 +287,9 @@ impl Case {
         let file = full_path(self.file.as_ref());
         let make = py.get_type::<Self>().getattr("_unpickled")?;
         let file = if self.file == NAME { self.file.clone() } else { file.display().to_string() };
-        (make, (&*self.text, file, self.changes.clone())).into_pyobject(py)
+        let values: Vec<&str> = self.changes.iter().map(|(_, value)| &**value).collect();
+        let laws = py.import("spunlaid._law")?.getattr("texts_of")?.call1((values,))?;
+        (make, (&*self.text, file, self.changes.clone(), laws)).into_pyobject(py)
     }
 
     #[classmethod]
@@ -292,8 +298,16 @@ impl Case {
         py: Python<'_>,
         text: &str,
         file: String,
-        changes: Vec<(String, String)>,
+        mut changes: Vec<(String, String)>,
+        laws: HashMap<String, String>,
     ) -> PyResult<Self> {
+        // A drag law that was given as a table lay in a file of the process that pickled it.
+        for (_, value) in &mut changes {
+            if let Some(law) = laws.get(value) {
+                let path = py.import("spunlaid._law")?.getattr("kept")?.call1((law,))?;
+                *value = quoted(&path.extract::<String>()?);
+            }
+        }
         Self::parsed(py, text.into(), file, changes)
     }
 

@@ -73,8 +73,8 @@ impl Flight {
         self.fly_to(py, |_| time)
     }
 
-    /// Changes a key between steps: set("air.velocity", 12.0) in SI units, or "12 m/s". keys() says which keys
-    /// may change. If it cannot, the flight stays as it is.
+    /// Changes a key between steps: set("air.velocity", 12.0) in SI units, "12 m/s", or "+20 %" of the present value.
+    /// keys() says which keys may change. If it cannot, the flight stays as it is.
     fn set(&self, py: Python<'_>, key: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
         let value = value_of(value)?;
         guarded(py, || {

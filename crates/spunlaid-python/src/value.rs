@@ -5,7 +5,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
-use spunlaid::fibre::case::keys::{self, Kind, Value};
+use spunlaid::fibre::case::keys::{self, DataFile, Kind, Value};
 use spunlaid::ground::{Dimension, Error, Fault, Vec3};
 use spunlaid::simulation::layers::web_key;
 use spunlaid_results::reports::study::Scale;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Keys and values as overrides of the file of a case or of a web, in their order: `{"air.velocity": "20 m/s"}`, or
 /// `{"air": {"velocity": 20.0}}`; of a layer of a web with its number, `layer.2.line.belt_speed`. Numbers are
-/// in SI units; `None` takes a key out.
+/// in SI units; `None` takes a key out. A drag law may be a table of Reynolds numbers and coefficients.
 pub(crate) fn overrides(values: &Bound<'_, PyAny>) -> PyResult<Vec<(String, String)>> {
     let values = values.cast::<PyMapping>().map_err(|_| {
         let found = type_name(values);
@@ -39,16 +39,26 @@ fn put(
     value: &Bound<'_, PyAny>,
     depth: usize,
 ) -> PyResult<()> {
-    if let (Ok(table), 1..) = (value.cast::<PyDict>(), depth) {
+    let in_layer = name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
+    let of_case = keys::find(in_layer.map_or(&*name, |(_, key)| key));
+    let kind = of_case.map(|key| key.kind).or_else(|| Some(web_key(&name)?.kind));
+    let is_law = matches!(kind, Some(Kind::File(DataFile::FrictionLaw | DataFile::NormalLaw)));
+    if let (Ok(table), 1.., false) = (value.cast::<PyDict>(), depth, is_law) {
         for (key, value) in table.iter() {
             put(all, format!("{name}.{}", name_of(&key)?), &value, depth - 1)?;
         }
         return Ok(());
     }
-    let kind = keys::find(&name).map(|key| key.kind).or_else(|| Some(web_key(&name)?.kind));
-    let text = text_of(&name, kind, value)?;
+    let is_table = is_law && !value.is_none() && !value.is_instance_of::<PyString>() && !is_path(value)?;
+    let text = if is_table { law_file(&name, value)? } else { text_of(&name, kind, value)? };
     all.push((name, text));
     Ok(())
+}
+
+/// The path of a file with a drag law that is given as a table.
+fn law_file(name: &str, table: &Bound<'_, PyAny>) -> PyResult<String> {
+    let path = table.py().import("spunlaid._law")?.getattr("law_file")?.call1((name, table))?;
+    Ok(quoted(&path.extract::<String>()?))
 }
 
 fn name_of(name: &Bound<'_, PyAny>) -> PyResult<String> {
@@ -118,8 +128,12 @@ fn number_or_path(dimension: Option<Dimension>, value: &Bound<'_, PyAny>) -> PyR
     if let Some(number) = number(value)? {
         return Ok(Some(dimension.map_or_else(|| number.text(), |dimension| quantity(dimension, &number))));
     }
-    let path = if value.hasattr("__fspath__")? { Some(value.extract::<PathBuf>()?) } else { None };
+    let path = if is_path(value)? { Some(value.extract::<PathBuf>()?) } else { None };
     Ok(path.map(|path| quoted(&path.to_string_lossy())))
+}
+
+fn is_path(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    value.hasattr("__fspath__")
 }
 
 /// The value as a boolean, if it is one: of Python or NumPy.

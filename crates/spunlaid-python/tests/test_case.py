@@ -164,3 +164,54 @@ def test_the_keys_say_what_they_mean() -> None:
     assert keys["fibre.root"].words and keys["run.replicates"].unit is None
     assert all(key.meaning and key.allowed for key in keys.values())
     assert "titre" in keys["fibre.linear_density"].synonyms
+
+
+def test_a_value_may_be_a_change_of_that_of_the_case() -> None:
+    case = Case.starter()
+    before = case["air.velocity"]
+    faster = case.with_({"air.velocity": "+20 %"})
+    assert faster["air.velocity"] == pytest.approx(1.2 * before, rel=1e-12)
+    assert faster.with_({"air.velocity": "+50 %"})["air.velocity"] == pytest.approx(1.8 * before, rel=1e-12)
+    set_before = case.with_({"air.velocity": 20.0}).with_({"air.velocity": "-2 m/s"})
+    assert set_before["air.velocity"] == pytest.approx(18.0, rel=1e-12)
+    assert pickle.loads(pickle.dumps(set_before)) == set_before
+    assert set_before.with_({"air.velocity": 5.0})["air.velocity"] == 5.0
+    with pytest.raises(spunlaid.CaseError, match=r"air\.cabin_pressure = \+20 % is a change of a value that is not given"):
+        case.with_({"air.cabin_pressure": "+20 %"})
+    flight = spunlaid.Flight(faster, 1)
+    flight.set("air.velocity", "+1 m/s")
+    same = spunlaid.Flight(faster, 1)
+    same.set("air.velocity", 1.2 * before + 1.0)
+    for fibres in (flight, same):
+        fibres.step("1 ms")
+    np.testing.assert_array_equal(flight.positions, same.positions)
+
+
+def test_a_drag_law_may_be_a_table(tmp_path: Path) -> None:
+    case = Case.starter().with_({"run.duration": "20 ms", "run.replicates": 2, "run.spin_up": 0, "drag.across": "ju-shambaugh"})
+    # C = 6.96 Re^-0.44 (d/78 µm)^0.404, and the rows reach as far as the flight.
+    re = np.geomspace(1e-3, 1e3, 40)
+    table = np.column_stack([re, 6.96 * re**-0.44 * (case["fibre.diameter"] / 78e-6) ** 0.404])
+    file = tmp_path / "law.csv"
+    file.write_text("reynolds,coefficient\n" + "".join(f"{float(x)!r},{float(c)!r}\n" for x, c in table))
+    named, of_file = spunlaid.run(case), spunlaid.run(case.with_({"drag.across": file}))
+    # A law is not the same bits as its table.
+    y, of_table = (run.end_node["y_m"] for run in (named, of_file))
+    assert 0 < np.abs(of_table - y).max() < 1e-3 * np.abs(y).max()
+    pandas = pytest.importorskip("pandas")
+    columns = {"reynolds": table[:, 0], "coefficient": table[:, 1]}
+    for law in (table, table.tolist(), columns, pandas.DataFrame(columns)):
+        with_table = case.with_({"drag": {"across": law}})
+        np.testing.assert_array_equal(spunlaid.run(with_table).end_node["y_m"], of_table)
+    # A pickle holds the rows, for a process that does not have this one's files.
+    pickled = pickle.dumps(with_table)
+    Path(with_table["drag.across"]).unlink()
+    np.testing.assert_array_equal(spunlaid.run(pickle.loads(pickled)).end_node["y_m"], of_table)
+    study = spunlaid.sweep({"case": case, "vary": {"drag.across": ["ju-shambaugh", file, columns]}})
+    first, second, third = study.mean["amplitude_y_m"]
+    assert second == third != first == pytest.approx(second, rel=1e-3)
+    for wrong in ([1.0, 2.0], {"reynolds": [1, 2]}, np.ones((2, 3)), 0.5):
+        with pytest.raises(ValueError, match=r"drag\.across takes the name of a law, the path of a file, or a table"):
+            case.with_({"drag.across": wrong})
+    with pytest.raises(spunlaid.Error, match="row|line"):
+        case.with_({"drag.across": [(1.0, 2.0), (3.0, -1.0)]})

@@ -14,8 +14,8 @@ pub(crate) struct Fit {
     /// Results folder of spunlaid analyse of a scan, or of spunlaid web: the webs become like this one
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub(crate) to: PathBuf,
-    /// One to four keys whose values are sought, each alone or with its range, as line.slot_gap or line.slot_gap="5
-    /// mm..40 mm"
+    /// One to four keys whose values are sought, each alone or with its range, as line.slot_gap, line.slot_gap="5
+    /// mm..40 mm" or line.slot_gap="-50 %..+50 %"
     #[arg(long, value_name = "KEY[=FROM..TO],…", value_delimiter = ',', required = true)]
     pub(crate) vary: Vec<String>,
     /// Compare the spectrum too, across and along the web

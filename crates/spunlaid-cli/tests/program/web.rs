@@ -238,6 +238,9 @@ fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
     // `20 % more holes, 500 to 600 −6 ± 1 % Copy 2.3 dtex, 120 to 144 kg/h per metre, belt 300 to 360 m/min`: the last
     // number before each unit is that of the changed web.
     let first = change.split_once("m/min").unwrap().0;
+    // Other holes are no setting of the running line, and the card says that none of these helps.
+    let nothing = "No setting of the running line lowers the expected CV over patches of ";
+    assert!(first.contains("Not on the running line") && change.contains(nothing), "{change}");
     let last = |unit: &str| -> f64 {
         let before = first.rsplit_once(unit).map_or(first, |(before, _)| before);
         before.split_whitespace().last().unwrap().parse().unwrap()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ._keys import Key, keys
+from ._law import LAWS, law_file
 
 
 def study_toml(study: Mapping[str, Any]) -> str:
@@ -23,6 +25,8 @@ def study_toml(study: Mapping[str, Any]) -> str:
         elif isinstance(value, Mapping) and name in ("vary", "link", "set"):
             tables.append(f"\n[{name}]")
             for key, of in value.items():
+                if name == "vary" and _plain(key) in LAWS and isinstance(of, (list, tuple)):
+                    of = [os.fspath(law) if isinstance(law, (str, os.PathLike)) else law_file(key, law) for law in of]
                 tables.append(f"{_text(key)} = {_value(key, of, known.get(_plain(key)))}")
         else:
             lines.append(f"{_text(name)} = {_value(name, value, None)}")

@@ -6,10 +6,9 @@
 
 use super::Overrides;
 use super::entry::{Entry, VERSION, check_version, in_order, kind, read as read_value, root};
-use super::relative::Relative;
 use super::text_with_lines::TextWithLines;
 use super::written_values::{WrittenValue, WrittenValues};
-use crate::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, TableList, Value};
+use crate::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, Relative, TableList, Value};
 use crate::ground::error::Place;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Fault, Finding, Problem, Removed};

@@ -13,7 +13,6 @@ mod influence;
 mod open;
 mod overrides;
 pub mod paper;
-mod relative;
 mod settle;
 mod slip;
 mod source;

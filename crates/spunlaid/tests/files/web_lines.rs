@@ -3,7 +3,7 @@
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
 use spunlaid::air::Lateral;
 use spunlaid::ground::Dimension;
-use spunlaid::input::{LaydownSource, WebFile, WebSpec, read_case, read_web};
+use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, read_case, read_fit, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
 use std::fs;
@@ -252,6 +252,40 @@ fn a_value_may_be_a_change_of_the_one_before() {
         let values = set(key, change);
         let said = read_web((LINE, "../../cases/line.toml"), &values).unwrap_err().to_string();
         assert!(said.contains(message), "{key} {change}: {said}");
+    }
+}
+
+#[test]
+fn a_range_of_a_fit_may_be_changes_of_the_value_in_the_file() {
+    let fit = |vary: &str, values: &[(String, String)]| {
+        let set = Overrides::new(values, "--set");
+        let file = read_fit((LINE, "../../cases/line.toml"), set, &[vary.to_owned()], "--vary");
+        file.map(|file| file.parameters[0].range).map_err(|error| error.to_string())
+    };
+    let g_min = 1e-3 / 60.0;
+    for (vary, expected) in [
+        ("line.throughput=-20 %..+0.1 g/min", [0.4, 0.6]),
+        ("line.throughput=\"−40%\"..\"1 g/min\"", [0.3, 1.0]),
+    ] {
+        let range = fit(vary, &[]).unwrap();
+        for (found, expected) in range.iter().zip(expected) {
+            assert!((found / (expected * g_min) - 1.0).abs() < 1e-12, "{vary}: {range:?}");
+        }
+    }
+    // The value is that of the start, which is a change too.
+    let start = fit("line.throughput=-50 %..+50 %", &set("line.throughput", "+20 %")).unwrap();
+    assert!((start[0] / (0.3 * g_min) - 1.0).abs() < 1e-12, "{start:?}");
+    for (vary, message) in [
+        (
+            "line.slot_gap=-20 %..+20 %",
+            "is a change of a value that is not given; write line.slot_gap=FROM..TO with values",
+        ),
+        ("line.throughput=-100 %..+20 %", "is not positive"),
+        ("line.throughput=+20 %..-20 %", "write the smaller value first"),
+        ("line.throughput=-x %..+20 %", "is not a relative change; write one like \"+20 %\" or \"-5 %\""),
+    ] {
+        let said = fit(vary, &[]).unwrap_err();
+        assert!(said.contains(message), "{vary}: {said}");
     }
 }
 

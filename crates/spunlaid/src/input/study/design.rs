@@ -2,13 +2,12 @@
 
 use super::super::document::Named;
 use super::super::entry::{Entry, kind};
-use super::super::relative::Relative;
 use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, not_varied, not_written};
 use crate::experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
     Way,
 };
-use crate::fibre::case::keys::{Kind, Value, VariedKey};
+use crate::fibre::case::keys::{Kind, Relative, Value, VariedKey};
 use crate::ground::error::nearest_word;
 use crate::ground::{Fault, Finding};
 use std::path::Path;

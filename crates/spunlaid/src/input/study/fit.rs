@@ -5,7 +5,7 @@ use super::super::{Overrides, Resources, Source};
 use super::Base;
 use super::web::WebBase;
 use crate::experiment::{Parameter, USUAL_FACTOR};
-use crate::fibre::case::keys::{Kind, Sign, VariedKey};
+use crate::fibre::case::keys::{Kind, Relative, Sign, VariedKey};
 use crate::ground::error::Place;
 use crate::ground::{Error, Fault, FileKind, Finding, Problem};
 
@@ -100,13 +100,14 @@ fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Para
             ));
         }
     };
-    let (dimension, value) = (key.dimension(), base.value(&key));
+    let value = base.value(&key);
     let range = match range {
         Some(range) => {
             let ends = range
                 .split_once("..")
                 .ok_or_else(|| Fault::new("is not a range", "write FROM..TO, as in 5 mm..40 mm"))?;
-            let [from, to] = [ends.0, ends.1].map(|end| dimension.parse(end.trim().trim_matches('"')));
+            let [from, to] =
+                [ends.0, ends.1].map(|end| end_of_range(&key, value, end.trim().trim_matches('"')));
             let (from, to) = (from?, to?);
             if !(from < to && from.is_finite() && to.is_finite()) {
                 return Err(Fault::new(
@@ -138,4 +139,11 @@ fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Para
     let middle = if range[0] > 0.0 { (range[0] * range[1]).sqrt() } else { 0.5 * (range[0] + range[1]) };
     let start = if value.is_nan() { middle } else { value };
     Ok(Parameter { key, start, range })
+}
+
+/// An end of a range: a value, or a change of the value in the file [SI], which is NaN if there is none.
+fn end_of_range(key: &VariedKey, value: f64, text: &str) -> Result<f64, Fault> {
+    let Some(change) = Relative::read(&key.kind, text)? else { return key.dimension().parse(text) };
+    let end = change.of(Some(value), &key.kind, format!("write {}=FROM..TO with values", key.name))?;
+    end.number().ok_or_else(|| Fault::new("is not a range", "write numbers"))
 }

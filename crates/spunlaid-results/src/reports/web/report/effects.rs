@@ -59,8 +59,9 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         |row: Row, (found, _): Found<'_>| row.command(web_command(&found.change, tried.beside));
     let improvements = advice.improvements(patch);
     let other = elsewhere(findings, advice, patch);
+    let is_running = |(tried, _): &Found<'_>| tried.change.setting.turned == Turned::Running;
     let rows = [true, false].map(|running| {
-        let is_one = |(tried, _): &Found<'_>| (tried.change.setting.turned == Turned::Running) == running;
+        let is_one = |found: &Found<'_>| is_running(found) == running;
         let named = improvements.iter().copied().filter(is_one).take(NAMED);
         let named = named.map(|found| with_command(row(found, String::new()), found));
         let other = other.filter(is_one).map(|found| {
@@ -80,6 +81,9 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
     );
     let mut words = match improvements.len() {
         0 => format!("None lowers {about}, by more than 1{THIN}%, significantly."),
+        _ if !improvements.iter().any(is_running) => {
+            format!("No setting of the running line lowers {about}, by more than 1{THIN}%, significantly.")
+        }
         1 => format!("Change of {about}; no other lowers it by more than 1{THIN}%, significantly."),
         _ => format!("Change of {about}: what lowers it most."),
     };

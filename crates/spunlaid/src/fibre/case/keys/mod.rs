@@ -9,6 +9,7 @@
 
 pub(crate) mod key_table;
 mod relations;
+mod relative;
 #[macro_use]
 pub(crate) mod row;
 mod table;
@@ -18,6 +19,7 @@ mod varied;
 pub use key_table::KeyTable;
 pub(crate) use key_table::TableList;
 pub use relations::{Condition, Relations};
+pub(crate) use relative::Relative;
 pub use value::{Content, DataFile, Kind, Sign, Value};
 pub use varied::VariedKey;
 
@@ -204,7 +206,7 @@ impl<T> Key<T> {
     /// Sets the value in a case. Mesh and times stay the same: only reading a case file derives other keys from
     /// this one.
     ///
-    /// * `value` – in SI units, or as text with its unit, `"20 m/s"`, or a name, `"clamped"`
+    /// * `value` – in SI units, or as text with its unit, `"20 m/s"`, or a name, `"clamped"`, or a change, `"+20 %"`
     ///
     /// Only the value itself is checked. [`Case::check`] says whether the case can still be run.
     ///
@@ -213,10 +215,19 @@ impl<T> Key<T> {
     pub fn set(&self, input: &mut T, value: impl Into<Value>) -> Result<(), Box<Problem>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
-        let accepted = match &value {
-            Value::Text(word) if self.words.contains(&word.as_str()) => Ok(value),
-            _ => self.kind.accept(value).map_err(|fault| fault.or_words(self.words)),
+        let is_word = matches!(&value, Value::Text(word) if self.words.contains(&word.as_str()));
+        let change = match &value {
+            Value::Text(text) if !is_word => Relative::read(&self.kind, text),
+            _ => Ok(None),
         };
+        let accepted = change.and_then(|change| match change {
+            Some(change) => {
+                let before = self.get(input).and_then(|before| before.number());
+                change.of(before, &self.kind, "write the value itself".to_owned())
+            }
+            None if is_word => Ok(value),
+            None => self.kind.accept(value).map_err(|fault| fault.or_words(self.words)),
+        });
         accepted.and_then(|value| (self.set)(input, &value)).map_err(|what| {
             let (place, key) = (Place::Code, self.name.to_owned());
             Box::new(Finding { place, key, value: Some(shown), what })

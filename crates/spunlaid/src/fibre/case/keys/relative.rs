@@ -1,11 +1,11 @@
 //! Values that are changes of those before: `+20 %`, `-0.2 dtex`.
 
-use crate::fibre::case::keys::{Kind, Sign, Value};
+use super::{Kind, Sign, Value};
 use crate::ground::Fault;
 
 /// A change of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Relative {
+pub(crate) enum Relative {
     /// By this share of it.
     Share(f64),
     /// By this amount, in SI units.
@@ -18,7 +18,7 @@ impl Relative {
     ///
     /// # Errors
     /// If it cannot be read.
-    pub(super) fn read(kind: &Kind, text: &str) -> Result<Option<Self>, Fault> {
+    pub(crate) fn read(kind: &Kind, text: &str) -> Result<Option<Self>, Fault> {
         let text = text.trim().replace('−', "-");
         let share = text.strip_suffix('%').map(str::trim_end);
         let is_negative_value = share.is_none() && matches!(kind, Kind::Quantity(_, Sign::Any));
@@ -41,7 +41,7 @@ impl Relative {
     ///
     /// # Errors
     /// If there is no number before, or if the key does not take the new one.
-    pub(super) fn of(self, before: Option<f64>, kind: &Kind, remedy: String) -> Result<Value, Fault> {
+    pub(crate) fn of(self, before: Option<f64>, kind: &Kind, remedy: String) -> Result<Value, Fault> {
         let Some(before) = before.filter(|before| before.is_finite()) else {
             return Err(Fault::new("is a change of a value that is not given", remedy));
         };
