@@ -141,7 +141,7 @@ impl Case {
     /// The same case with other values: with_({"air.velocity": "20 m/s", "fibre.diameter": 18e-6}).
     ///
     /// A text has a unit, a number is in SI units, and None takes a key out, so that its default applies. "+20 %" and
-    /// "-2 m/s" are changes of the value of this case. What follows from the changed keys follows again.
+    /// "-0.2 dtex" are changes of the value of this case. What follows from the changed keys follows again.
     fn with_(&self, py: Python<'_>, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (mut changes, new) = (self.changes.clone(), overrides(values)?);
         let is_set = |value: &str| value.trim().trim_matches('"') != "auto";

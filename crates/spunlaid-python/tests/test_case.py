@@ -172,11 +172,11 @@ def test_a_value_may_be_a_change_of_that_of_the_case() -> None:
     faster = case.with_({"air.velocity": "+20 %"})
     assert faster["air.velocity"] == pytest.approx(1.2 * before, rel=1e-12)
     assert faster.with_({"air.velocity": "+50 %"})["air.velocity"] == pytest.approx(1.8 * before, rel=1e-12)
-    set_before = case.with_({"air.velocity": 20.0}).with_({"air.velocity": "-2 m/s"})
+    set_before = case.with_({"air.velocity": 20.0}).with_({"air.velocity": "-10 %"})
     assert set_before["air.velocity"] == pytest.approx(18.0, rel=1e-12)
     assert pickle.loads(pickle.dumps(set_before)) == set_before
     assert set_before.with_({"air.velocity": 5.0})["air.velocity"] == 5.0
-    with pytest.raises(spunlaid.CaseError, match=r"air\.cabin_pressure = \+20 % is a change of a value that is not given"):
+    with pytest.raises(spunlaid.CaseError, match=r"air\.cabin_pressure = .* is a change of a value that is not given"):
         case.with_({"air.cabin_pressure": "+20 %"})
     flight = spunlaid.Flight(faster, 1)
     flight.set("air.velocity", "+1 m/s")
@@ -213,5 +213,5 @@ def test_a_drag_law_may_be_a_table(tmp_path: Path) -> None:
     for wrong in ([1.0, 2.0], {"reynolds": [1, 2]}, np.ones((2, 3)), 0.5):
         with pytest.raises(ValueError, match=r"drag\.across takes the name of a law, the path of a file, or a table"):
             case.with_({"drag.across": wrong})
-    with pytest.raises(spunlaid.Error, match="row|line"):
+    with pytest.raises(spunlaid.Error, match=r"csv:3: column coefficient: -1\.0 is not positive"):
         case.with_({"drag.across": [(1.0, 2.0), (3.0, -1.0)]})

@@ -229,7 +229,7 @@ This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys W
 their name or meaning, or with this unit: `spunlaid keys dtex`.
 
 A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as
-`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run, and `--set air.velocity=\"+20 %\"` or `\"-2 m/s\"`
+`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run, and `--set air.velocity=\"+20 %\"` or `\"+2 m/s\"`
 changes the value that it has; so do the values of a study, of a fit and of Python. (Of a key that takes negative
 values, `\"-2 mm\"` is a value.) A study can vary all keys but those marked *fixed*;
 those marked *flight* can change during a flight. A range is the usual one: the program warns of a value outside of
