@@ -166,9 +166,10 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
             let change = tried.on(judged_by)?.difference;
             let (name, spec) = (label(&tried.change), tried.change.experiment.spec.clone());
             println!(
-                "  {name:44} {:7.2} ± {:5.2} %{}",
+                "  {name:44} {:7.2} ± {:5.2} %  {}{}",
                 100.0 * change.value,
                 100.0 * change.standard_error,
+                tried.change.setting.turned.name(),
                 if is_named(tried) { " *" } else { "" }
             );
             Some(Told { name, spec, change, is_named: is_named(tried) })
