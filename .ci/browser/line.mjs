@@ -80,6 +80,66 @@ async function turnByHand(page, { expect, print, wait }) {
   expect(isChange, `the headline says of the change: ${change}`);
 }
 
+/** The plant's numbers follow a thumb that moves, at most ten times a second and before anything is simulated. */
+async function followThumb(page, { expect, wait }) {
+  const slider = page.locator('[data-knob="throughput"] input[type=range]');
+  const plant = () => page.locator("#plant").innerText();
+  const [box, before, sent] = [await slider.boundingBox(), await plant(), await page.evaluate(() => spunlaidLive.seen.sent.length)];
+  await page.evaluate(() => {
+    window.asked = 0;
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+      if (JSON.parse(text).do === "preview") window.asked += 1;
+      send.call(this, text);
+    };
+  });
+  const began = performance.now();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  for (let i = 1; i <= 20; i++) {
+    await page.mouse.move(box.x + box.width * (0.5 + 0.01 * i), box.y + box.height / 2);
+    await wait(40);
+  }
+  const [moved, asked, most] = [await plant(), await page.evaluate(() => window.asked), 1 + (performance.now() - began) / 100];
+  expect(moved !== before, "the numbers of the plant do not follow a thumb that moves");
+  expect(asked > 1 && asked <= most, `${asked} numbers of the plant are asked for, of ${most.toFixed(1)}`);
+  expect((await page.evaluate(() => spunlaidLive.seen.sent.length)) === sent, "a thumb that moves sends its value");
+  await page.keyboard.press("Escape");
+  await wait(300);
+  expect((await plant()) === before, "Escape does not bring the numbers of the plant back");
+  await page.mouse.up();
+}
+
+/** The change is found again in another air, with an error of its own, next to the first one. */
+async function confirmChange(page, { expect, shot }) {
+  const first = await page.locator("#change").innerText();
+  await page.locator("#confirm").click();
+  await page.waitForFunction(() => spunlaidLive.state.confirmation?.is_done, null, { timeout: 180000 });
+  const text = await page.locator("#confirmed").innerText();
+  expect(/[+−]?[\d.]+\s±\s[\d.]+\s% in another air/.test(text), `the headline says of the other air: ${text}`);
+  expect((await page.locator("#change").innerText()) === first, "a confirmation changes the change");
+  const columns = await page.locator("#patches tr").first().locator("th, td").count();
+  expect(columns === 5, `the table has ${columns} columns with a confirmation`);
+  await shot(page, "line-confirmed");
+}
+
+/** The filament of the line flies on a tab, and its sliders do something. */
+async function openTab(page, { expect, shot, wait }) {
+  await page.getByRole("link", { name: "Fibre" }).click();
+  await page.waitForFunction(() => window.spunlaidLive?.frame && spunlaidLive.state);
+  const slider = page.locator('input[type=range][data-key="feed.speed"]');
+  const speed = await page.evaluate(() => spunlaidLive.state.belt.feed);
+  await slider.focus();
+  for (let i = 0; i < 5; i++) await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((speed) => spunlaidLive.state.belt.feed > speed, speed);
+  expect(await page.locator("#refused").isHidden(), `the page of the filament refuses its feed speed: ${await page.locator("#refused").innerText()}`);
+  await wait(1500);
+  for (const violation of await violations(page)) expect(false, `the tab of the fibre: ${violation}`);
+  await shot(page, "line-fibre");
+  await page.getByRole("link", { name: "Web" }).click();
+  await page.waitForFunction(() => window.spunlaidLive?.judged?.before);
+}
+
 /** A value that is not possible turns red with its reason; Escape takes it back, and only it. */
 async function refuse(page, { expect, isRed, wait }) {
   const box = knobOf(page, ".top input");
@@ -197,6 +257,8 @@ export async function checkLine(browser, tools) {
   for (const violation of await violations(page)) expect(false, `with a change: ${violation}`);
   const answer = await page.locator("h1").innerText();
   await refuse(page, tools);
+  await followThumb(page, tools);
+  await confirmChange(page, tools);
   await isComplete(page);
   await shot(page, "line-complete");
   const patches = await save(page, tools);
@@ -209,6 +271,7 @@ export async function checkLine(browser, tools) {
   const [slide] = await Promise.all([page.waitForEvent("download"), page.locator("#picture").click()]);
   expect(slide.suggestedFilename().endsWith(".png"), `the picture is ${slide.suggestedFilename()}`);
   await undo(page, tools);
+  await openTab(page, tools);
 
   const other = await open(browser, address, { scheme: "dark", height: 800, alone: true });
   const phone = await open(browser, address, { width: 400 });

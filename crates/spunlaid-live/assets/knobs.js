@@ -38,9 +38,12 @@ function stepsTo({ words, step }, from, to) {
 }
 
 class Knobs {
-  /** `set(name, value)` is called when a knob is turned; it returns the stamp that the answer will have. */
-  constructor(form, place, set) {
-    Object.assign(this, { form, place, set, all: new Map(), held: null });
+  /**
+   * `set(name, value)` is called when a knob is turned; it returns the stamp that the answer will have.
+   * `moves(name, value)` is called while a slider moves, and without arguments if its value will not be sent.
+   */
+  constructor(form, place, set, moves) {
+    Object.assign(this, { form, place, set, moves, all: new Map(), held: null });
     form.addEventListener("submit", (e) => e.preventDefault());
     for (const end of ["pointerup", "pointercancel", "blur"]) addEventListener(end, () => this.release());
   }
@@ -187,6 +190,7 @@ class Knobs {
   /** While a thumb moves: its value, and what the known effect of a step lets expect. */
   preview(control) {
     const { knob, text, slider, was, turnedTo } = control;
+    this.moves(knob.name, turnedTo);
     text.value = this.written(knob, turnedTo);
     slider.setAttribute("aria-valuetext", text.value);
     const { effect } = knob;
@@ -198,8 +202,9 @@ class Knobs {
     clearTimeout(control.timer);
     control.timer = null;
     const { turnedTo, asked, knob } = control;
-    if (turnedTo !== null && turnedTo !== (asked ?? knob.value)) this.ask(control, turnedTo);
-    else if (control !== this.held && !control.stamp) this.show(control);
+    if (turnedTo !== null && turnedTo !== (asked ?? knob.value)) return this.ask(control, turnedTo);
+    this.moves();
+    if (control !== this.held && !control.stamp) this.show(control);
   }
 
   ask(control, value) {
@@ -236,6 +241,7 @@ class Knobs {
     const control = this.of(stamp);
     if (!control) return false;
     control.stamp = null;
+    this.moves();
     control.text.value = typeof control.asked === "number" ? this.written(control.knob, control.asked) : control.asked;
     control.asked = null;
     control.wrong.textContent = `${why.replace(/\.$/, "")}. The line before goes on; Escape brings it back.`;
@@ -256,6 +262,7 @@ class Knobs {
   /** Takes back what is being turned, written or was refused; returns whether there was any. */
   takeBack() {
     const open = [...this.all.values()].filter((c) => c.timer || c === this.held || !c.wrong.hidden || c.isEdited);
+    this.moves();
     for (const control of open) {
       clearTimeout(control.timer);
       control.timer = null;

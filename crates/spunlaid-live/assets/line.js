@@ -6,6 +6,10 @@ const STAGES = ["before", "sketch", "complete"];
 const page = { state: null, knobs: [], patches: new Map(), settling: [], since: 0, isTurned: false };
 const connection = { open: false };
 const asked = { at: -Infinity };
+/** The plant's numbers at the value of a slider that moves: nothing is simulated for them. */
+const preview = { timer: null, at: -Infinity, stamp: 0, from: 1, plant: null, generation: -1 };
+/** Time between two of them [ms]. */
+const PREVIEW = 100;
 /** For checks: how it goes. */
 const seen = { frames: 0, sent: [], errors: [] };
 
@@ -14,8 +18,24 @@ const knobs = new Knobs(byId("knobs"), byId("groups"), (name, value) => {
   ask();
   note("");
   seen.sent.push([name, value]);
+  clearTimeout(preview.timer);
   return link.set(name, value);
-});
+}, moves);
+
+/** Asks for the plant's numbers while a slider moves; none if its value does not count. */
+function moves(key, value) {
+  clearTimeout(preview.timer);
+  if (key === undefined) {
+    [preview.from, preview.plant] = [preview.stamp + 1, null];
+    if (page.state) showPlant(page.state.plant);
+    return;
+  }
+  preview.timer = setTimeout(() => {
+    preview.at = performance.now();
+    preview.stamp += 1;
+    link.ask({ do: "preview", key, value, stamp: preview.stamp });
+  }, Math.max(0, preview.at + PREVIEW - performance.now()));
+}
 
 /** Remembers that what changes next was asked for here; sends a message. */
 function ask(message) {
@@ -61,9 +81,16 @@ const link = new Link({
     belt.take(frame, page.state?.work?.stage === "sketch");
   },
   applied: ({ stamp }) => knobs.applied(stamp),
+  preview({ stamp, generation, plant }) {
+    // Of a line that has been changed since, or of which flights have to find the tension first.
+    if (stamp < preview.from || generation < page.state?.generation || plant.length === 0) return;
+    [preview.plant, preview.generation] = [plant, generation];
+    showPlant(plant);
+  },
   refused({ about, problems }) {
     const why = problems.map(({ text }) => text).join(" ");
-    if (about.is === "setting" && knobs.refuse(about.stamp, why)) return;
+    // Of a value that is only passed nothing is said.
+    if (about.is === "preview" || (about.is === "setting" && knobs.refuse(about.stamp, why))) return;
     if (about.is === "name") saved(why, true);
     else note(why);
   },
@@ -117,7 +144,7 @@ function state(message) {
   if (last && message.generation < last.generation) restart();
   if (last && message.pinned !== last.pinned) pinned();
   page.isTurned = message.now !== message.pinned;
-  if (!page.isTurned) for (const patch of page.patches.values()) patch.now = patch.change = null;
+  if (!page.isTurned) for (const patch of page.patches.values()) forgetNow(patch);
   if (!last || message.generation !== last.generation) {
     [page.settling.old, page.since] = [true, performance.now()];
     belt.clearNow(message.generation);
@@ -128,11 +155,13 @@ function state(message) {
   byId("play").setAttribute("aria-pressed", String(!message.stands));
   const isNew = message.trouble && message.trouble !== last?.trouble;
   if (isNew) note(message.trouble);
-  showPlant(message.plant);
+  if (message.generation > preview.generation) preview.plant = null;
+  showPlant(preview.plant ?? message.plant);
   showAnswers(message.answers);
   showNotes(message.notes);
   showWork(message.work);
   showNumbers();
+  showConfirm(message);
   status();
 }
 
@@ -140,14 +169,18 @@ function state(message) {
 function restart() {
   page.patches.clear();
   page.settling = [];
+  [preview.plant, preview.generation] = [null, -1];
   [belt.before, belt.now] = [new Laid(), new Laid()];
 }
+
+/** Nothing is known of a web that is the one before. */
+const forgetNow = (patch) => (patch.now = patch.change = patch.confirmed = null);
 
 /** What is now has become what was before. */
 function pinned() {
   for (const patch of page.patches.values()) {
     if (patch.now) patch.before = patch.now;
-    patch.now = patch.change = null;
+    forgetNow(patch);
   }
   page.settling = [];
   belt.pin();
@@ -161,6 +194,8 @@ function found(message) {
     // A number gives way to a newer one only.
     if (patch.now) [kept.now, kept.of] = [patch.now, message.generation];
     if (patch.change) [kept.change, kept.changeOf] = [patch.change, message.generation];
+    // What was found in another air belongs to one setting only.
+    kept.confirmed = patch.confirmed;
     page.patches.set(patch.side_m, kept);
   }
   const shown = judged();
@@ -172,6 +207,7 @@ function found(message) {
     page.settling.last = JSON.stringify(number);
   }
   showNumbers();
+  showConfirm(page.state);
   status();
   drawSettling();
 }
@@ -197,15 +233,15 @@ function showNumbers() {
   const { generation } = page.state;
   headline(best, generation);
   if (!isNews("numbers", [...page.patches.values()], generation)) return;
+  document.querySelector(".of-confirmed").hidden = !best.confirmed;
   const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
   byId("patches").replaceChildren(
     ...rows.map((patch) => {
       const row = element("tr", { className: patch === best ? "judged" : "" });
       row.append(element("th", { scope: "row", textContent: `${plain(1e3 * patch.side, 3)} mm` }));
       row.append(numberCell(patch.before, false), numberCell(patch.now, patch.of !== generation));
-      const cell = element("td", { textContent: patch.change ? changeText(patch.change) : "–" });
-      if (patch.change) cell.className = patch.changeOf === generation ? verdict(patch.change) : "old";
-      row.append(cell);
+      row.append(changeCell(patch.change, patch.changeOf !== generation));
+      if (best.confirmed) row.append(changeCell(patch.confirmed, false));
       return row;
     }),
   );
@@ -217,6 +253,11 @@ function numberCell(number, isOld) {
   const cell = element("td", { textContent: value, className: isOld ? "old" : "" });
   cell.append(element("span", { textContent: error, className: "error" }));
   return cell;
+}
+
+function changeCell(change, isOld) {
+  const className = !change ? "" : isOld ? "old" : verdict(change);
+  return element("td", { textContent: change ? changeText(change).slice(0, -2) : "–", className });
 }
 
 function headline(best, generation) {
@@ -233,14 +274,30 @@ function headline(best, generation) {
   const none = isDone ? "change not known: the sample of filaments does not give it" : "";
   say("change", change ? `${changeText(change)} against before${doubt}` : none);
   place.className = !change || isOld ? "old" : verdict(change);
+  const { confirmed } = best;
+  const unsure = confirmed?.is_sure ? "" : ", not significant";
+  say("confirmed", confirmed ? `· ${changeText(confirmed)} in another air${unsure}` : "");
+  byId("confirmed").className = confirmed ? verdict(confirmed) : "old";
+}
+
+/** A change that has numbers can be confirmed, once. */
+function showConfirm({ confirmation }) {
+  const button = byId("confirm");
+  const isKnown = page.isTurned && [...page.patches.values()].some((p) => p.change && p.changeOf === page.state.generation);
+  button.hidden = !isKnown;
+  button.disabled = Boolean(confirmation);
+  const seed = confirmation?.seed;
+  const done = confirmation?.is_done ? "Confirmed" : "Is confirmed";
+  say("confirm", confirmation ? `${done} in an air with seed ${seed}` : "Confirm in another air");
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */
 function showWork(work) {
   for (const item of byId("stages").children) {
     const order = STAGES.indexOf(item.dataset.stage);
-    // What the knobs do is tried when all is complete.
-    const at = work && STAGES.includes(work.stage) ? STAGES.indexOf(work.stage) : STAGES.length;
+    // What the knobs do is tried when all is complete; a confirmation comes between sketch and complete, or after all.
+    const isBetween = work?.stage === "confirm" && !judged()?.now?.is_complete;
+    const at = isBetween ? 1.5 : STAGES.includes(work?.stage) ? STAGES.indexOf(work.stage) : STAGES.length;
     item.hidden = item.dataset.stage === "sketch" && !page.isTurned;
     const share = order < at ? 1 : order === at ? work.share : 0;
     item.querySelector("b").style.width = `${100 * share}%`;
@@ -401,7 +458,7 @@ function slide() {
     pen.fillText(text, x, y, 1860 - x);
   };
   write(byId("headline").textContent, 1010, 120, "700 44px", ink);
-  write(byId("change").textContent, 1010, 176, "600 34px", getComputedStyle(byId("change")).color);
+  write(`${byId("change").textContent} ${byId("confirmed").textContent}`, 1010, 176, "600 34px", getComputedStyle(byId("change")).color);
   write(`${byId("title").textContent} · ${byId("status").textContent}`, 1010, 224, "24px", muted);
   const step = Math.min(52, 700 / Math.max(1, page.knobs.length));
   page.knobs.forEach((knob, i) => {
@@ -428,6 +485,7 @@ byId("split").addEventListener("click", () => {
 byId("nearer").addEventListener("click", () => belt.zoom(1.5));
 byId("further").addEventListener("click", () => belt.zoom(1 / 1.5));
 byId("picture").addEventListener("click", slide);
+byId("confirm").addEventListener("click", () => ask({ do: "confirm" }));
 byId("pin").addEventListener("click", () => ask({ do: "pin" }));
 byId("reset").addEventListener("click", () => ask({ do: "reset" }));
 byId("back").addEventListener("click", goBack);

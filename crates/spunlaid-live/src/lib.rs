@@ -3,6 +3,7 @@
 //! ```text
 //! page ←→ server (loopback only, token) ← board: pictures, numbers ← session of fibres, or of a line
 //!                                        → messages                → (a thread of its own)
+//!                                          session of a line        → session of its filament, for each layer
 //! ```
 //!
 //! ```text
@@ -24,10 +25,11 @@ mod save;
 mod server;
 
 use board::{Board, Picture};
+use fibre::Document;
 use guard::Guard;
 use message::{Complaint, PageRequest};
-use page::Page;
-use server::Server;
+use page::{Page, Tab};
+use server::{Server, SessionSite, Site};
 use spunlaid::ground::{Error, Fault, Problem};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
@@ -66,6 +68,7 @@ pub enum Subject {
 pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), Error> {
     let Start { subject, text, file, port } = start;
     let folder = std::env::current_dir().map_err(not_served)?;
+    let mut sessions = Sessions::default();
     match subject {
         Subject::Fibre => {
             let name = file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
@@ -73,45 +76,83 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
                 let problem = |why: String| Problem::with_path(Path::new(&name), Fault::plain(why));
                 Error::Rejected(complaint_lines(&complaints).into_iter().map(problem).collect())
             };
-            let (session, remark) = fibre::begin(text, file, folder).map_err(rejected)?;
-            let remark = remark.as_deref();
-            serve(Page::Fibre, port, session.board(), |heard, _| session.fly(&heard), |at| ready(at, remark))
+            let (session, remark) = fibre::begin(Document::new(text, file), folder).map_err(rejected)?;
+            let board = session.board();
+            sessions.begin(Page::Fibre, Tab::first("Fibre"), board, |heard, _| session.fly(&heard))?;
+            sessions.serve(port, |at| ready(at, remark.as_deref()))
         }
         Subject::Line => {
-            let session = line::Session::new(text, file, folder)?;
+            let mut session = line::Session::new(text, file, folder.clone())?;
+            for layer in session.layers_with_filament() {
+                match fibre::begin(session.filament_of(layer), folder.clone()) {
+                    Ok((fibre, _)) => {
+                        let tab = session.tab_of_filament(layer);
+                        let board = fibre.board();
+                        let requests =
+                            sessions.begin(Page::Fibre, tab, board, |heard, _| fibre.fly(&heard))?;
+                        session.show_filament_to(layer, requests);
+                    }
+                    Err(complaints) => session.lacks_filament(layer, &complaint_lines(&complaints)),
+                }
+            }
             let board = session.board();
             let fly = |heard, sender| session.fly(&heard, sender);
-            serve(Page::Line, port, board, fly, |at| ready(at, None))
+            sessions.begin(Page::Line, Tab::first("Web"), board, fly)?;
+            sessions.serve(port, |at| ready(at, None))
         }
     }
 }
 
-/// Serves pages until the program is ended.
-///
-/// * `fly` – the session: hears what pages ask, and may send to itself
-fn serve<M, P>(
-    page: Page,
-    port: u16,
-    board: Arc<Board<P>>,
-    fly: impl FnOnce(mpsc::Receiver<M>, mpsc::SyncSender<M>) + Send + 'static,
-    ready: impl FnOnce(&str),
-) -> Result<(), Error>
-where
-    M: From<PageRequest> + Send + 'static,
-    P: Picture,
-{
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(not_served)?;
-    let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
-    let (sender, heard) = mpsc::sync_channel(WAITING);
-    let server = Server { guard, page, requests: sender.clone(), board, strangers: Default::default() };
-    let address = server.guard.address();
-    let session = thread::Builder::new().name("session".to_owned()).spawn(move || fly(heard, sender));
-    let session = session.map_err(not_served)?;
-    let serving = thread::Builder::new().name("server".to_owned()).spawn(move || server.serve(&listener));
-    serving.map_err(not_served)?;
-    ready(&address);
-    // The session ends by a fault of the program only, and the server with it.
-    session.join().or_else(|fault| panic::resume_unwind(fault))
+/// The sessions of a program, each with its thread, and their sites.
+#[derive(Default)]
+struct Sessions {
+    sites: Vec<(Tab, MakeSite)>,
+    threads: Vec<thread::JoinHandle<()>>,
+}
+
+/// Makes a site once all tabs are known, of the links to them.
+type MakeSite = Box<dyn FnOnce(String) -> Box<dyn Site>>;
+
+impl Sessions {
+    /// Begins a session; returns where it hears requests.
+    ///
+    /// * `fly` – the session: hears what pages ask, and may send to itself
+    fn begin<M, P>(
+        &mut self,
+        page: Page,
+        tab: Tab,
+        board: Arc<Board<P>>,
+        fly: impl FnOnce(mpsc::Receiver<M>, mpsc::SyncSender<M>) + Send + 'static,
+    ) -> Result<mpsc::SyncSender<M>, Error>
+    where
+        M: From<PageRequest> + Send + 'static,
+        P: Picture,
+    {
+        let (sender, heard) = mpsc::sync_channel(WAITING);
+        let (requests, at) = (sender.clone(), tab.at.clone());
+        let site = move |tabs| -> Box<dyn Site> { Box::new(SessionSite { at, page, tabs, requests, board }) };
+        self.sites.push((tab, Box::new(site)));
+        let own = sender.clone();
+        let session = thread::Builder::new().name("session".to_owned()).spawn(move || fly(heard, own));
+        self.threads.push(session.map_err(not_served)?);
+        Ok(sender)
+    }
+
+    /// Serves pages until the program is ended. The site that began last has no name of its own.
+    fn serve(self, port: u16, ready: impl FnOnce(&str)) -> Result<(), Error> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(not_served)?;
+        let guard = Guard::new(listener.local_addr().map_err(not_served)?.port())?;
+        let address = guard.address();
+        let links = page::links(&self.sites.iter().map(|(tab, _)| tab).collect::<Vec<_>>());
+        let sites = self.sites.into_iter().zip(links).map(|((_, site), links)| site(links)).collect();
+        let server = Server { guard, sites, strangers: Default::default() };
+        let serving = thread::Builder::new().name("server".to_owned()).spawn(move || server.serve(&listener));
+        serving.map_err(not_served)?;
+        ready(&address);
+        // A session ends by a fault of the program only. The server ends with that of the page without a name.
+        let last = self.threads.into_iter().next_back();
+        last.map_or(Ok(()), |session| session.join().or_else(|fault| panic::resume_unwind(fault)))
+    }
 }
 
 /// The page cannot be served.

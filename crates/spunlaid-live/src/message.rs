@@ -1,12 +1,18 @@
 //! The requests of a page, as JSON. The messages to the pages are written where their content is known.
 
-use super::board::PageId;
+use super::board::{Board, PageId};
 use serde::{Deserialize, Serialize};
 use spunlaid::ground::error::Place;
 use spunlaid::ground::{Error, Problem};
+use std::collections::BTreeSet;
+use std::iter;
+use std::sync::mpsc::Receiver;
 
 /// Size of the largest message that is read [bytes].
 pub(super) const LARGEST: usize = 1 << 18;
+
+/// Messages that are heard before something is shown.
+const MOST_HEARD: usize = 256;
 
 /// Something that a page asks for.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -16,6 +22,9 @@ pub(super) enum Command {
     Set { key: String, value: KeyValue, stamp: u64 },
     /// Fly this case.
     Case { text: String },
+    /// Fly the filament of a line as its knobs are now. The session of the line asks for it, and no page.
+    #[serde(skip)]
+    Filament { text: String },
     /// Fly at another pace.
     Pace { pace: Pace },
     /// Stop the time.
@@ -28,8 +37,12 @@ pub(super) enum Command {
     Reset {},
     /// Begin the statistics again.
     Forget {},
+    /// What the plant's numbers would be with a knob at this value, while its slider is held. Nothing is simulated.
+    Preview { key: String, value: KeyValue, stamp: u64 },
     /// The present web becomes the one with which others are compared.
     Pin {},
+    /// Simulate the change from the web of comparison to the present one again, in an air with another seed.
+    Confirm {},
     /// The knobs of an earlier answer.
     Back { to: u32 },
     /// Whether the page can be seen.
@@ -75,6 +88,9 @@ impl Pace {
 pub(super) enum Answer {
     /// A change was made; frames of this generation or later show it.
     Applied { stamp: u64, generation: u32 },
+    /// The plant's numbers with a knob at the value that was sent with this stamp, the others as in this generation;
+    /// none where flights have to find a tension first.
+    Preview { stamp: u64, generation: u32, plant: Vec<serde_json::Value> },
     /// The case was saved under this name.
     Saved { name: String },
     /// There is a file of this name already.
@@ -89,6 +105,8 @@ pub(super) enum Answer {
 pub(super) enum Subject {
     /// The value of a key, which was sent with this stamp.
     Setting { stamp: u64 },
+    /// A value that a slider has passed.
+    Preview,
     /// The name of a file.
     Name,
     /// Something else.
@@ -107,9 +125,64 @@ impl PageRequest {
     pub(super) fn is_replaced_by(&self, later: &Self) -> bool {
         match (&self.command, &later.command) {
             (Command::Set { key, .. }, Command::Set { key: other, .. }) => key == other,
+            (Command::Preview { .. }, Command::Preview { .. } | Command::Set { .. }) => {
+                self.page == later.page
+            }
             _ => false,
         }
     }
+}
+
+/// A session that hears what pages ask.
+pub(super) trait Receives {
+    /// Does what was asked.
+    ///
+    /// # Errors
+    /// The answer that refuses it.
+    fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer>;
+
+    /// The generation that the next change of a key will have.
+    fn next_generation(&self) -> u32;
+
+    /// The pages that can be seen.
+    fn pages(&mut self) -> &mut BTreeSet<PageId>;
+
+    /// Does what has come at once, and answers it; returns whether more was asked than to look.
+    fn receive<P>(&mut self, requests: &[PageRequest], board: &Board<P>) -> bool {
+        let mut is_asked = false;
+        for (i, request) in requests.iter().enumerate() {
+            let PageRequest { page, command } = request;
+            // Each of several values gets its answer.
+            let is_replaced = requests[i + 1..].iter().any(|later| request.is_replaced_by(later));
+            let answer = match command {
+                Command::Look { visible: true } => {
+                    self.pages().insert(*page);
+                    None
+                }
+                Command::Look { visible: false } => {
+                    self.pages().remove(page);
+                    None
+                }
+                Command::Set { stamp, .. } if is_replaced => {
+                    Some(Answer::Applied { stamp: *stamp, generation: self.next_generation() })
+                }
+                Command::Preview { .. } if is_replaced => None,
+                command => {
+                    is_asked = true;
+                    self.dispatch(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
+                }
+            };
+            if let Some(answer) = answer {
+                board.answer(*page, answer.json());
+            }
+        }
+        is_asked
+    }
+}
+
+/// What has come at once, of which the first is there already.
+pub(super) fn at_once<T>(first: T, heard: &Receiver<T>) -> Vec<T> {
+    iter::once(first).chain(heard.try_iter()).take(MOST_HEARD).collect()
 }
 
 impl Command {
@@ -117,6 +190,7 @@ impl Command {
     pub(super) const fn subject(&self) -> Subject {
         match self {
             Self::Set { stamp, .. } => Subject::Setting { stamp: *stamp },
+            Self::Preview { .. } => Subject::Preview,
             Self::Save { .. } => Subject::Name,
             _ => Subject::Other,
         }
@@ -165,6 +239,12 @@ impl Answer {
             Self::Refused { problems, .. } => Self::Refused { about, problems },
             other => other,
         }
+    }
+
+    /// Why it refuses.
+    pub(super) fn words(&self) -> String {
+        let Self::Refused { problems, .. } = self else { return String::new() };
+        problems.iter().map(|problem| problem.text.as_str()).collect::<Vec<_>>().join("; ")
     }
 
     pub(super) fn json(&self) -> String {

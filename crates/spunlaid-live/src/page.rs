@@ -18,6 +18,9 @@ pub(super) enum Page {
 /// Name, kind and text of a file. The page itself has no name.
 type PageFile = (&'static str, &'static str, &'static str);
 
+/// How the text of every page begins, in place of `{{ head }}`.
+const HEAD: &str = include_str!("../assets/head.html");
+
 /// Files of all pages.
 const SHARED: [PageFile; 2] = [
     ("base.css", CSS, include_str!("../assets/base.css")),
@@ -70,15 +73,53 @@ pub(super) const HEADERS: [(&str, &str); 5] = [
 ];
 
 /// The answer with a file.
-pub(super) fn file(page: Page, name: Option<&str>) -> Response {
-    match page.files().iter().chain(&SHARED).find(|(other, ..)| Some(*other) == name) {
-        // Page and program are of one version.
-        Some((_, kind, text)) => {
-            let body = text.replace("{{ version }}", env!("CARGO_PKG_VERSION"));
-            Response { status: "200 OK", kind, body }
-        }
-        None => Response::plain("404 Not Found", "There is no such file.\n"),
+///
+/// * `tabs` – leads to the other pages
+pub(super) fn file(page: Page, tabs: &str, name: &str) -> Response {
+    match page.files().iter().chain(&SHARED).find(|(other, ..)| *other == name) {
+        Some((_, kind, text)) => Response { status: "200 OK", kind, body: whole(text, tabs) },
+        None => not_there(),
     }
+}
+
+/// The text of a file with what is the same in several. Page and program are of one version.
+fn whole(text: &str, tabs: &str) -> String {
+    let parts = [("{{ head }}\n", HEAD), ("{{ tabs }}", tabs), ("{{ version }}", env!("CARGO_PKG_VERSION"))];
+    parts.iter().fold(text.to_owned(), |text, (name, part)| text.replace(name, part))
+}
+
+/// The answer to a request for a file that is not there.
+pub(super) fn not_there() -> Response {
+    Response::plain("404 Not Found", "There is no such file.\n")
+}
+
+/// A page that others lead to.
+pub(super) struct Tab {
+    pub(super) label: String,
+    /// Its address below that of the server: `fibre/`, or nothing.
+    pub(super) at: String,
+}
+
+impl Tab {
+    /// The page at the address of the server.
+    pub(super) fn first(label: &str) -> Self {
+        Self { label: label.to_owned(), at: String::new() }
+    }
+}
+
+/// The links of each page to all of them, as HTML, the first page first; nothing where there is one only.
+pub(super) fn links(all: &[&Tab]) -> Vec<String> {
+    let to = |own: &Tab, Tab { label, at }: &Tab| {
+        let up = if own.at.is_empty() { "./" } else { "../" };
+        let current = if *at == own.at { " aria-current=\"page\"" } else { "" };
+        format!("<a href=\"{up}{at}\"{current}>{label}</a>")
+    };
+    let (others, first): (Vec<&Tab>, Vec<&Tab>) = all.iter().partition(|tab| !tab.at.is_empty());
+    let of_page = |own: &&Tab| {
+        let links: Vec<String> = first.iter().chain(&others).map(|tab| to(own, tab)).collect();
+        format!("<nav aria-label=\"Pages\">{}</nav>", links.join(" "))
+    };
+    all.iter().map(|own| if all.len() > 1 { of_page(own) } else { String::new() }).collect()
 }
 
 #[cfg(test)]
@@ -88,7 +129,8 @@ mod tests {
     #[test]
     fn the_page_asks_for_files_that_are_there_and_for_nothing_elsewhere() {
         for page in [Page::Fibre, Page::Line] {
-            let html = page.files()[0].2;
+            let html = whole(page.files()[0].2, "");
+            assert!(html.starts_with("<!doctype html>") && !html.contains("{{"), "{html}");
             let of_page = || page.files().iter().chain(&SHARED);
             for part in html.split(['"']).filter(|part| part.ends_with(".js") || part.ends_with(".css")) {
                 assert!(of_page().any(|(name, ..)| *name == part), "{part}");

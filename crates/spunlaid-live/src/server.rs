@@ -1,11 +1,16 @@
-//! The server: hands out the page, and carries messages and pictures between pages and their session. Each
+//! The server: hands out pages, and carries messages and pictures between pages and their session. Each
 //! connection has a thread of its own, so that one that is slow or silent keeps nobody waiting.
+//!
+//! ```text
+//! /TOKEN/          the page of a case, or of a line       /TOKEN/flight         its WebSocket
+//! /TOKEN/fibre/    the page of the filament of the line   /TOKEN/fibre/flight   its WebSocket
+//! ```
 
 use super::board::{Board, Bookmark, News, PageId, Picture};
 use super::guard::Guard;
 use super::http::{self, Request, Response};
 use super::message::{self, Answer, Command, LARGEST, PageRequest};
-use super::page;
+use super::page::{self, Page};
 use spunlaid::ground::threads::lock;
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Write};
@@ -28,14 +33,41 @@ const PIECE: usize = 1 << 14;
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// What all connections share.
-///
-/// * `M` – what the session hears
-pub(super) struct Server<M, P> {
+pub(super) struct Server {
     pub(super) guard: Guard,
-    pub(super) page: page::Page,
+    /// What is served, the site without a name of its own last.
+    pub(super) sites: Vec<Box<dyn Site>>,
+    pub(super) strangers: Strangers,
+}
+
+/// Pages with their session, below the address of the server.
+pub(super) trait Site: Send + Sync {
+    /// What the path of its files begins with: `fibre/`, or nothing.
+    fn at(&self) -> &str;
+
+    /// The answer with a file.
+    fn file(&self, name: &str) -> Response;
+
+    /// A place for a new page; `None` if too many are open.
+    fn open(&self) -> Option<PageId>;
+
+    /// Talks with a page until one of both has had enough, and closes it.
+    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, opened: OpenedPage);
+}
+
+/// A page that has been opened; the key confirms it.
+pub(super) struct OpenedPage {
+    page: PageId,
+    key: String,
+}
+
+/// A site whose session hears `M` and shows `P`.
+pub(super) struct SessionSite<M, P> {
+    pub(super) at: String,
+    pub(super) page: Page,
+    pub(super) tabs: String,
     pub(super) requests: SyncSender<M>,
     pub(super) board: Arc<Board<P>>,
-    pub(super) strangers: Strangers,
 }
 
 /// Connections that have not shown the token, by their numbers.
@@ -62,22 +94,18 @@ impl Strangers {
 }
 
 /// What a request leads to.
-enum Reaction {
+enum Reaction<'s> {
     Answer(Response),
-    /// A page has been opened; the key confirms it.
-    Talk {
-        page: PageId,
-        key: String,
-    },
+    Talk(&'s dyn Site, OpenedPage),
 }
 
-impl Reaction {
+impl Reaction<'_> {
     fn refusal(status: &'static str, line: &str) -> Self {
         Self::Answer(Response::plain(status, line))
     }
 }
 
-impl<M: From<PageRequest> + Send + 'static, P: Picture> Server<M, P> {
+impl Server {
     /// Serves until the program ends.
     pub(super) fn serve(self, listener: &TcpListener) {
         let server = Arc::new(self);
@@ -111,15 +139,11 @@ impl<M: From<PageRequest> + Send + 'static, P: Picture> Server<M, P> {
             Reaction::Answer(response) => {
                 http::answer(stream, &response, &page::HEADERS, request.method == "HEAD");
             }
-            Reaction::Talk { page, key } => {
-                // However the talk ends, the page is gone.
-                let _ = self.talk(stream, request.rest, page, &key);
-                self.board.close(page);
-            }
+            Reaction::Talk(site, opened) => site.talk(stream, request.rest, opened),
         }
     }
 
-    fn reaction(&self, request: &Request, number: u64) -> Reaction {
+    fn reaction(&self, request: &Request, number: u64) -> Reaction<'_> {
         let needs_origin = request.count("upgrade") > 0 || request.count("origin") > 1;
         let (host, origin) = (request.only("host"), request.only("origin"));
         if let Err(refusal) = self.guard.check(&request.path, host, origin, needs_origin) {
@@ -131,22 +155,50 @@ impl<M: From<PageRequest> + Send + 'static, P: Picture> Server<M, P> {
         }
         // The first part of the path is the token.
         let file = request.path.splitn(3, '/').nth(2);
-        if file != Some("flight") {
-            return Reaction::Answer(page::file(self.page, file));
+        let found = self.sites.iter().find_map(|site| Some((site, file?.strip_prefix(site.at())?)));
+        let Some((site, file)) = found else {
+            return Reaction::Answer(page::not_there());
+        };
+        if file != "flight" {
+            return Reaction::Answer(site.file(file));
         }
         let upgrades = request.lists("connection", "upgrade") && request.lists("upgrade", "websocket");
         let known = request.method == "GET" && request.only("sec-websocket-version") == Some("13");
         let Some(key) = request.only("sec-websocket-key").filter(|_| upgrades && known) else {
             return Reaction::refusal("400 Bad Request", "This address is for a WebSocket of version 13.\n");
         };
-        match self.board.open() {
-            Some(page) => Reaction::Talk { page, key: derive_accept_key(key.as_bytes()) },
+        match site.open() {
+            Some(page) => {
+                Reaction::Talk(&**site, OpenedPage { page, key: derive_accept_key(key.as_bytes()) })
+            }
             None => Reaction::refusal("503 Service Unavailable", "Too many pages are open; close one.\n"),
         }
     }
+}
 
+impl<M: From<PageRequest> + Send + 'static, P: Picture> Site for SessionSite<M, P> {
+    fn at(&self) -> &str {
+        &self.at
+    }
+
+    fn file(&self, name: &str) -> Response {
+        page::file(self.page, &self.tabs, name)
+    }
+
+    fn open(&self) -> Option<PageId> {
+        self.board.open()
+    }
+
+    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, OpenedPage { page, key }: OpenedPage) {
+        // However the talk ends, the page is gone.
+        let _ = self.exchange(stream, rest, page, &key);
+        self.board.close(page);
+    }
+}
+
+impl<M: From<PageRequest> + Send + 'static, P: Picture> SessionSite<M, P> {
     /// Talks with a page until one of both has had enough: this thread reads, another one writes.
-    fn talk(&self, stream: &mut TcpStream, rest: Vec<u8>, page: PageId, key: &str) -> io::Result<()> {
+    fn exchange(&self, stream: &mut TcpStream, rest: Vec<u8>, page: PageId, key: &str) -> io::Result<()> {
         let head = format!(
             "HTTP/1.1 101 Switching Protocols\r\nconnection: Upgrade\r\nupgrade: websocket\r\n\
             sec-websocket-accept: {key}\r\n"

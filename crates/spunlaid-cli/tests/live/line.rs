@@ -10,10 +10,19 @@ use std::process::Command;
 const LINE: &str = include_str!("line.toml");
 
 fn start() -> Live {
+    start_with(LINE)
+}
+
+fn start_with(text: &str) -> Live {
     Live::start_in(|folder| {
-        fs::write(folder.join("line.toml"), LINE).unwrap();
+        fs::write(folder.join("line.toml"), text).unwrap();
         vec!["line.toml".into()]
     })
+}
+
+/// The patches of a message.
+fn patches(found: &Value) -> &[Value] {
+    found["patches"].as_array().unwrap()
 }
 
 /// The first message of a kind of which something holds.
@@ -207,4 +216,180 @@ fn rejects_files_without_a_page_and_says_what_shows_them() {
         let said = refused(name);
         assert!(said.contains(wanted), "{name}: {said}");
     }
+}
+
+#[test]
+fn identical_confirmation_and_change_of_a_line_with_the_other_seed() {
+    let live = start();
+    let mut page = live.page();
+    page.ask(&json!({"do": "confirm"}));
+    let problem = page.message("refused")["problems"][0]["text"].as_str().unwrap().to_owned();
+    assert!(problem.contains("turn a knob"), "{problem}");
+    page.ask(&set("throughput", &json!(0.6), 1));
+    until(&mut page, "found", |found| patches(found).iter().any(|patch| patch["change"].is_object()));
+    page.ask(&json!({"do": "confirm"}));
+    let state = until(&mut page, "state", |state| state["confirmation"]["is_done"] == true);
+    assert_eq!(state["confirmation"]["seed"], 2);
+    let found = live.page().message("found");
+
+    let other = start_with(&LINE.replace("[web]", "[web]\nseed = 2"));
+    let mut page = other.page();
+    page.ask(&set("throughput", &json!(0.6), 1));
+    until(&mut page, "state", |state| state["work"]["stage"] == "complete" && state["generation"] == 1);
+    let alone = other.page().message("found");
+    assert!(patches(&alone).len() > 1, "{alone}");
+    for (patch, alone) in patches(&found).iter().zip(patches(&alone)) {
+        assert_eq!((&patch["side_m"], &patch["confirmed"]), (&alone["side_m"], &alone["change"]));
+        assert!(patch["confirmed"]["standard_error"].as_f64().unwrap() > 0.0, "{patch}");
+        assert_ne!(patch["confirmed"]["value"], patch["change"]["value"], "{patch}");
+    }
+}
+
+#[test]
+fn plant_numbers_of_a_slider_that_moves_are_those_of_the_line_with_this_value() {
+    let live = start();
+    let mut page = live.page();
+    page.ask(&json!({"do": "pause"}));
+    let before = until(&mut page, "state", |state| state["stands"] == true);
+    let preview = |value: Value, stamp: u64| json!({"do": "preview", "key": "throughput", "value": value, "stamp": stamp});
+    for (value, stamp) in [(0.55, 3), (0.6, 4)] {
+        page.ask(&preview(json!(value), stamp));
+    }
+    let shown = until(&mut page, "preview", |message| message["stamp"] == 4);
+    assert_eq!(shown["generation"], 0);
+    assert_ne!(shown["plant"], before["plant"]);
+    page.ask(&preview(json!("1 mm"), 5));
+    assert_eq!(page.message("refused")["about"], json!({"is": "preview"}));
+    // The line has not changed by it.
+    let state = live.page().message("state");
+    assert_eq!(
+        (&state["generation"], &state["plant"], &state["text"]),
+        (&json!(0), &before["plant"], &json!(LINE))
+    );
+    page.ask(&set("throughput", &json!(0.6), 6));
+    let turned = until(&mut page, "state", |state| state["generation"] == 1);
+    assert_eq!(shown["plant"], turned["plant"]);
+}
+
+/// The value of a key on the page of a fibre, as it is written there.
+fn on_fibre(state: &Value, key: &str) -> String {
+    let values = state["values"].as_array().unwrap();
+    let found = values.iter().find(|value| value["key"] == key);
+    found.unwrap_or_else(|| panic!("no {key} in {values:?}"))["text"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn the_filament_of_the_line_is_a_tab_whose_sliders_do_something_and_that_follows_the_knobs() {
+    let live = start();
+    for (tab, other) in [("", "<a href=\"./fibre/\">Fibre</a>"), ("fibre/", "<a href=\"../\">Web</a>")] {
+        let page = live.get(tab);
+        assert!(page.starts_with("HTTP/1.1 200 ") && page.contains(other), "{page}");
+    }
+    assert!(live.get("fibre/scene.js").starts_with("HTTP/1.1 200 "));
+    for file in ["fibre/line.js", "scene.js", "fibre", "fibre-2/", "fibre/fibre/"] {
+        assert!(live.get(file).starts_with("HTTP/1.1 404 "), "{file}");
+    }
+    let (mut web, mut fibre) = (live.page(), live.page_at("fibre/"));
+    web.ask(&json!({"do": "pause"}));
+    let (settings, before) = (fibre.message("settings"), fibre.message("state"));
+    // 0.5 g/min of 2 dtex.
+    assert_eq!(
+        (on_fibre(&before, "feed.speed"), before["title"].as_str()),
+        ("41.67 m/s".to_owned(), Some("line_filament"))
+    );
+    let slider = |setting: &&Value| setting["takes"] == "quantity" && setting["first"] == true;
+    let sliders: Vec<&Value> = settings["settings"].as_array().unwrap().iter().filter(slider).collect();
+    assert!(sliders.len() > 5, "{settings}");
+    for (stamp, slider) in (1..).zip(sliders) {
+        let key = slider["key"].as_str().unwrap();
+        let state = live.page_at("fibre/").message("state");
+        let value = 1.05
+            * state["values"].as_array().unwrap().iter().find(|one| one["key"] == key).unwrap()["si"]
+                .as_f64()
+                .unwrap();
+        fibre.ask(&set(key, &json!(value), stamp));
+        assert_eq!(fibre.message("applied")["stamp"], stamp, "{key}");
+        let turned = until(&mut fibre, "state", |now| now["generation"] != state["generation"]);
+        assert_ne!(on_fibre(&turned, key), on_fibre(&state, key), "{key}");
+    }
+    // The line has its own knobs; turned there, its filament comes back as it is now.
+    web.ask(&set("throughput", &json!(0.6), 1));
+    let followed = until(&mut fibre, "state", |state| on_fibre(state, "feed.speed") == "50 m/s");
+    assert_eq!(on_fibre(&followed, "air.velocity"), on_fibre(&before, "air.velocity"));
+}
+
+/// The short line, from two beams with slots of their own.
+fn of_two_layers() -> String {
+    let beam = |name: &str, depth: u32| {
+        format!("[[layer]]\nname = \"{name}\"\nline = {{ depth = \"{depth} mm\" }}\n")
+    };
+    LINE.replace("depth = \"10 mm\"\n", "") + "\n" + &beam("S1", 10) + &beam("S2", 15)
+}
+
+#[test]
+fn identical_numbers_of_a_line_of_two_layers_with_a_knob_and_a_tab_of_each() {
+    let live = start_with(&of_two_layers());
+    let mut page = live.page();
+    let knobs = page.message("knobs");
+    let names: Vec<&str> =
+        knobs["knobs"].as_array().unwrap().iter().map(|knob| knob["name"].as_str().unwrap()).collect();
+    assert!(
+        names.contains(&"depth.1") && names.contains(&"depth.2") && names.contains(&"throughput"),
+        "{names:?}"
+    );
+    let found = complete(&mut page, 0);
+    assert_same(&found, "before", &web(live.folder.path(), "line.toml"));
+    page.ask(&set("depth.2", &json!(20), 1));
+    let sketch = until(&mut page, "found", |found| found["generation"] == 1 && found["stage"] == "sketch");
+    assert!(patches(&sketch).iter().any(|patch| patch["change"].is_object()), "{sketch}");
+    let found = complete(&mut page, 1);
+    page.ask(&json!({"do": "save", "name": "line_2.toml", "replace": false}));
+    assert_eq!(page.message("saved")["name"], "line_2.toml");
+    assert_same(&found, "now", &web(live.folder.path(), "line_2.toml"));
+    for tab in ["fibre-1/", "fibre-2/"] {
+        assert!(live.get("").contains(tab) && live.get(tab).starts_with("HTTP/1.1 200 "), "{tab}");
+        assert!(live.page_at(tab).message("state")["belt"].is_object());
+    }
+}
+
+/// The short line from the die on, whose tension flights find.
+fn of_flown_tension() -> String {
+    const DIE: &str = "[spinline]\npolymer = \"pp\"\nmelt_flow_rate = 35\ndie_temperature = \"230 °C\"\n\
+        hole_diameter = \"0.6 mm\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\nend_tension = \"flown\"\n\n[fibre]";
+    let given = ["linear_density", "density", "youngs_modulus"];
+    let kept = LINE.lines().filter(|line| !given.iter().any(|key| line.starts_with(key)));
+    kept.collect::<Vec<_>>().join("\n").replace("[fibre]", DIE)
+}
+
+#[test]
+fn a_line_whose_tension_flights_find_has_numbers_once_it_is_found() {
+    let live = start_with(&of_flown_tension());
+    let mut page = live.page();
+    page.ask(&json!({"do": "pause"}));
+    let before = until(&mut page, "state", |state| state["stands"] == true);
+    let speed = |state: &Value| {
+        let plant = state["plant"].as_array().unwrap();
+        plant.iter().find(|number| number["name"] == "spinning_speed").unwrap()["now"]
+            .as_str()
+            .unwrap()
+            .to_owned()
+    };
+    // Of a value for which the tension is not known there are no numbers while the slider moves.
+    page.ask(&json!({"do": "preview", "key": "throughput", "value": 0.6, "stamp": 1}));
+    assert_eq!(page.message("preview")["plant"], json!([]));
+    page.ask(&set("throughput", &json!(0.6), 2));
+    page.ask(&json!({"do": "go"}));
+    let settling = until(&mut page, "state", |state| state["generation"] == 1);
+    let settled =
+        until(&mut page, "state", |state| state["generation"] == 1 && speed(state) != speed(&settling));
+    assert_ne!(speed(&settled), speed(&before));
+    // Its filament is shown with the tension that was found: no other flights look for it.
+    let fibre = live.page_at("fibre/").message("state");
+    let text = fibre["text"].as_str().unwrap();
+    let tension = text.lines().find(|line| line.starts_with("end_tension")).unwrap();
+    assert!(tension.ends_with(" N\""), "{tension}");
+    let found = until(&mut page, "found", |found| {
+        found["generation"] == 1 && patches(found).iter().any(|patch| patch["change"].is_object())
+    });
+    assert!(patches(&found)[0]["before"].is_object(), "{found}");
 }

@@ -59,12 +59,18 @@ impl Chance {
             "spinline.material.viscosity",
             "run",
             "\\u0000",
+            "throughput",
+            "depth",
+            "belt_speed",
+            "basis_weight",
+            "air_speed",
         ];
         let mut text = match self.below(12) {
             0 => {
                 let stamp = self.one_of(&["1", "-1", "1e9"]);
                 let (key, value) = (self.one_of(KEYS), self.one_of(VALUES));
-                format!(r#"{{"do":"set","key":"{key}","value":{value},"stamp":{stamp}}}"#)
+                let what = self.one_of(&["set", "preview"]);
+                format!(r#"{{"do":"{what}","key":"{key}","value":{value},"stamp":{stamp}}}"#)
             }
             1 => {
                 let mut case = case.as_bytes().to_vec();
@@ -78,8 +84,16 @@ impl Chance {
                 format!(r#"{{"do":"pace","pace":"{}"}}"#, self.one_of(&["real", "tenth", "free", "", "REAL"]))
             }
             3 => {
-                let all = &["pause", "go", "step", "reset", "forget", "look", "save", "case"];
-                format!(r#"{{"do":"{}"}}"#, self.one_of(all))
+                let all = &[
+                    "pause", "go", "step", "reset", "forget", "look", "save", "case", "pin", "confirm",
+                    "filament",
+                ];
+                let back = self.below(12);
+                if back < 4 {
+                    format!(r#"{{"do":"back","to":{back}}}"#)
+                } else {
+                    format!(r#"{{"do":"{}"}}"#, self.one_of(all))
+                }
             }
             4 => {
                 let name = self.one_of(&["../x", "", "a/b", "/etc/x", "\u{0}", "a:b"]);
@@ -123,13 +137,61 @@ fn contains(stream: &mut TcpStream, text: &[u8]) -> bool {
     }
 }
 
-/// `SPUNLAID_LIVE_MESSAGES` sets how many; 1000000 take some minutes.
+/// How many random messages are sent. `SPUNLAID_LIVE_MESSAGES` sets it; 1000000 take some minutes.
+fn messages(usual: usize) -> usize {
+    std::env::var("SPUNLAID_LIVE_MESSAGES").map_or(usual, |count| count.parse().unwrap())
+}
+
 #[test]
 fn whatever_comes_through_the_socket_the_program_goes_on() {
-    let messages = std::env::var("SPUNLAID_LIVE_MESSAGES").map_or(20_000, |count| count.parse().unwrap());
     let mut live = Live::start(&["table1.toml"]);
-    let mut chance = Chance(7);
     let case = live.page().message("state")["text"].as_str().unwrap().to_owned();
+    bombard(&mut live, messages(20_000), &case);
+    let mut page = live.page();
+    page.ask(&json!({ "do": "case", "text": case }));
+    page.ask(&json!({ "do": "go" }));
+    page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 15, "stamp": 99 }));
+    while page.message("applied")["stamp"] != 99 {}
+    // The fibres fly on.
+    let first = page.frame().2;
+    while page.frame().2 <= first {}
+    // A message that has become right by chance may save a case, and nothing else.
+    assert!(live.files().iter().all(|name| name.ends_with(".toml")), "{:?}", live.files());
+}
+
+#[test]
+fn whatever_comes_through_the_socket_of_a_line_its_web_is_simulated_afterwards() {
+    let mut live = Live::start_in(|folder| {
+        std::fs::write(folder.join("line.toml"), include_str!("line.toml")).unwrap();
+        vec!["line.toml".into()]
+    });
+    let text = live.page().message("state")["text"].as_str().unwrap().to_owned();
+    bombard(&mut live, messages(4_000), &text);
+    let mut page = live.page();
+    page.ask(&json!({ "do": "reset" }));
+    page.ask(&json!({ "do": "go" }));
+    page.ask(&json!({ "do": "set", "key": "throughput", "value": 0.57, "stamp": 99 }));
+    let generation = loop {
+        let applied = page.message("applied");
+        if applied["stamp"] == 99 {
+            break applied["generation"].clone();
+        }
+    };
+    // The thread that simulates is still there, and so is the filament.
+    while page.message("found")["generation"] != generation {}
+    loop {
+        let found = page.message("found");
+        if found["patches"].as_array().unwrap().iter().any(|patch| patch["change"].is_object()) {
+            break;
+        }
+    }
+    assert!(live.page_at("fibre/").frame().2 >= 0.0);
+    assert!(live.files().iter().all(|name| name.ends_with(".toml")), "{:?}", live.files());
+}
+
+/// Sends messages, most of them wrong: the program lives and has not panicked.
+fn bombard(live: &mut Live, messages: usize, case: &str) {
+    let mut chance = Chance(7);
     let mut sent = 0;
     while sent < messages {
         // Frames and answers are read by a thread, so that the program can send them. The answer to the last
@@ -143,7 +205,7 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
         });
         let mut socket = WebSocket::from_raw_socket(stream.try_clone().unwrap(), Role::Client, None);
         for _ in 0..5000.min(messages - sent) {
-            socket.send(chance.message(&case)).unwrap();
+            socket.send(chance.message(case)).unwrap();
             sent += 1;
         }
         socket.send(Message::text(json!({ "do": last }).to_string())).unwrap();
@@ -158,16 +220,6 @@ fn whatever_comes_through_the_socket_the_program_goes_on() {
     }
     assert!(live.program.try_wait().unwrap().is_none(), "{}", live.said());
     assert!(!live.said().contains("panicked"), "{}", live.said());
-    let mut page = live.page();
-    page.ask(&json!({ "do": "case", "text": case }));
-    page.ask(&json!({ "do": "go" }));
-    page.ask(&json!({ "do": "set", "key": "air.velocity", "value": 15, "stamp": 99 }));
-    while page.message("applied")["stamp"] != 99 {}
-    // The fibres fly on.
-    let first = page.frame().2;
-    while page.frame().2 <= first {}
-    // A message that has become right by chance may save a case, and nothing else.
-    assert!(live.files().iter().all(|name| name.ends_with(".toml")), "{:?}", live.files());
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let by = |change: &&serde_json::Value| number(&place(change)["cv_change"]);
     let best = changes.iter().filter(lowers).min_by(|a, b| by(a).total_cmp(&by(b))).unwrap();
     let layer = format!(" of layer S{}", best["layer"]);
-    let setting = best["setting"].as_str().unwrap().replace("throughput", "throughput of a hole");
+    let setting = best["setting"].as_str().unwrap().replace("throughput", "throughput per hole");
     assert!(named.contains(&format!("{setting}{layer}, ")), "{named} {best}");
     let cost = number(&best["throughput_change"]);
     assert_eq!(named.contains("the same throughput"), cost.abs() < 1e-4, "{named} {best}");

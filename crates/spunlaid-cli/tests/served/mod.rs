@@ -70,8 +70,13 @@ impl Live {
 
     /// A new page. If too many are open, it waits until some are gone.
     pub fn page(&self) -> Page {
+        self.page_at("")
+    }
+
+    /// A new page of a tab: `fibre/`.
+    pub fn page_at(&self, tab: &str) -> Page {
         loop {
-            let address = format!("ws://127.0.0.1:{}/{}/flight", self.port, self.token);
+            let address = format!("ws://127.0.0.1:{}/{}/{tab}flight", self.port, self.token);
             let mut request = address.into_client_request().unwrap();
             let origin = format!("http://127.0.0.1:{}", self.port).parse().unwrap();
             request.headers_mut().insert("Origin", origin);

@@ -3,22 +3,29 @@
 use super::Session;
 use super::document::Document;
 use super::measured::Statistics;
+use super::start::adapt_to_clock;
 use super::tension::TensionSearch;
-use crate::message::{Answer, Command, KeyValue, complaints};
+use crate::board::PageId;
+use crate::message::{Answer, Command, KeyValue, Receives, complaints};
 use crate::save;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::Dimension;
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Digits of a number of a slider, in the unit in which it is shown.
 const DIGITS: usize = 3;
 
-impl Session {
-    /// Does what was asked.
-    ///
-    /// # Errors
-    /// The answer that refuses it.
-    pub(super) fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
+impl Receives for Session {
+    fn next_generation(&self) -> u32 {
+        self.generation + 1
+    }
+
+    fn pages(&mut self) -> &mut BTreeSet<PageId> {
+        &mut self.pages
+    }
+
+    fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
         match command {
             Command::Set { key, value, stamp } => {
                 let document = self.with(key, value)?;
@@ -26,6 +33,7 @@ impl Session {
                 return Ok(Some(Answer::Applied { stamp: *stamp, generation: self.generation }));
             }
             Command::Case { text } => self.become_of(self.document.with_text(text.clone()))?,
+            Command::Filament { text } => self.fly_filament(text.clone()),
             Command::Pace { pace } => {
                 self.clock.pace = *pace;
                 self.clock.begin(Instant::now());
@@ -46,7 +54,7 @@ impl Session {
             }
             Command::Forget {} => self.changed(),
             Command::Look { .. } => {}
-            Command::Pin {} | Command::Back { .. } => {
+            Command::Pin {} | Command::Back { .. } | Command::Confirm {} | Command::Preview { .. } => {
                 return Err(Answer::refused("the page of a fibre compares nothing; that of a line does"));
             }
             Command::Save { name, replace } => {
@@ -58,6 +66,22 @@ impl Session {
             }
         }
         Ok(None)
+    }
+}
+
+impl Session {
+    /// Flies the filament of a line as its knobs are now. If that cannot be, the page says why; the one before flies on.
+    fn fly_filament(&mut self, text: String) {
+        let adapted = adapt_to_clock(self.document.with_text(text)).map_err(Answer::rejected);
+        let flown = adapted.and_then(|(document, remark)| {
+            self.become_of(document)?;
+            self.remark = remark;
+            Ok(())
+        });
+        if let Err(answer) = flown {
+            self.notes =
+                vec![format!("the filament of the line as it is now cannot be shown: {}", answer.words())];
+        }
     }
 
     /// The document with another value of a key.

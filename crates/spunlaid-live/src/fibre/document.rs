@@ -5,7 +5,7 @@ use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::error::Place;
 use spunlaid::ground::{Dimension, Error};
-use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case};
+use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case, write_case};
 use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ const MOST_MEMORY: f64 = 256e6;
 
 /// A case as text, and where it came from.
 #[derive(Clone, Debug)]
-pub(super) struct Document {
+pub(crate) struct Document {
     text: String,
     /// The file as it is on disk, and its text there; none if the program itself had the case.
     file: Option<(PathBuf, String)>,
@@ -34,13 +34,20 @@ pub(super) struct LoadedCase {
 
 impl Document {
     /// * `file` – the file that the text was read from
-    pub(super) fn new(text: String, file: Option<PathBuf>) -> Self {
+    pub(crate) fn new(text: String, file: Option<PathBuf>) -> Self {
         let files = text.parse().map_or_else(|_| BTreeSet::new(), files_of);
         let name = file.clone().unwrap_or_else(|| PathBuf::from("live.toml"));
         Self { file: file.map(|path| (path, text.clone())), text, name, files }
     }
 
-    pub(super) fn text(&self) -> &str {
+    /// The filament of a line, which no file has, under a name.
+    pub(crate) fn of_filament(case: &Case, name: PathBuf) -> Self {
+        let document = Self { name, ..Self::new(write_case(case), None) };
+        // The page of the line has found the tension.
+        document.with_tension_of_flights(case).unwrap_or(document)
+    }
+
+    pub(crate) fn text(&self) -> &str {
         &self.text
     }
 

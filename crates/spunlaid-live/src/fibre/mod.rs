@@ -20,12 +20,12 @@ mod show;
 mod start;
 mod tension;
 
+pub(super) use document::Document;
 pub(super) use start::begin;
 
 use crate::board::{Board, PageId};
-use crate::message::{Answer, Command, Complaint, PageRequest, complaints};
+use crate::message::{Complaint, PageRequest, Receives, at_once, complaints};
 use clock::Clock;
-use document::Document;
 use fibres::Fibres;
 use frame::{Frame, RecentMotion};
 use measured::Statistics;
@@ -46,9 +46,6 @@ const PIECE: u64 = 16;
 
 /// Time between two looks whether a search for a tension has ended, while nothing else happens.
 const LOOK: Duration = Duration::from_millis(50);
-
-/// Messages that are heard between two ticks.
-const MOST_HEARD: usize = 256;
 
 /// A flight that pages look at.
 pub(super) struct Session {
@@ -130,7 +127,7 @@ impl Session {
                     None => requests.recv().map_err(|_| mpsc::RecvTimeoutError::Disconnected),
                 };
                 match heard {
-                    Ok(request) => self.receive(request, requests),
+                    Ok(request) => self.receive_all(at_once(request, requests)),
                     Err(mpsc::RecvTimeoutError::Timeout) => continue,
                     Err(mpsc::RecvTimeoutError::Disconnected) => return,
                 }
@@ -139,7 +136,7 @@ impl Session {
                 continue;
             }
             match requests.try_recv() {
-                Ok(request) => self.receive(request, requests),
+                Ok(request) => self.receive_all(at_once(request, requests)),
                 Err(mpsc::TryRecvError::Empty) => {}
                 Err(mpsc::TryRecvError::Disconnected) => return,
             }
@@ -155,41 +152,10 @@ impl Session {
         self.stands || self.pages.is_empty()
     }
 
-    /// Hears a message, and all that have come after it.
-    fn receive(&mut self, first: PageRequest, requests: &mpsc::Receiver<PageRequest>) {
-        let mut heard = vec![first];
-        while heard.len() < MOST_HEARD
-            && let Ok(request) = requests.try_recv()
-        {
-            heard.push(request);
-        }
-        let mut changed = false;
-        for i in 0..heard.len() {
-            let PageRequest { page, command } = &heard[i];
-            // Each of several values gets its answer.
-            let replaced = heard[i + 1..].iter().any(|later| heard[i].is_replaced_by(later));
-            let answer = match command {
-                Command::Set { stamp, .. } if replaced => {
-                    Some(Answer::Applied { stamp: *stamp, generation: self.generation + 1 })
-                }
-                Command::Look { visible } => {
-                    if *visible {
-                        self.pages.insert(*page)
-                    } else {
-                        self.pages.remove(page)
-                    };
-                    None
-                }
-                command => {
-                    changed = true;
-                    self.dispatch(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
-                }
-            };
-            if let Some(answer) = answer {
-                self.board.answer(*page, answer.json());
-            }
-        }
-        if changed {
+    /// Receives what has come at once.
+    fn receive_all(&mut self, requests: Vec<PageRequest>) {
+        let board = self.board();
+        if self.receive(&requests, &board) {
             self.show_all();
         }
     }

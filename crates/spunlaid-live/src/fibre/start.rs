@@ -15,22 +15,20 @@ const ERROR_TOLERANCE: f64 = 0.012;
 
 /// The fibres of a case, and a remark on the scheme if there is one.
 ///
-/// * `file` – the file that the text was read from
 /// * `folder` – where cases are saved
 ///
 /// # Errors
 /// The case cannot be read or simulated.
 pub(crate) fn begin(
-    text: String,
-    file: Option<PathBuf>,
+    document: Document,
     folder: PathBuf,
 ) -> Result<(Session, Option<String>), Vec<Complaint>> {
-    let (document, remark) = adapt_to_clock(Document::new(text, file))?;
+    let (document, remark) = adapt_to_clock(document)?;
     Ok((Session::new(document, remark.clone(), folder)?, remark))
 }
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
-fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
+pub(super) fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
     let run = document.read()?.case.run;
     if run.scheme == Scheme::ImplicitTension {
         return Ok((document, None));

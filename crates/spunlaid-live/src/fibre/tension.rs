@@ -62,7 +62,7 @@ impl Session {
         });
         let why = match found {
             Ok(Ok(())) => None,
-            Ok(Err(answer)) => Some(answer.json()),
+            Ok(Err(answer)) => Some(answer.words()),
             Err(complaints) => {
                 Some(complaints.into_iter().map(|one| one.text).collect::<Vec<_>>().join("; "))
             }

@@ -2,11 +2,15 @@
 
 use super::Session;
 use super::knobs::value_of;
-use super::known_web::KnownWeb;
-use crate::message::{Answer, Command, KeyValue, complaints};
+use super::known_web::{Air, KnownWeb};
+use super::show::of_plant;
+use crate::board::PageId;
+use crate::message::{Answer, Command, KeyValue, Receives, complaints};
 use crate::save;
+use spunlaid::experiment::plant_numbers;
 use spunlaid::ground::Error;
-use spunlaid::input::{LineFile, Turn, WebSpec, read_line};
+use spunlaid::input::{LineFile, Turn, TurnedLine, WebSpec, read_line};
+use std::collections::BTreeSet;
 
 /// Webs that are remembered, with the present one and that of comparison.
 const REMEMBERED: usize = 8;
@@ -15,16 +19,28 @@ const SAME: f64 = 1e-9;
 /// Knobs of the belt: of these the last one that was turned counts, so a turn to the value of the file means something.
 const OF_BELT: [&str; 2] = ["belt_speed", "basis_weight"];
 
-impl Session {
-    /// Does what was asked.
-    ///
-    /// # Errors
-    /// The answer that refuses it.
-    pub(super) fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
+impl Receives for Session {
+    fn next_generation(&self) -> u32 {
+        self.picture.generation + 1
+    }
+
+    fn pages(&mut self) -> &mut BTreeSet<PageId> {
+        &mut self.pages
+    }
+
+    fn dispatch(&mut self, command: &Command) -> Result<Option<Answer>, Answer> {
         match command {
             Command::Set { key, value, stamp } => {
                 self.turn(key, value)?;
                 return Ok(Some(Answer::Applied { stamp: *stamp, generation: self.picture.generation }));
+            }
+            Command::Preview { key, value, stamp } => {
+                let (_, line) = self.turned(key, value)?;
+                let before = self.web(self.before);
+                let numbers = if line.needs_flights { Vec::new() } else { plant_numbers(&line.spec) };
+                let plant = numbers.iter().map(|number| of_plant(number, before)).collect();
+                let generation = self.picture.generation;
+                return Ok(Some(Answer::Preview { stamp: *stamp, generation, plant }));
             }
             Command::Pause {} => self.stands = true,
             Command::Go {} => {
@@ -38,6 +54,7 @@ impl Session {
                 self.tried = None;
                 self.show_web(self.now);
             }
+            Command::Confirm {} => self.confirm()?,
             Command::Back { to } => {
                 if !self.webs.iter().any(|web| web.number == *to) {
                     return Err(Answer::refused(
@@ -48,15 +65,51 @@ impl Session {
             }
             Command::Save { name, replace } => return self.save(name, *replace).map(Some),
             Command::Look { .. } => {}
-            Command::Case { .. } | Command::Pace { .. } | Command::Step {} | Command::Forget {} => {
+            Command::Case { .. }
+            | Command::Filament { .. }
+            | Command::Pace { .. }
+            | Command::Step {}
+            | Command::Forget {} => {
                 return Err(Answer::refused("the page of a line has no such message; that of a fibre does"));
             }
         }
         Ok(None)
     }
+}
+
+impl Session {
+    /// Asks for the change of the present web in another air.
+    fn confirm(&mut self) -> Result<(), Answer> {
+        let (before, now) = (self.before, self.now);
+        let is_known = |web: &KnownWeb| {
+            web.look_beside(Air::OfFile, before).is_some_and(|look| !look.changes.is_empty())
+        };
+        match self.web_mut(now).filter(|web| web.number != before && is_known(web)) {
+            Some(web) => web.compare(Air::Other, before),
+            None => {
+                let text = "there is no change to confirm; turn a knob and wait for the first change";
+                return Err(Answer::refused(text));
+            }
+        };
+        self.forget_failures();
+        Ok(())
+    }
 
     /// Turns a knob.
     fn turn(&mut self, name: &str, value: &KeyValue) -> Result<(), Answer> {
+        let (turns, line) = self.turned(name, value)?;
+        if let Some(known) = self.webs.iter().find(|web| web.line.set == line.set) {
+            self.show_web(known.number);
+            return Ok(());
+        }
+        self.last_number += 1;
+        self.webs.push(KnownWeb::new(self.last_number, turns, line));
+        self.show_web(self.last_number);
+        Ok(())
+    }
+
+    /// The present line with another value of a knob, and how its knobs are turned then.
+    fn turned(&self, name: &str, value: &KeyValue) -> Result<(Vec<Turn>, TurnedLine), Answer> {
         let refused = |error: Error| Answer::rejected(complaints(&error));
         let knobs = &self.web(self.before).line.knobs;
         let Some(knob) = knobs.iter().find(|knob| knob.name == name) else {
@@ -76,14 +129,7 @@ impl Session {
             turns.push(Turn { name: name.to_owned(), value });
         }
         let line = self.file.turned(&turns, &self.resources).map_err(refused)?;
-        if let Some(known) = self.webs.iter().find(|web| web.line.set == line.set) {
-            self.show_web(known.number);
-            return Ok(());
-        }
-        self.last_number += 1;
-        self.webs.push(KnownWeb::new(self.last_number, turns, line));
-        self.show_web(self.last_number);
-        Ok(())
+        Ok((turns, line))
     }
 
     /// Makes a web the present one. The last ones that were are remembered.
@@ -100,6 +146,7 @@ impl Session {
         }
         self.picture.generation = self.picture.generation.wrapping_add(1);
         self.forget_failures();
+        self.show_filaments();
     }
 
     fn forget_failures(&mut self) {

@@ -18,6 +18,9 @@ use std::time::Duration;
 /// Time between two looks at the progress of a web.
 const LOOK: Duration = Duration::from_millis(250);
 
+/// How far a confirmation is when the first of its two webs has been simulated.
+pub(super) const HALF: f64 = 0.5;
+
 /// Something to do.
 pub(super) struct Job {
     /// Its number; what is heard of it has the same.
@@ -35,6 +38,8 @@ pub(super) enum Work {
     Pin(Arc<WebSpec>),
     /// Compare a web with the pinned one.
     Compare(Arc<WebSpec>),
+    /// Compare the second web with the first one in an air with another seed.
+    Confirm([Arc<WebSpec>; 2]),
     /// Lay a web as `spunlaid web` does.
     Lay(Arc<WebSpec>),
     /// Try the changes of a line, given as text, other than those of these numbers.
@@ -116,10 +121,25 @@ impl Pilot {
                 let pinned = self.pinned.as_ref().ok_or_else(Error::no_fibre)?;
                 pinned.compare(&spec, &mut |seen| self.report(number, What::Seen(seen)), by)?;
             }
+            Work::Confirm(webs) => self.confirm(number, webs, by)?,
             Work::Lay(spec) => return self.lay(number, &spec, by).map(|laid| End::Laid(Box::new(laid))),
             Work::Try(text, tried) => self.try_changes(number, &text, &tried, by)?,
         }
         Ok(End::Done)
+    }
+
+    /// Compares two webs in an air with another seed.
+    fn confirm(&self, number: u64, webs: [Arc<WebSpec>; 2], by: Control<'_>) -> Result<(), Error> {
+        let [before, now] = webs.map(|spec| WebSpec { seed: other_seed(&spec), ..(*spec).clone() });
+        // What the first web lays says how far it is, and nothing else.
+        let mut go_on = |seen: Seen| {
+            if matches!(seen, Seen::Laid(_)) {
+                self.report(number, What::Seen(seen));
+            }
+        };
+        let pinned = PinnedWeb::fly(&before, &mut go_on, by)?;
+        self.report(number, What::Share(HALF));
+        pinned.compare(&now, &mut |seen| self.report(number, What::Seen(seen)), by)
     }
 
     /// Lays a web: the same calls as `spunlaid web`, so the numbers have the same bits.
@@ -169,6 +189,11 @@ impl Pilot {
         }
         Ok(())
     }
+}
+
+/// The seed of the air in which a change of a web is confirmed.
+pub(super) const fn other_seed(spec: &WebSpec) -> u64 {
+    spec.seed.wrapping_add(1)
 }
 
 /// One change of each knob that can be made, the increase if both can.

@@ -1,6 +1,6 @@
 //! The numbers of a web as pages get them: its CV before, now, and the change from one to the other.
 
-use super::known_web::KnownWeb;
+use super::known_web::{Air, KnownWeb};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use spunlaid::ground::Difference;
@@ -56,9 +56,9 @@ fn by_itself(web: &KnownWeb, side: f64) -> Option<Cv> {
     Some(Cv { cv: of.cv, standard_error: of.standard_error, is_complete: false })
 }
 
-/// The change of the CV over patches of a side from a web to another one.
-fn change(before: &KnownWeb, now: &KnownWeb, side: f64) -> Option<CvChange> {
-    let look = now.look_beside(before.number)?;
+/// The change of the CV over patches of a side from a web to another one in an air.
+fn change(air: Air, before: &KnownWeb, now: &KnownWeb, side: f64) -> Option<CvChange> {
+    let look = now.look_beside(air, before.number)?;
     let effect = look.changes.iter().find(|effect| (effect.of / side - 1.0).abs() < SAME)?;
     Some(CvChange::new(&effect.difference))
 }
@@ -66,7 +66,7 @@ fn change(before: &KnownWeb, now: &KnownWeb, side: f64) -> Option<CvChange> {
 /// The CV of a web now: as it was laid, or the one before with the change.
 fn present(before: &KnownWeb, now: &KnownWeb, side: f64) -> Option<Cv> {
     let laid = now.laid.as_ref().map(|_| by_itself(now, side));
-    laid.unwrap_or_else(|| Some(change(before, now, side)?.of(by_itself(before, side)?)))
+    laid.unwrap_or_else(|| Some(change(Air::OfFile, before, now, side)?.of(by_itself(before, side)?)))
 }
 
 /// Sides of the patches of which something is known, in their order [m].
@@ -90,10 +90,11 @@ pub(super) fn found(generation: u32, before: &KnownWeb, now: &KnownWeb) -> Json 
             "side_m": side,
             "before": by_itself(before, side),
             "now": is_turned.then(|| present(before, now, side)).flatten(),
-            "change": is_turned.then(|| change(before, now, side)).flatten(),
+            "change": is_turned.then(|| change(Air::OfFile, before, now, side)).flatten(),
+            "confirmed": is_turned.then(|| change(Air::Other, before, now, side)).flatten(),
         })
     };
-    let look = if is_turned { now.look_beside(before.number) } else { before.coarse.as_ref() };
+    let look = if is_turned { now.look_beside(Air::OfFile, before.number) } else { before.coarse.as_ref() };
     let (stage, area) = match (&now.laid, look) {
         (Some(laid), _) => ("complete", Some(laid.area)),
         (None, Some(look)) => (if is_turned { "sketch" } else { "before" }, Some(look.area)),

@@ -8,6 +8,25 @@ use spunlaid::experiment::{PlantNumber, plant_numbers};
 use spunlaid::input::{Turn, TurnedLine, WebSpec};
 use std::sync::Arc;
 
+/// The air in which two webs are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Air {
+    /// That of the file.
+    OfFile,
+    /// One with another seed, which a change has not been chosen by.
+    Other,
+}
+
+/// A comparison of a web with the web of a number.
+#[derive(Debug)]
+pub(super) struct Comparison {
+    pub(super) before: u32,
+    /// The last look at both.
+    pub(super) look: Option<Look>,
+    /// Whether there will be no other look.
+    pub(super) is_done: bool,
+}
+
 /// See the [module](self).
 #[derive(Debug)]
 pub(super) struct KnownWeb {
@@ -23,8 +42,8 @@ pub(super) struct KnownWeb {
     pub(super) steps: u64,
     /// The last look at the coarse web.
     pub(super) coarse: Option<Look>,
-    /// The last look at its comparison with the web of this number, and whether it is the last one of all.
-    pub(super) compared: Option<(u32, Look, bool)>,
+    /// Its comparisons in the air of the file and in another one.
+    comparisons: [Option<Comparison>; 2],
     pub(super) laid: Option<Laid>,
 }
 
@@ -39,8 +58,18 @@ impl KnownWeb {
         let labels: Vec<String> = turns.iter().filter_map(of_turn).collect();
         let label = if labels.is_empty() { "as in the file".to_owned() } else { labels.join(", ") };
         let (plant, steps) = (plant_numbers(&spec), steps(&spec));
-        let (coarse, compared, laid) = (None, None, None);
-        Self { number, turns, line, spec, plant, label, steps, coarse, compared, laid }
+        Self {
+            number,
+            turns,
+            line,
+            spec,
+            plant,
+            label,
+            steps,
+            coarse: None,
+            comparisons: [None, None],
+            laid: None,
+        }
     }
 
     pub(super) fn state(&self) -> WebState {
@@ -48,14 +77,28 @@ impl KnownWeb {
         WebState { number: self.number, is_settled, is_laid }
     }
 
-    /// The last look at its comparison with a web.
-    pub(super) fn look_beside(&self, before: u32) -> Option<&Look> {
-        self.compared.as_ref().filter(|(with, ..)| *with == before).map(|(_, look, _)| look)
+    /// Its comparison with a web in an air, if that has begun or is asked for.
+    pub(super) fn comparison(&self, air: Air, before: u32) -> Option<&Comparison> {
+        self.comparisons[air as usize].as_ref().filter(|one| one.before == before)
     }
 
-    /// Whether it has been compared with a web.
-    pub(super) fn is_compared_with(&self, before: u32) -> bool {
-        self.compared.as_ref().is_some_and(|(with, _, is_last)| *with == before && *is_last)
+    /// Begins its comparison with a web in an air, or goes on with it.
+    pub(super) fn compare(&mut self, air: Air, before: u32) -> &mut Comparison {
+        let of_air = &mut self.comparisons[air as usize];
+        if of_air.as_ref().is_none_or(|one| one.before != before) {
+            *of_air = None;
+        }
+        of_air.get_or_insert(Comparison { before, look: None, is_done: false })
+    }
+
+    /// Forgets its comparison in an air.
+    pub(super) fn forget_comparison(&mut self, air: Air) {
+        self.comparisons[air as usize] = None;
+    }
+
+    /// The last look at its comparison with a web in an air.
+    pub(super) fn look_beside(&self, air: Air, before: u32) -> Option<&Look> {
+        self.comparison(air, before)?.look.as_ref()
     }
 }
 

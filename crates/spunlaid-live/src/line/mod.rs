@@ -7,9 +7,11 @@
 //! flight            the thread that simulates
 //! known_web, laid   what is known of each web
 //! found, picture    numbers and bytes for pages
+//! filament          its filaments, on pages of their own
 //! ```
 
 mod commands;
+mod filament;
 mod flight;
 mod found;
 mod knobs;
@@ -20,10 +22,11 @@ mod plan;
 mod show;
 
 use crate::board::{Board, PageId};
-use crate::message::{Answer, Command, PageRequest};
-use flight::{End, Job, News, What, Work};
+use crate::message::{PageRequest, Receives, at_once};
+use filament::FilamentPage;
+use flight::{End, HALF, Job, News, What, Work};
 use knobs::Slope;
-use known_web::KnownWeb;
+use known_web::{Air, KnownWeb};
 use picture::BeltPicture;
 use plan::{Known, Task};
 use spunlaid::experiment::advice::{LOOKS, Seen};
@@ -35,8 +38,6 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
 use std::thread;
 
-/// Messages that are heard before something is shown.
-const MOST_HEARD: usize = 256;
 /// How much of the belt runs by until the last look, over the length of the sheet that is looked at, about.
 const WITH_BEGINNING: f64 = 1.4;
 /// Files of one name that are looked for before another name is given.
@@ -101,6 +102,9 @@ pub(super) struct Session {
     pages: BTreeSet<PageId>,
     flying: Option<Flying>,
     last_job: u64,
+    /// The pages of its filaments, and why there is none of others.
+    filaments: Vec<FilamentPage>,
+    lacking: Vec<String>,
     picture: BeltPicture,
     board: Arc<Board<BeltPicture>>,
 }
@@ -154,6 +158,8 @@ impl Session {
             pages: BTreeSet::new(),
             flying: None,
             last_job: 0,
+            filaments: Vec::new(),
+            lacking: Vec::new(),
             picture: BeltPicture::default(),
             board: Arc::new(Board::new(BeltPicture::default())),
         };
@@ -190,7 +196,7 @@ impl Session {
         self.webs.iter_mut().find(|web| web.number == number)
     }
 
-    /// Hears pages and flights until nobody is there any more who could ask.
+    /// Receives pages and flights until nobody is there any more who could ask.
     ///
     /// * `sender` – leads to `heard`
     pub(super) fn fly(mut self, heard: &mpsc::Receiver<Heard>, sender: mpsc::SyncSender<Heard>) {
@@ -201,20 +207,14 @@ impl Session {
             self.trouble = Some(error.to_string());
         }
         while let Ok(first) = heard.recv() {
-            let mut all = vec![first];
-            while all.len() < MOST_HEARD
-                && let Ok(next) = heard.try_recv()
-            {
-                all.push(next);
-            }
-            self.receive(all);
+            self.receive_all(at_once(first, heard));
             self.go_on(&jobs);
             self.show();
         }
     }
 
-    /// Hears what has come at once.
-    fn receive(&mut self, all: Vec<Heard>) {
+    /// Receives what has come at once.
+    fn receive_all(&mut self, all: Vec<Heard>) {
         let mut requests = Vec::new();
         for one in all {
             match one {
@@ -222,31 +222,8 @@ impl Session {
                 Heard::Flight(news) => self.take(news),
             }
         }
-        for (i, request) in requests.iter().enumerate() {
-            let PageRequest { page, command } = request;
-            let answer = match command {
-                Command::Set { stamp, .. }
-                    if requests[i + 1..].iter().any(|later| request.is_replaced_by(later)) =>
-                {
-                    Some(Answer::Applied { stamp: *stamp, generation: self.picture.generation + 1 })
-                }
-                Command::Look { visible } => {
-                    if *visible {
-                        self.pages.insert(*page)
-                    } else {
-                        self.pages.remove(page)
-                    };
-                    None
-                }
-                command => {
-                    self.dispatch(command).unwrap_or_else(|refusal| Some(refusal.about(command.subject())))
-                }
-            };
-            if let Some(answer) = answer {
-                self.board.answer(*page, answer.json());
-            }
-        }
-        if !requests.is_empty() {
+        let board = self.board();
+        if self.receive(&requests, &board) {
             self.show_picture();
         }
     }
@@ -264,7 +241,10 @@ impl Session {
         let work = match task {
             Task::Settle(web) => Work::Settle(self.web(web).turns.clone()),
             Task::Pin(web) => Work::Pin(Arc::clone(&self.web(web).spec)),
-            Task::Compare { now, .. } => Work::Compare(Arc::clone(&self.web(now).spec)),
+            Task::Compare { now, air: Air::OfFile, .. } => Work::Compare(Arc::clone(&self.web(now).spec)),
+            Task::Compare { before, now, air: Air::Other } => {
+                Work::Confirm([before, now].map(|number| Arc::clone(&self.web(number).spec)))
+            }
             Task::Lay(web) => Work::Lay(Arc::clone(&self.web(web).spec)),
             Task::Try(web) => {
                 let text = self.web(web).line.text.clone();
@@ -274,7 +254,7 @@ impl Session {
         if matches!(task, Task::Pin(_)) {
             self.pinned = None;
         }
-        if matches!(task, Task::Pin(_) | Task::Compare { .. }) {
+        if matches!(task, Task::Pin(_) | Task::Compare { air: Air::OfFile, .. }) {
             self.picture.clear_belt();
         }
         self.last_job += 1;
@@ -297,7 +277,8 @@ impl Session {
             before: before.state(),
             now: now.state(),
             is_pinned: self.pinned == Some(self.before),
-            is_compared: now.is_compared_with(self.before),
+            is_compared: now.comparison(Air::OfFile, self.before).is_some_and(|one| one.is_done),
+            is_in_question: now.comparison(Air::Other, self.before).is_some_and(|one| !one.is_done),
             is_tried: self.tried == Some(self.before),
         };
         plan::next(&known, &self.failed)
@@ -332,7 +313,14 @@ impl Session {
                     stretch.belt * stretch.width / (last * WITH_BEGINNING),
                 );
                 let share = (stretch.layer as f64 + part.min(1.0)) / layers as f64;
-                self.flying.iter_mut().for_each(|flying| flying.share = share);
+                let Some(flying) = &mut self.flying else { return };
+                if matches!(task, Task::Compare { air: Air::Other, .. }) {
+                    // Of its two webs one after the other; the belt shows the one in the air of the file.
+                    let from = if flying.share < HALF { 0.0 } else { HALF };
+                    flying.share = (from + HALF * share).min(from + HALF - f64::EPSILON);
+                    return;
+                }
+                flying.share = share;
                 self.picture.add(&stretch);
                 self.show_picture();
             }
@@ -341,9 +329,9 @@ impl Session {
                     web.coarse = Some(look);
                 }
             }
-            (Seen::Look(look), Task::Compare { before, now }) => {
+            (Seen::Look(look), Task::Compare { before, now, air }) => {
                 if let Some(web) = self.web_mut(now) {
-                    web.compared = Some((before, look, false));
+                    web.compare(air, before).look = Some(look);
                 }
             }
             _ => {}
@@ -358,6 +346,10 @@ impl Session {
             Err(error) => {
                 self.failed.push(task);
                 match task {
+                    Task::Compare { now, air: Air::Other, .. } => {
+                        self.web_mut(now).into_iter().for_each(|web| web.forget_comparison(Air::Other));
+                        self.no_sketch = Some(format!("the change could not be confirmed: {error}"));
+                    }
                     Task::Pin(_) | Task::Compare { .. } => self.no_sketch = Some(no_sketch(&error)),
                     Task::Try(_) => {}
                     _ => self.trouble = Some(error.to_string()),
@@ -371,12 +363,8 @@ impl Session {
                 self.web_mut(web).into_iter().for_each(|web| web.laid = Some((*laid).clone()));
             }
             (Task::Pin(web), _) => self.pinned = Some(web),
-            (Task::Compare { before, now }, _) => {
-                if let Some((with, _, is_last)) = self.web_mut(now).and_then(|web| web.compared.as_mut())
-                    && *with == before
-                {
-                    *is_last = true;
-                }
+            (Task::Compare { before, now, air }, _) if before == self.before => {
+                self.web_mut(now).into_iter().for_each(|web| web.compare(air, before).is_done = true);
             }
             (Task::Try(web), _) => self.tried = Some(web),
             _ => {}
@@ -388,6 +376,9 @@ impl Session {
         let Some(place) = self.webs.iter().position(|web| web.number == number) else { return };
         let turns = self.webs[place].turns.clone();
         self.webs[place] = KnownWeb::new(number, turns, line);
+        if number == self.now {
+            self.show_filaments();
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! What pages see: as JSON the knobs, the state and the numbers, and the picture.
 
 use super::Session;
+use super::flight::other_seed;
 use super::found::{answer, found};
 use super::knobs::knobs;
-use super::known_web::KnownWeb;
+use super::known_web::{Air, KnownWeb};
 use super::plan::Task;
 use crate::board::Topic;
 use serde_json::{Value as Json, json};
@@ -40,7 +41,7 @@ impl Session {
     }
 
     /// The name of the line, for headings.
-    fn title(&self) -> String {
+    pub(super) fn title(&self) -> String {
         self.path().file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
     }
 
@@ -60,6 +61,9 @@ impl Session {
             "work": self.work(),
             "answers": self.answers(before),
             "price": price(before, now),
+            "confirmation": now.comparison(Air::Other, before.number).map(|one| {
+                json!({"seed": other_seed(&now.spec), "is_done": one.is_done})
+            }),
         })
     }
 
@@ -74,7 +78,7 @@ impl Session {
         let found = laid.into_iter().flat_map(|laid| laid.notes.iter().cloned());
         let no_sketch = self.no_sketch.iter().cloned().chain(too_small(before, now));
         let mut all: Vec<String> = Vec::new();
-        for note in of_line.chain(found).chain(no_sketch) {
+        for note in of_line.chain(found).chain(no_sketch).chain(self.lacking.iter().cloned()) {
             if !all.contains(&note) {
                 all.push(note);
             }
@@ -90,7 +94,12 @@ impl Session {
             Task::Pin(_) => {
                 ("before", "A sample of filaments lays a coarse web, with which others are compared")
             }
-            Task::Compare { .. } => ("sketch", "The changed web is compared in the same turbulence"),
+            Task::Compare { air: Air::OfFile, .. } => {
+                ("sketch", "The changed web is compared in the same turbulence")
+            }
+            Task::Compare { air: Air::Other, .. } => {
+                ("confirm", "Both webs are simulated again, in turbulence with another seed")
+            }
             Task::Lay(_) if self.now == self.before => ("complete", "The web is laid in full"),
             Task::Lay(web) if web == self.before => ("complete", "The web before is laid in full"),
             Task::Lay(_) => ("complete", "The changed web is laid in full"),
@@ -139,14 +148,14 @@ impl Session {
 }
 
 /// A number of the plant, as it is and as it was.
-fn of_plant(number: &PlantNumber, before: &KnownWeb) -> Json {
+pub(super) fn of_plant(number: &PlantNumber, before: &KnownWeb) -> Json {
     let was = before.plant.iter().find(|other| other.name == number.name);
     json!({"name": number.name, "label": number.label, "now": number.text, "was": was.map(|was| &was.text)})
 }
 
 /// That a sample of filaments says nothing, where it does.
 fn too_small(before: &KnownWeb, now: &KnownWeb) -> Option<String> {
-    let says_nothing = match now.look_beside(before.number) {
+    let says_nothing = match now.look_beside(Air::OfFile, before.number) {
         _ if now.laid.is_some() => false,
         Some(look) => look.changes.is_empty(),
         None => before.laid.is_none() && before.coarse.as_ref().is_some_and(|look| look.cvs.is_empty()),
