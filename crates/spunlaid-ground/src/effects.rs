@@ -20,7 +20,7 @@ use crate::units::Dimension;
 pub struct Setting {
     /// Name in results: `air_speed`.
     pub name: &'static str,
-    /// In words that stand behind “less” or “more”: `throughput of a hole`.
+    /// In words that stand behind “less” or “more”: `throughput per hole`.
     pub words: &'static str,
     /// When it can be turned.
     pub turned: Turned,

@@ -1,6 +1,7 @@
 //! The knobs of a line: what they set, what follows, and what is refused.
 
 use spunlaid::experiment::{Change, plant_numbers};
+use spunlaid::ground::Dimension;
 use spunlaid::input::{
     Changes, Knob, LineFile, Overrides, Resources, Turn, TurnedLine, WebSpec, read_changes, read_line,
     read_web,
@@ -176,12 +177,15 @@ fn identical_a_knob_turned_by_a_fifth_is_the_change_of_advice() {
             let of_it = |knob: &Knob| (knob.setting, &knob.layers) == (*setting, layers);
             let knobs: Vec<Knob> = line.knobs().into_iter().filter(of_it).collect();
             let [knob] = &knobs[..] else { panic!("{name}: {setting:?}") };
-            assert_eq!((&knob.keys[0], knob.value), (&keys[0].key, keys[0].from), "{name}");
+            assert_eq!(knob.keys[0], keys[0].key, "{name}");
+            // A factor on the air is shown as its speed at the slot.
+            let size = if knob.keys[0] == "air.speed_factor" { knob.value / keys[0].from } else { 1.0 };
+            assert_eq!(knob.value, size * keys[0].from, "{name}");
             // The less is as the more, and takes as long.
             if keys[0].to < keys[0].from {
                 continue;
             }
-            let turned = turned(&line, &[(&knob.name, keys[0].to)]);
+            let turned = turned(&line, &[(&knob.name, size * keys[0].to)]);
             // Where layers differ, the factor is that of the first number, which has been rounded to four digits.
             let is_equal = keys.iter().all(|key| key.from == keys[0].from) || knob.setting.name == "holes";
             assert!(turned.set == experiment.set || !is_equal, "{name}: {:?}", turned.set);
@@ -291,13 +295,31 @@ fn a_saved_line_keeps_its_comments_and_says_each_number_once() {
     let names: Vec<String> = line.knobs().into_iter().map(|knob| knob.name).collect();
     assert_eq!(names[..4], ["throughput.1", "holes.1", "throughput.2", "holes.2"]);
     let first = knob(&line, "throughput.1");
-    assert_eq!((first.label.as_str(), &first.layers), ("throughput of a hole, layers 1, 3", &vec![1, 3]));
+    assert_eq!((first.label.as_str(), &first.layers), ("throughput per hole, layers 1, 3", &vec![1, 3]));
     let saved = turned(&line, &[("throughput.1", 0.7e-3 / 60.0), ("air_speed", 70.0)]).text;
     for wanted in ["throughput = \"0.7 g/min\"   # of the first", "velocity = \"70 m/s\"   # of all"] {
         assert!(saved.contains(wanted), "{saved}");
     }
     assert!(saved.contains("throughput = \"0.7 g/min\"   # of the third"), "{saved}");
     assert!(!saved.contains("belt_speed") && saved.matches("basis_weight").count() == 1, "{saved}");
+}
+
+#[test]
+fn analytic_the_air_of_a_table_is_turned_by_its_speed_at_the_slot() {
+    let line = opened(
+        &SPUN.replace("cabin_pressure = \"3200 Pa\"   # of the plant\n", ""),
+        &beside_cases("line.toml"),
+    );
+    let Knob { label, value, dimension, range: [least, greatest], keys, .. } = knob(&line, "air_speed");
+    let slot = |spec: &WebSpec| spec.cases().next().unwrap().air.velocity_at_slot().unwrap();
+    assert_eq!((label.as_str(), dimension, value), ("air speed", Dimension::Velocity, slot(line.spec())));
+    assert_eq!((keys[0].as_str(), [least, greatest]), ("air.speed_factor", [0.5 * value, 2.0 * value]));
+    let turned = turned(&line, &[("air_speed", 72.0)]);
+    assert!((slot(&turned.spec) / 72.0 - 1.0).abs() < 1e-11, "{:?}", turned.set);
+    let now = turned.knobs.iter().find(|knob| knob.name == "air_speed").unwrap();
+    assert!((now.value / 72.0 - 1.0).abs() < 1e-11);
+    // Back where it was, nothing is set.
+    assert_eq!(line.turned(&[turn("air_speed", value)], &Resources::default()).unwrap().set, Vec::new());
 }
 
 #[test]

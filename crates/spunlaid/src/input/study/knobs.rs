@@ -12,6 +12,7 @@ use super::super::{Overrides, Resources};
 use super::line::{KnownKey, LineKnob, WebToChange};
 use super::web::WebBase;
 use super::written_at;
+use crate::air::Flow;
 use crate::experiment::plausible::LIMITS;
 use crate::experiment::{Change, setting};
 use crate::fibre::case::keys::VariedKey;
@@ -25,6 +26,8 @@ use crate::simulation::{WebKey, WebSpec};
 const KNOB: &str = "knob";
 /// Digits of the number to which a knob is turned.
 const DIGITS: usize = 12;
+/// A factor on the speeds of a table of the air.
+const SPEED_FACTOR: &str = "air.speed_factor";
 /// How far the slider of a knob goes: factors on its value, and the change of a temperature either way [K].
 const FACTORS: [f64; 2] = [0.5, 2.0];
 const KELVINS: f64 = 25.0;
@@ -34,6 +37,13 @@ pub struct LineFile {
     text: String,
     base: WebBase,
     knobs: Vec<LineKnob>,
+}
+
+/// What a knob shows of a number in the file.
+struct Shown {
+    dimension: Dimension,
+    /// What it shows of the number 1.
+    size: f64,
 }
 
 /// A setting of a line that can be turned.
@@ -48,7 +58,8 @@ pub struct Knob {
     pub setting: Setting,
     /// Numbers of the layers in which it is turned, from 1; none where it is turned in all.
     pub layers: Vec<usize>,
-    /// The keys that change, by their names in the file. The value is that of the first one, and the others follow.
+    /// The keys that change, by their names in the file. The value is that of the first one, and the others follow; of a
+    /// factor on a table of the air it is the speed at the slot.
     pub keys: Vec<String>,
     /// Physical dimension of the value.
     pub dimension: Dimension,
@@ -177,8 +188,11 @@ impl LineFile {
                     Fault::new("is not a setting of this line", format!("change one of {}", all.join(", ")));
                 vec![Finding { place: place.clone(), key: name.clone(), value: None, what }]
             })?;
-            let Some(KnownKey { key, from, .. }) = knob.known.first() else { continue };
-            let value = if key.is_whole() { value.round() } else { *value };
+            let Some(known @ KnownKey { key, from, .. }) = knob.known.first() else { continue };
+            let Shown { size, .. } = self.shown(known);
+            // What is shown of the file is the file to the last digit.
+            let value = if *value == size * from { *from } else { value / size };
+            let value = if key.is_whole() { value.round() } else { value };
             let named = VariedKey::new(self.base.short_name(&key.name), key.kind);
             written_at(&[(named, value)], &place)?;
             found.retain(|(other, _)| other.name() != *name && !(is_of_belt(knob) && is_of_belt(other)));
@@ -203,10 +217,31 @@ impl LineFile {
         with_keys(&self.text, removed, set.iter().copied())
     }
 
+    /// What a knob shows of the number of its first key. A factor on a table of the air is the speed at the slot, if all
+    /// layers have one table.
+    fn shown(&self, first: &KnownKey) -> Shown {
+        let of_table = |case: &Case| match &case.air.flow {
+            Flow::Profile(profile) => Some(profile.velocity_at_root()).filter(|speed| *speed > 0.0),
+            Flow::Uniform | Flow::Field(_) => None,
+        };
+        let mut speeds = self.spec().cases().map(of_table);
+        match speeds.next().flatten() {
+            Some(size) if first.key.name == SPEED_FACTOR && speeds.all(|other| other == Some(size)) => {
+                Shown { dimension: Dimension::Velocity, size }
+            }
+            _ => Shown { dimension: first.key.dimension(), size: 1.0 },
+        }
+    }
+
     /// A knob with the value that it has now.
     fn knob(&self, knob: &LineKnob, value: f64) -> Option<Knob> {
-        let (name, label, first) = (knob.name(), knob.label(), knob.known.first()?);
-        let [least, greatest] = range(first);
+        let (name, first) = (knob.name(), knob.known.first()?);
+        let Shown { dimension, size } = self.shown(first);
+        // A factor on a table has no unit that would say what it is.
+        let is_factor = first.key.name.ends_with("_factor") && dimension == first.key.dimension();
+        let label = knob.label(is_factor);
+        let value = size * value;
+        let [least, greatest] = range(first).map(|end| size * end);
         let changed = knob.known.iter().filter(|known| known.power != 0.0);
         Some(Knob {
             name,
@@ -214,7 +249,7 @@ impl LineFile {
             setting: knob.setting,
             layers: knob.layers.clone(),
             keys: changed.map(|known| self.base.short_name(&known.key.name).to_owned()).collect(),
-            dimension: first.key.dimension(),
+            dimension,
             is_whole: first.key.is_whole(),
             value,
             range: [least.min(value), greatest.max(value)],
@@ -228,9 +263,7 @@ impl LineKnob {
         self.layers.first().map_or_else(|| name.to_owned(), |layer| format!("{name}.{layer}"))
     }
 
-    fn label(&self) -> String {
-        // A factor on a table has no unit that would say what it is.
-        let is_factor = self.known.first().is_some_and(|known| known.key.name.ends_with("_factor"));
+    fn label(&self, is_factor: bool) -> String {
         let words = format!("{}{}", self.setting.words, if is_factor { ", as a factor" } else { "" });
         let layers: Vec<String> = self.layers.iter().map(ToString::to_string).collect();
         match &layers[..] {
