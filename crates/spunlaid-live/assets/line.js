@@ -234,6 +234,7 @@ function showNumbers() {
   headline(best, generation);
   if (!isNews("numbers", [...page.patches.values()], generation)) return;
   document.querySelector(".of-confirmed").hidden = !best.confirmed;
+  document.querySelector(".cvs").classList.toggle("has-confirmed", Boolean(best.confirmed));
   const rows = [...page.patches.values()].sort((a, b) => a.side - b.side);
   byId("patches").replaceChildren(
     ...rows.map((patch) => {
@@ -286,9 +287,8 @@ function showConfirm({ confirmation }) {
   const isKnown = page.isTurned && [...page.patches.values()].some((p) => p.change && p.changeOf === page.state.generation);
   button.hidden = !isKnown;
   button.disabled = Boolean(confirmation);
-  const seed = confirmation?.seed;
-  const done = confirmation?.is_done ? "Confirmed" : "Is confirmed";
-  say("confirm", confirmation ? `${done} in an air with seed ${seed}` : "Confirm in another air");
+  const words = confirmation?.is_done ? "Simulated again with seed" : "Is simulated again with seed";
+  say("confirm", confirmation ? `${words} ${confirmation.seed}` : "Confirm in another air");
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */

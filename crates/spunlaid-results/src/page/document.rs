@@ -195,6 +195,11 @@ pub(crate) enum Part<'a> {
 }
 
 impl Part<'_> {
+    /// The words of a paragraph.
+    pub(crate) fn words(&self) -> Option<&str> {
+        if let Part::Paragraph(words) = self { Some(words) } else { None }
+    }
+
     /// How a picture is to be read, folded.
     pub(crate) fn reading(caption: String) -> Self {
         Part::Folded("How to read the picture", vec![Part::Caption(caption)])

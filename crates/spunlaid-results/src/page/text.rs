@@ -32,6 +32,10 @@ impl Section<'_> {
             Part::Descriptions(all) => {
                 all.iter().map(|(name, words)| format!("  {name}\n    {words}\n")).collect()
             }
+            // Words have room in a terminal; tables and captions behind a click have not.
+            Part::Folded(_, parts) => {
+                parts.iter().filter_map(Part::words).map(|words| format!("{words}\n")).collect()
+            }
             _ => String::new(),
         };
         let parts: String = self.parts.iter().map(part).collect();

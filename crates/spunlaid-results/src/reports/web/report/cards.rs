@@ -4,7 +4,7 @@ use super::scale;
 use super::scale::{Judged, Scale};
 use crate::Failure;
 use crate::numbers::{THIN, significant};
-use crate::page::document::{Section, View};
+use crate::page::document::{Part, Section, View};
 use crate::page::table::{Layout, Row, Table};
 use crate::page::words::{grams, grams_with_error};
 use crate::reports::web::files::effects::HOUR;
@@ -26,13 +26,23 @@ pub(crate) struct Card {
     /// Rows under a heading of their own; without rows, there is no heading.
     pub(crate) apart: (&'static str, Vec<Row>),
     pub(crate) words: Vec<String>,
+    /// Below the rows the page shows this in place of the words, and the words after a click; None shows them.
+    pub(crate) summary: Option<&'static str>,
 }
 
 impl From<Card> for Section<'static> {
-    fn from(Card { id, title, rows, apart: (heading, apart), words }: Card) -> Self {
+    fn from(Card { id, title, rows, apart: (heading, apart), words, summary }: Card) -> Self {
+        let summary = summary.filter(|_| !rows.is_empty() || !apart.is_empty());
         let table = Table::new(["", ""]).laid_out(Layout::Facts).rows(rows);
         let table = if apart.is_empty() { table } else { table.group(heading.to_owned(), apart) };
-        Section::new(id, title).table(table).paragraphs(words).printed().card()
+        let section = Section::new(id, title).table(table);
+        let section = match summary {
+            Some(summary) => {
+                section.with(Part::Folded(summary, words.into_iter().map(Part::Paragraph).collect()))
+            }
+            None => section.paragraphs(words),
+        };
+        section.printed().card()
     }
 }
 
@@ -67,7 +77,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
     let doubts = implausible(spec);
     rows.push(row("Within usual ranges", if doubts.is_empty() { "yes" } else { "no, see below" }.to_owned()));
     let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
-    Card { id: "line", title: "The line", rows, apart: Default::default(), words }
+    Card { id: "line", title: "The line", rows, apart: Default::default(), words, summary: None }
 }
 
 fn shown(value: f64, unit: &str) -> String {
@@ -105,7 +115,7 @@ const FASTER: f64 = 10.0;
 pub(crate) fn fabric(fabric: &Fabric) -> Card {
     let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
     let (apart, words) = (Default::default(), fabric.notes.clone());
-    Card { id: "buyer", title: "What a buyer counts", rows, apart, words }
+    Card { id: "buyer", title: "What a buyer counts", rows, apart, words, summary: None }
 }
 
 /// The scale as a card; without pictures if the web is too small for them.

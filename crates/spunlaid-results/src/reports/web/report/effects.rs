@@ -35,7 +35,8 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
 pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
     let card = |[rows, apart]: [Vec<Row>; 2], words: String| {
         let apart = ("Not on the running line", apart);
-        Card { id: "change", title: "Change first", rows, apart, words: vec![words] }
+        let summary = Some("How these were found");
+        Card { id: "change", title: "Change first", rows, apart, words: vec![words], summary }
     };
     let none = || [Vec::new(), Vec::new()];
     let Some(advice) = tried.advice else {
@@ -272,6 +273,7 @@ pub(super) fn assumed_card(spec: &WebSpec, findings: &Findings, tried: Advised<'
         rows,
         apart: Default::default(),
         words: vec![words],
+        summary: Some("What these numbers mean"),
     };
     let names: Vec<String> = spec.assumed.iter().map(|key| in_sentence(label(key))).collect();
     let names = listed(&names);
