@@ -10,7 +10,7 @@ import { violations } from "./axe.mjs";
 /** A line whose web takes seconds. */
 const LINE = join(dirname(fileURLToPath(import.meta.url)), "../../crates/spunlaid-cli/tests/live/line.toml");
 /** The knob that is turned by hand. */
-const KNOB = "depth";
+const KNOB = "slot_gap";
 
 const knobOf = (page, part) => page.locator(`[data-knob="${KNOB}"] ${part}`);
 const isReady = (what) => (page, ms = 180000) => page.waitForFunction(what, null, { timeout: ms });

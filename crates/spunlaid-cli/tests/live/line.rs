@@ -164,7 +164,8 @@ fn a_new_value_stops_the_old_web_and_a_hidden_page_stops_all() {
         std::thread::sleep(std::time::Duration::from_millis(300));
         live.processor_seconds() - spent < 0.03
     };
-    assert!((0..20).any(|_| rests()) && rests());
+    // On a busy machine a block takes long, and the program may wait for a processor meanwhile.
+    assert!((0..100).any(|_| (0..4).all(|_| rests())));
     page.ask(&json!({"do": "look", "visible": true}));
     until(&mut page, "found", |found| found["stage"] == "sketch");
     page.ask(&json!({"do": "pause"}));
@@ -237,12 +238,17 @@ fn identical_confirmation_and_change_of_a_line_with_the_other_seed() {
     page.ask(&set("throughput", &json!(0.6), 1));
     until(&mut page, "state", |state| state["work"]["stage"] == "complete" && state["generation"] == 1);
     let alone = other.page().message("found");
-    assert!(patches(&alone).len() > 1, "{alone}");
+    let mut compared = 0;
     for (patch, alone) in patches(&found).iter().zip(patches(&alone)) {
         assert_eq!((&patch["side_m"], &patch["confirmed"]), (&alone["side_m"], &alone["change"]));
-        assert!(patch["confirmed"]["standard_error"].as_f64().unwrap() > 0.0, "{patch}");
-        assert_ne!(patch["confirmed"]["value"], patch["change"]["value"], "{patch}");
+        // The sample may say nothing over patches of some size.
+        if patch["confirmed"].is_object() {
+            assert!(patch["confirmed"]["standard_error"].as_f64().unwrap() > 0.0, "{patch}");
+            assert_ne!(patch["confirmed"]["value"], patch["change"]["value"], "{patch}");
+            compared += 1;
+        }
     }
+    assert!(compared > 0, "{found}");
 }
 
 #[test]
@@ -333,7 +339,7 @@ fn identical_numbers_of_a_line_of_two_layers_with_a_knob_and_a_tab_of_each() {
     let knobs = page.message("knobs");
     let names: Vec<&str> =
         knobs["knobs"].as_array().unwrap().iter().map(|knob| knob["name"].as_str().unwrap()).collect();
-    for knob in ["throughput.1", "throughput.2", "depth", "air_speed"] {
+    for knob in ["throughput.1", "throughput.2", "slot_gap", "air_speed"] {
         assert!(names.contains(&knob), "no {knob} in {names:?}");
     }
     let found = complete(&mut page, 0);
@@ -353,9 +359,9 @@ fn identical_numbers_of_a_line_of_two_layers_with_a_knob_and_a_tab_of_each() {
 }
 
 /// The short line from the die on, whose tension flights find.
-fn of_flown_tension() -> String {
+fn of_simulated_tension() -> String {
     const DIE: &str = "[spinline]\npolymer = \"pp\"\nmelt_flow_rate = 35\ndie_temperature = \"230 °C\"\n\
-        hole_diameter = \"0.6 mm\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\nend_tension = \"flown\"\n\n[fibre]";
+        hole_diameter = \"0.6 mm\"\nlength = \"1.2 m\"\nvelocity = \"50 m/s\"\nend_tension = \"simulated\"\n\n[fibre]";
     let given = ["linear_density", "density", "youngs_modulus"];
     let kept = LINE.lines().filter(|line| !given.iter().any(|key| line.starts_with(key)));
     // Long enough for a mean tension.
@@ -364,7 +370,7 @@ fn of_flown_tension() -> String {
 
 #[test]
 fn a_line_whose_tension_flights_find_has_numbers_once_it_is_found() {
-    let live = start_with(&of_flown_tension());
+    let live = start_with(&of_simulated_tension());
     let mut page = live.page();
     page.ask(&json!({"do": "pause"}));
     let before = until(&mut page, "state", |state| state["stands"] == true);
@@ -376,9 +382,9 @@ fn a_line_whose_tension_flights_find_has_numbers_once_it_is_found() {
             .to_owned()
     };
     // Of a value for which the tension is not known there are no numbers while the slider moves.
-    page.ask(&json!({"do": "preview", "key": "throughput", "value": 0.6, "stamp": 1}));
+    page.ask(&json!({"do": "preview", "key": "throughput", "value": 0.57, "stamp": 1}));
     assert_eq!(page.message("preview")["plant"], json!([]));
-    page.ask(&set("throughput", &json!(0.6), 2));
+    page.ask(&set("throughput", &json!(0.57), 2));
     page.ask(&json!({"do": "go"}));
     let settling = until(&mut page, "state", |state| state["generation"] == 1);
     let settled =

@@ -60,7 +60,7 @@ impl Chance {
             "run",
             "\\u0000",
             "throughput",
-            "depth",
+            "slot_gap",
             "belt_speed",
             "basis_weight",
             "air_speed",

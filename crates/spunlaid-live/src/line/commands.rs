@@ -128,7 +128,10 @@ impl Session {
         if !is_written || (OF_BELT.contains(&name) && !turns.is_empty()) {
             turns.push(Turn { name: name.to_owned(), value });
         }
-        let line = self.file.turned(&turns, &self.resources).map_err(refused)?;
+        let line = self.file.turned(&turns, &self.resources).map_err(refused);
+        // The thread that simulates finds a tension, with resources of its own.
+        self.resources.forget_wanted();
+        let line = line?;
         Ok((turns, line))
     }
 

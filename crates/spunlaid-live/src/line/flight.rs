@@ -129,7 +129,7 @@ impl Pilot {
     }
 
     /// Compares two webs in an air with another seed.
-    fn confirm(&self, number: u64, webs: [Arc<WebSpec>; 2], by: Control<'_>) -> Result<(), Error> {
+    fn confirm(&self, number: u64, webs: [Arc<WebSpec>; 2], by: RunContext<'_>) -> Result<(), Error> {
         let [before, now] = webs.map(|spec| WebSpec { seed: other_seed(&spec), ..(*spec).clone() });
         // What the first web lays says how far it is, and nothing else.
         let mut go_on = |seen: Seen| {

@@ -73,6 +73,11 @@ impl Resources {
         lock(&self.wanted).len()
     }
 
+    /// Forgets the tensions that nobody has simulated, as those of values that were only looked at.
+    pub fn forget_wanted(&self) {
+        lock(&self.wanted).clear();
+    }
+
     /// Whether the problems with a file may go away with the wanted tensions.
     pub fn is_in_doubt(&self) -> bool {
         self.in_doubt.load(Ordering::Relaxed)

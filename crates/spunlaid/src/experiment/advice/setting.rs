@@ -18,7 +18,7 @@ const fn rebuilt(name: &'static str, words: &'static str) -> Setting {
 
 /// Mass that each hole gives per time. Of known filaments the titre stays, and those of a spinline become
 /// coarser with it.
-pub const THROUGHPUT: Setting = running("throughput", "throughput of a hole");
+pub const THROUGHPUT: Setting = running("throughput", "throughput per hole");
 /// Number of holes.
 pub const HOLES: Setting = rebuilt("holes", "holes");
 /// Mass per length of the filaments. The throughput of a hole stays, so the filaments come slower if they
