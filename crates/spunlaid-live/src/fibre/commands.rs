@@ -70,7 +70,8 @@ impl Receives for Session {
 }
 
 impl Session {
-    /// Flies the filament of a line as its knobs are now. If that cannot be, the page says why; the one before flies on.
+    /// Simulates the filament of a line as its knobs are now. If that is not possible, a note says why, and the one
+    /// before stays.
     fn fly_filament(&mut self, text: String) {
         let adapted = adapt_to_clock(self.document.with_text(text)).map_err(Answer::rejected);
         let flown = adapted.and_then(|(document, remark)| {

@@ -58,8 +58,8 @@ pub struct Knob {
     pub setting: Setting,
     /// Numbers of the layers in which it is turned, from 1; none where it is turned in all.
     pub layers: Vec<usize>,
-    /// The keys that change, by their names in the file. The value is that of the first one, and the others follow; of a
-    /// factor on a table of the air it is the speed at the slot.
+    /// The keys that change, by their names in the file. The value is that of the first one, and the others follow.
+    /// A factor on a table of the air has the speed at the slot as its value.
     pub keys: Vec<String>,
     /// Physical dimension of the value.
     pub dimension: Dimension,
@@ -217,8 +217,8 @@ impl LineFile {
         with_keys(&self.text, removed, set.iter().copied())
     }
 
-    /// What a knob shows of the number of its first key. A factor on a table of the air is the speed at the slot, if all
-    /// layers have one table.
+    /// What a knob shows of the number of its first key. A factor on a table of the air is the speed at the slot, if
+    /// all layers have one table.
     fn shown(&self, first: &KnownKey) -> Shown {
         let of_table = |case: &Case| match &case.air.flow {
             Flow::Profile(profile) => Some(profile.velocity_at_root()).filter(|speed| *speed > 0.0),
