@@ -194,7 +194,7 @@ function found(message) {
     // A number gives way to a newer one only.
     if (patch.now) [kept.now, kept.of] = [patch.now, message.generation];
     if (patch.change) [kept.change, kept.changeOf] = [patch.change, message.generation];
-    // What was found in another air belongs to one setting only.
+    // What was found in other turbulence belongs to one setting only.
     kept.confirmed = patch.confirmed;
     page.patches.set(patch.side_m, kept);
   }
@@ -277,7 +277,7 @@ function headline(best, generation) {
   place.className = !change || isOld ? "old" : verdict(change);
   const { confirmed } = best;
   const unsure = confirmed?.is_sure ? "" : ", not significant";
-  say("confirmed", confirmed ? `· ${changeText(confirmed)} in another air${unsure}` : "");
+  say("confirmed", confirmed ? `· ${changeText(confirmed)} in other turbulence${unsure}` : "");
   byId("confirmed").className = confirmed ? verdict(confirmed) : "old";
 }
 
@@ -288,7 +288,7 @@ function showConfirm({ confirmation }) {
   button.hidden = !isKnown;
   button.disabled = Boolean(confirmation);
   const words = confirmation?.is_done ? "Simulated again with seed" : "Is simulated again with seed";
-  say("confirm", confirmation ? `${words} ${confirmation.seed}` : "Confirm in another air");
+  say("confirm", confirmation ? `${words} ${confirmation.seed}` : "Confirm in other turbulence");
 }
 
 /** What is computed, how far it is, and what that means for the numbers. */
