@@ -275,7 +275,7 @@ fn may_be_best<'a, E, M>(
 mod tests {
     use super::*;
 
-    const NAMES: [&str; 5] = ["depth", "holes", "air", "melt", "quench"];
+    const NAMES: [&str; 6] = ["depth", "holes", "air", "melt", "quench", "belt"];
 
     fn effect(value: f64) -> Effect<u8> {
         Effect::new(0, Difference { standard_error: 0.001, ..Difference::exact(value) })
@@ -308,5 +308,75 @@ mod tests {
         };
         trials.confirm(again).unwrap();
         assert_eq!(names(&trials), ["melt", "air", "holes"]);
+        // What is not confirmed counts in the range too.
+        assert!(trials.range(0).iter().zip([0.6, 1.1]).all(|(found, wanted)| (found - wanted).abs() < 1e-12));
+    }
+
+    /// Changes with these effects on measure 0.
+    fn trials(changes: &[(Turned, f64)]) -> Trials<(), u8> {
+        let outcomes = changes.iter().map(|(_, value)| Ok(vec![effect(*value)])).collect();
+        let changes =
+            changes.iter().enumerate().map(|(number, (turned, _))| change((number, *turned))).collect();
+        let trials = Trials::new(changes, |_| Ok(outcomes)).unwrap();
+        Trials { judged_by: Some(0), ..trials }
+    }
+
+    /// Two of the running line and one other, or three of a kind, if all are as good as the second best.
+    #[test]
+    fn as_many_changes_are_tried_once_more_as_may_be_the_best() {
+        let (running, rebuilt) = (Turned::Running, Turned::Rebuilt);
+        let as_good = |turned: Turned, value: f64| [(turned, value); 3];
+        for (changes, wanted) in [
+            ([(running, -0.3), (running, -0.2), (running, -0.1)].to_vec(), &[0, 1][..]),
+            (as_good(running, -0.3).to_vec(), &[0, 1, 2]),
+            ([as_good(running, -0.3), as_good(rebuilt, -0.5)].concat(), &[0, 1, 3]),
+            ([vec![(running, -0.05)], as_good(rebuilt, -0.3).to_vec()].concat(), &[0, 1, 2]),
+            // No change for the better.
+            (vec![(running, 0.0), (rebuilt, 0.1)], &[]),
+        ] {
+            let mut again = Vec::new();
+            let measure = |changes: &[Change<()>]| {
+                again.extend(changes.iter().map(|change| change.setting.name));
+                Ok(changes.iter().map(|_| Ok(vec![effect(-0.3)])).collect())
+            };
+            trials(&changes).confirm(measure).unwrap();
+            assert_eq!(again, wanted.iter().map(|number| NAMES[*number]).collect::<Vec<_>>(), "{changes:?}");
+        }
+    }
+
+    #[test]
+    fn less_than_one_per_cent_or_within_the_error_is_no_improvement_and_widens_no_range() {
+        let mut trials =
+            trials(&[(Turned::Running, -0.009), (Turned::Running, 0.009), (Turned::Running, -0.5)]);
+        trials.tried[2].effects[0].difference.standard_error = 1.0;
+        assert_eq!(trials.improvements(0), []);
+        assert!(
+            trials.range(0).iter().zip([0.991, 1.009]).all(|(found, wanted)| (found - wanted).abs() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn a_change_is_one_of_clouds_if_most_of_it_is_not_that_of_each_filament() {
+        for (value, own, wanted) in [
+            (0.3, Some(0.1), Some(true)),
+            (0.15, Some(0.1), Some(false)),
+            (0.1, Some(-0.1), Some(true)),
+            (0.3, None, None),
+        ] {
+            assert_eq!(Effect { own, ..effect(value) }.is_of_clouds(), wanted, "{value} {own:?}");
+        }
+    }
+
+    #[test]
+    fn values_of_keys_have_units_unless_they_are_counts() {
+        let key = |whole: bool| ChangedKey {
+            key: String::new(),
+            dimension: Dimension::Length,
+            whole,
+            by_kelvin: false,
+            from: 0.0,
+            to: 0.0,
+        };
+        assert_eq!([key(true).pretty(12.0), key(false).pretty(0.05)], ["12", "50 mm"]);
     }
 }

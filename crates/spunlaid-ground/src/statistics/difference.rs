@@ -159,7 +159,7 @@ mod tests {
             let half = within(t, degrees);
             assert!((half - 0.99).abs() < 2e-5, "{degrees}: {half}");
         }
-        let difference = |value: f64| Difference { value, standard_error: 1.0, degrees: 15.5 };
+        let difference = |ratio: f64| Difference { value: 0.5 * ratio, standard_error: 0.5, degrees: 15.5 };
         assert!(difference(-2.9).is_beyond(0.987) && !difference(2.6).is_beyond(0.987));
         assert!(Difference::exact(1e-9).is_beyond(0.987) && !Difference::exact(0.0).is_beyond(0.987));
         assert!(!difference(f64::NAN).is_beyond(0.987));
@@ -175,5 +175,34 @@ mod tests {
         assert_eq!(difference.degrees, 8.0);
         assert_eq!(Difference::independent(&[1.0], &SECOND), None);
         assert_eq!(Difference::paired(&[1.0, 2.0], &[1.0, f64::NAN]), None);
+    }
+
+    #[test]
+    fn samples_without_scatter_have_no_error_but_degrees_of_freedom() {
+        let difference = Difference::independent(&[1.0; 3], &[2.0; 2]).unwrap();
+        assert_eq!(difference, Difference { value: 1.0, standard_error: 0.0, degrees: 3.0 });
+        assert_eq!(difference.known_half_width(), Some(0.0));
+        let known = Difference { standard_error: 0.5, ..Difference::exact(1.0) };
+        assert_eq!(known.known_half_width(), Some(known.half_width()));
+        assert_eq!(Difference { standard_error: f64::NAN, ..known }.known_half_width(), None);
+    }
+
+    /// The values, their squares and their logarithms differ by as many errors; nearly equal ones are no special case.
+    #[test]
+    fn invariant_the_difference_of_powers_is_as_significant_as_that_of_logarithms() {
+        let errors = [0.03, 0.04];
+        for (first, second) in [(2.0, 3.0), (3.0, 2.0), (2.0, 2.1)] {
+            let in_errors = libm::log(second / first) / 0.05;
+            for power in [1, 2] {
+                let values = [first, second].map(|x: f64| x.powi(power));
+                let found = difference_of_logarithms(values, errors.map(|error| f64::from(power) * error));
+                assert_eq!(found.value, values[1] - values[0]);
+                assert!((found.value / found.standard_error / in_errors - 1.0).abs() < 1e-12, "{found:?}");
+            }
+        }
+        for second in [4.0, 4.0 + 1e-9] {
+            let found = difference_of_logarithms([4.0, second], errors);
+            assert!((found.standard_error / 0.2 - 1.0).abs() < 1e-9, "{found:?}");
+        }
     }
 }

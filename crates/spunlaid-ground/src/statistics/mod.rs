@@ -235,8 +235,111 @@ impl<T> EvenSample<T> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    /// The expansion has four terms, so that a fifth is left. Quantiles to 16 digits from the incomplete beta function.
+    #[test]
+    fn order_the_expansion_of_students_t_leaves_a_fifth_order() {
+        for (degrees, exact) in
+            [(31, 2.039_513_446_396_408_2), (60, 2.000_297_822_014_26), (120, 1.979_930_405_082_424)]
+        {
+            let left = (student_t_95(degrees) - exact) * (degrees as f64).powi(5);
+            assert!((left + 0.745).abs() < 0.02, "{degrees}: {left}");
+        }
+    }
+
+    /// A deviation with ν degrees of freedom lies between those that 2.5 % and 97.5 % quantiles of χ² give.
+    #[test]
+    fn published_intervals_of_a_deviation() {
+        // Abramowitz & Stegun, table 26.8. The cube root of χ² is normal within 0.5 % at ten degrees, less at more.
+        for (degrees, low, high) in
+            [(10.0, 3.24697, 20.4831), (30.0, 16.7908, 46.9792), (100.0, 74.2219, 129.561)]
+        {
+            let deviation = 2.0;
+            let found = interval_of_deviation(deviation, deviation / f64::sqrt(2.0 * degrees));
+            for (found, quantile) in found.into_iter().zip([high, low]) {
+                let wanted = deviation * f64::sqrt(degrees / quantile);
+                assert!((found / wanted - 1.0).abs() < 0.05 / degrees, "{degrees}: {found} {wanted}");
+            }
+        }
+        // No deviation has no error.
+        assert_eq!(interval_of_deviation(0.0, 0.0), [0.0; 2]);
+    }
+
+    #[test]
+    fn an_interval_holds_its_ends_and_is_relative_to_the_size_of_its_value() {
+        let interval = Interval { value: -4.0, low: -5.0, high: -2.0 };
+        assert_eq!(
+            [-5.1, -5.0, -3.0, -2.0, -1.9].map(|x| interval.holds(x)),
+            [false, true, true, true, false]
+        );
+        assert_eq!(interval.relative(), 0.375);
+    }
+
+    #[test]
+    fn quantiles_lie_on_straight_lines_between_the_sorted_finite_values() {
+        let values = [5.0, f64::NAN, 1.0, 40.0, 2.0, f64::INFINITY, 3.0];
+        for (fraction, wanted) in [
+            (-1.0, 1.0),
+            (0.0, 1.0),
+            (0.1, 1.4),
+            (0.25, 2.0),
+            (0.625, 4.0),
+            (0.9, 26.0),
+            (1.0, 40.0),
+            (2.0, 40.0),
+        ] {
+            let found = quantile(&values, fraction);
+            assert!((found - wanted).abs() < 1e-12, "{fraction}: {found}");
+        }
+        assert_eq!([median(&values), median(&[7.0, 1.0])], [3.0, 4.0]);
+        assert!(median(&[f64::NAN]).is_nan());
+    }
+
+    /// A symmetric positive definite matrix.
+    fn definite(scale: f64) -> Vec<Vec<f64>> {
+        [[4.0, 2.0, 0.6], [2.0, 3.0, 0.4], [0.6, 0.4, 2.0]]
+            .map(|row| row.map(|x| scale * x).to_vec())
+            .to_vec()
+    }
+
+    #[test]
+    fn analytic_a_matrix_times_its_inverse_is_one() {
+        for scale in [1.0, 1e-12, 1e12] {
+            let (matrix, inverse) = (definite(scale), inverse(definite(scale)).unwrap());
+            for (i, row) in matrix.iter().enumerate() {
+                let mut product = vec![0.0; row.len()];
+                row.iter().zip(&inverse).for_each(|(factor, of)| add(&mut product, *factor, of));
+                for (j, found) in product.iter().enumerate() {
+                    assert!((found - f64::from(u8::from(i == j))).abs() < 1e-14, "{scale}: {i} {j} {found}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_what_is_solved_fulfils_its_equations() {
+        let (solution, matrix) = ([0.5, -2.0, 3.0], definite(1.0));
+        let sides: Vec<f64> = matrix.iter().map(|row| dot(row, &solution)).collect();
+        let found = solve_positive(matrix, sides).unwrap();
+        assert!(
+            found.iter().zip(solution).all(|(found, wanted)| (found - wanted).abs() < 1e-14),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn rejects_matrices_that_are_not_positive_definite() {
+        // The last column is the sum of the others.
+        let singular = [[2.0, 1.0, 3.0], [1.0, 5.0, 6.0], [3.0, 6.0, 9.0]].map(|row| row.to_vec()).to_vec();
+        assert_eq!(inverse(singular), Err(2));
+        assert_eq!(inverse(vec![vec![f64::NAN]]), Err(0));
+        for matrix in [vec![vec![1.0, 2.0], vec![2.0, 1.0]], vec![vec![0.0; 2]; 2]] {
+            assert_eq!(solve_positive(matrix, vec![1.0; 2]), None);
+        }
+    }
 
     #[test]
     fn a_long_series_is_kept_evenly_and_a_short_one_whole() {

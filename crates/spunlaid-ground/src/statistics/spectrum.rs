@@ -228,6 +228,23 @@ mod tests {
         }
         // By Parseval's theorem the sum is the variance.
         assert!((spectrum.density.iter().sum::<f64>() * spectrum.step - 2.5).abs() < 1e-14);
+        // The mean is that of the segment, or one that is given.
+        for mean in [None, Some(3.0)] {
+            let mut welch = Welch::new(0.25, 4, Window::Rectangular, 0.0);
+            welch.add(&[1.0, 2.0, 4.0, 5.0], mean);
+            assert_eq!(welch.finish(), spectrum);
+        }
+    }
+
+    #[test]
+    fn seven_segments_that_overlap_by_half_fill_a_record_of_a_power_of_two() {
+        for samples in [8, 64, 4096, 1 << 20] {
+            let segment = Welch::segment_length(samples);
+            assert_eq!((samples - segment) / (segment / 2) + 1, 7, "{samples}");
+        }
+        assert_eq!([1, 5000].map(Welch::segment_length), [2, 2048]);
+        let none = spectrum(&[1.0; 63], 64, Window::Hann, 0.5);
+        assert_eq!((none.density.len(), none.segments, none.effective_duration), (0, 0, 0.0));
     }
 
     #[test]
@@ -241,6 +258,15 @@ mod tests {
             let peak =
                 (0..found.density.len()).max_by(|a, b| found.density[*a].total_cmp(&found.density[*b]));
             assert_eq!(peak.map(|p| found.frequency(p)), Some(0.25));
+            assert_eq!(found.highest(), 2.0);
+            // The transform of a window a + b cos is a at its line and b/2 beside it.
+            let beside = match window {
+                Window::Hann => 0.5,
+                Window::Hamming => 0.23 / 0.54,
+                Window::Rectangular => 0.0,
+            };
+            let ratio = peak.map(|p| found.density[p + 1] / found.density[p]);
+            assert!((ratio.unwrap_or(f64::NAN) - beside * beside).abs() < 1e-12, "{window:?}: {ratio:?}");
         }
     }
 
