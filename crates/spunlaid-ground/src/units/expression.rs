@@ -390,8 +390,42 @@ mod tests {
         ] {
             assert_eq!(value(text).unwrap_err().to_string(), message, "{text}");
         }
+        // A sign may begin a name.
+        assert_eq!(
+            value("_x").unwrap_err().to_string(),
+            "uses _x, which is not a key with a number; write the full name of one, like air.velocity"
+        );
         assert_eq!(value(&"(".repeat(2000)), Err(too_long()));
         assert_eq!(value(&"(".repeat(500)), Err(too_long()));
         assert_eq!(value(&"-".repeat(500)), Err(too_long()));
+    }
+
+    #[test]
+    fn limit_a_formula_has_a_thousand_characters_and_fifty_levels() {
+        for length in [LONGEST, LONGEST + 1, LONGEST + 2] {
+            let long = "0".repeat(length - 4) + " + 1";
+            assert_eq!(value(&long).is_ok(), length == LONGEST, "{length}");
+        }
+        let nested = |levels: usize| "(".repeat(levels) + "1" + &")".repeat(levels);
+        assert!(value(&nested(DEEPEST)).is_ok() && value(&nested(DEEPEST + 1)).is_err());
+        // One after the other they are no levels.
+        for text in ["(1)", "-1", "1^1"] {
+            assert!(value(&[text; 100].join("*")).is_ok(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_formula_has_its_text_and_the_names_of_its_keys() {
+        let formula =
+            Expression::parse(" -air.velocity / (4 * air.length_scale ^ 2) + air.velocity").unwrap();
+        assert_eq!(formula.text(), "-air.velocity / (4 * air.length_scale ^ 2) + air.velocity");
+        assert_eq!(formula.names().into_iter().collect::<Vec<_>>(), ["air.length_scale", "air.velocity"]);
+    }
+
+    /// In millimetres and tenths of a second, 1 m/s is 100.
+    #[test]
+    fn a_quantity_has_another_number_in_smaller_units() {
+        let velocity = Powers::from_dimension(Dimension::Velocity);
+        assert_eq!(velocity.factor([1000.0, 1.0, 10.0, 1.0, 1.0]), 100.0);
     }
 }

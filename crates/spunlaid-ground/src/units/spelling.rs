@@ -44,25 +44,23 @@ pub(super) fn is_same(factors_of_other: Option<&[Factor]>, plain: &str) -> bool 
 /// A slash divides by the next factor only, or by a parenthesis: `J/(kg K)`, `J/kg/K`.
 pub(super) fn factors(plain: &str) -> Option<Vec<Factor>> {
     let mut found = Vec::new();
-    let rest = product(plain.trim(), 1.0, &mut found, 0)?;
+    let rest = product(plain.trim(), &mut found, 0)?;
     found.retain(|(_, power)| *power != 0.0);
     found.sort_by(|a, b| a.0.cmp(&b.0));
     (rest.is_empty() && !found.is_empty()).then_some(found)
 }
 
 /// Reads a product up to its end or a closing parenthesis, and returns what follows.
-///
-/// * `sign` – the power of the whole product
-fn product<'a>(mut rest: &'a str, sign: f64, found: &mut Vec<Factor>, depth: usize) -> Option<&'a str> {
+fn product<'a>(mut rest: &'a str, found: &mut Vec<Factor>, depth: usize) -> Option<&'a str> {
     const DEEPEST: usize = 4;
     let mut divided = 1.0;
     loop {
         rest = rest.trim_start();
         if let Some(inner) = rest.strip_prefix('(').filter(|_| depth < DEEPEST) {
             let mut group = Vec::new();
-            let after = product(inner, 1.0, &mut group, depth + 1)?.strip_prefix(')')?;
+            let after = product(inner, &mut group, depth + 1)?.strip_prefix(')')?;
             let (outer, after) = power(after)?;
-            group.into_iter().for_each(|(symbol, inner)| add(found, &symbol, sign * divided * outer * inner));
+            group.into_iter().for_each(|(symbol, inner)| add(found, &symbol, divided * outer * inner));
             rest = after;
         } else if let Some(after) = rest.strip_prefix('1').filter(|after| !after.starts_with(is_digit)) {
             rest = after;
@@ -73,7 +71,7 @@ fn product<'a>(mut rest: &'a str, sign: f64, found: &mut Vec<Factor>, depth: usi
             if symbol.is_empty() {
                 return None;
             }
-            add(found, symbol, sign * divided * own);
+            add(found, symbol, divided * own);
             rest = after;
         }
         let after = rest.trim_start();
@@ -138,7 +136,7 @@ pub fn readings(number: &str) -> [Option<String>; 2] {
 pub fn with_decimal_point(text: &str) -> Option<String> {
     let (number, rest) = split(text);
     match readings(number) {
-        [None, Some(decimal)] if number.contains(',') => Some(decimal + rest),
+        [None, Some(decimal)] => Some(decimal + rest),
         _ => None,
     }
 }
@@ -205,6 +203,48 @@ pub fn udunits(unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_are_taken_apart_into_symbols_and_powers() {
+        for (unit, wanted) in [
+            ("kg/(m s)^2", &[("kg", 1.0), ("m", -2.0), ("s", -2.0)][..]),
+            ("((m2/s)^3)^-2", &[("m", -12.0), ("s", 6.0)]),
+            ("m^0.25 s", &[("m", 0.25), ("s", 1.0)]),
+            ("1/s", &[("s", -1.0)]),
+            ("m·s/m", &[("s", 1.0)]),
+            ("((((m))))", &[("m", 1.0)]),
+            // No unit, or none that is written whole; so many parentheses nobody writes.
+            ("m/m", &[]),
+            ("m)", &[]),
+            ("10 s", &[]),
+            ("(((((m)))))", &[]),
+        ] {
+            let plain = plain_spelling(unit);
+            let found = factors(&plain).unwrap_or_default();
+            let found: Vec<(&str, f64)> =
+                found.iter().map(|(symbol, power)| (symbol.as_str(), *power)).collect();
+            assert_eq!(found, wanted, "{unit}");
+        }
+    }
+
+    #[test]
+    fn units_of_columns_are_those_of_si_and_of_udunits() {
+        for (multiple, si) in
+            [("mm²/Hz", "m²/Hz"), ("dtex", "kg/m"), ("kW", "W"), ("km", "m"), ("g/m²", "kg/m²")]
+        {
+            assert_eq!(si_unit_of(multiple), si);
+        }
+        for (unit, written) in [
+            ("", "1"),
+            ("%", "percent"),
+            ("°", "degree"),
+            ("°C", "degC"),
+            ("m²/Hz", "m2/Hz"),
+            ("m^½", "m0.5"),
+        ] {
+            assert_eq!(udunits(unit), written);
+        }
+    }
 
     #[test]
     fn a_comma_is_read_as_all_that_it_can_mean() {

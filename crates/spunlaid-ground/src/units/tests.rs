@@ -141,6 +141,17 @@ fn rejects_what_is_no_quantity() {
             "1.5 inch",
             "has the unknown unit \"inch\"; write a length with its unit: m, cm, mm, µm or nm",
         ),
+        // An exponent has digits; without them its letter begins a unit.
+        (
+            Dimension::Length,
+            "5em",
+            "has the unknown unit \"em\"; write a length with its unit: m, cm, mm, µm or nm",
+        ),
+        (
+            Dimension::Length,
+            "5e-m",
+            "has the unknown unit \"e-m\"; write a length with its unit: m, cm, mm, µm or nm",
+        ),
         (
             Dimension::Length,
             "1.5 MM",
@@ -176,6 +187,7 @@ fn people_read_handy_units() {
         (Dimension::Temperature, 260.5, "-12.65 °C"),
         (Dimension::Ratio, 1.0 / 3.0, "0.3333"),
         (Dimension::Length, f64::INFINITY, "inf m"),
+        (Dimension::Pressure, f64::INFINITY, "inf Pa"),
     ] {
         assert_eq!(dimension.pretty(value), text);
     }
@@ -189,6 +201,32 @@ fn what_people_wrote_is_written_as_they_wrote_it() {
     assert_eq!(Dimension::MassFlow.exact(1e-5), "1e-5 kg/s");
     // No unit takes few digits.
     assert_eq!(Dimension::Length.exact(1.0 / 3.0), "0.3333333333333333 m");
+}
+
+#[test]
+fn a_value_is_written_with_as_few_digits_as_read_it_back() {
+    for (dimension, text) in [
+        (Dimension::LinearDensity, "1.6 dtex"),
+        (Dimension::MassFlow, "0.6 g/min"),
+        (Dimension::Length, "12.3456 mm"),
+    ] {
+        assert_eq!(dimension.written(dimension.parse(text).unwrap()), text);
+    }
+    let third = Dimension::Length.written(1.0 / 3.0);
+    assert!((Dimension::Length.parse(&third).unwrap() * 3.0 - 1.0).abs() < 1e-15, "{third}");
+}
+
+#[test]
+fn a_value_in_a_wrong_unit_is_what_was_meant_in_another() {
+    assert_eq!(Dimension::Length.in_other_units(0.018, 1e-6, 1e-3), ["18 µm"]);
+    assert_eq!(Dimension::Length.in_other_units(-0.018, 1e-9, 20.0), ["-18 m", "-18 cm", "-18 µm", "-18 nm"]);
+    assert_eq!(Dimension::Ratio.in_other_units(0.5, 0.0, 100.0), [""; 0]);
+    let meant = |unit: &str, value: f64| Dimension::Length.meant_in(unit, value, [0.5, 5.0]);
+    assert_eq!(meant("mm", 1.5), Some(1.5));
+    assert_eq!(meant("m", 1.5e-3), Some(1.5));
+    // Of the unit itself, with more than three digits, and out of what is usual.
+    assert_eq!([meant("m", 1.5), meant("mm", 1.2345), meant("cm", 6.0), meant("cm", 0.4)], [None; 4]);
+    assert_eq!(Dimension::MassFlow.meant_in("kg/s", 0.5 / 60_000.0, [0.05, 5.0]), Some(0.5));
 }
 
 proptest! {
