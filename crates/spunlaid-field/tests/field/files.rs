@@ -39,6 +39,11 @@ fn identical_in_every_encoding_of_an_unstructured_grid() {
             let (field, _) = read(&vtu(std::slice::from_ref(&mesh), style), "a.vtu");
             assert_eq!(samples(&field), samples(&plain), "{style:?}");
         }
+        for integer in ["Int16", "UInt16", "UInt32", "UInt64"] {
+            let style = Style { place: DataPlace::Inline, integer, ..ASCII };
+            let (field, _) = read(&vtu(std::slice::from_ref(&mesh), style), "a.vtu");
+            assert_eq!(samples(&field), samples(&plain), "{style:?}");
+        }
         for version in ["2.0", "3.0", "5.1"] {
             for binary in [false, true] {
                 let (field, _) = read(&legacy(&mesh, version, binary), "a.vtk");
@@ -466,5 +471,124 @@ fn analytic_as_much_air_through_every_section_of_the_diffusers() {
             let local = field.sample(Vec3::new(0.6, y, 0.05), &mut Hint::default());
             assert!(!local.inside && local.velocity.norm() < 1e-6, "{file}: {local:?}");
         }
+    }
+}
+
+/// An unstructured grid of cells given by type and number of points, one after the other, with
+/// u = 2 + 3 x + 5 y.
+fn of_cells(points: &[[f64; 3]], cells: &[(u8, usize)]) -> (Field, Vec<Fault>) {
+    let lines = |values: &dyn Fn(&[f64; 3]) -> String| points.iter().map(values).collect::<String>();
+    let places = lines(&|[x, y, z]| format!("{x} {y} {z}\n"));
+    let velocities = lines(&|[x, y, _]| format!("{} 0 0\n", 2.0 + 3.0 * x + 5.0 * y));
+    let mut next = 0;
+    let mut rows = String::new();
+    for (_, count) in cells {
+        let corners: Vec<String> = (next..next + count).map(|point| point.to_string()).collect();
+        rows += &format!("{count} {}\n", corners.join(" "));
+        next += count;
+    }
+    let types: String = cells.iter().map(|(kind, _)| format!("{kind}\n")).collect();
+    let text = format!(
+        "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {count} double\n{places}\
+        CELLS {} {}\n{rows}CELL_TYPES {}\n{types}POINT_DATA {count}\nVECTORS U double\n{velocities}",
+        cells.len(),
+        next + cells.len(),
+        cells.len(),
+        count = points.len(),
+    );
+    read(text.as_bytes(), "a.vtk")
+}
+
+/// Types of cells by `vtkCellType.h` of VTK 9; of curved ones the corners come first.
+#[test]
+fn published_types_of_cells_of_vtk_are_read() {
+    let ring = |corners: usize, z: f64| {
+        let angle = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / corners as f64;
+        (0..corners).map(move |i| [f64::cos(angle(i)), f64::sin(angle(i)), z]).collect::<Vec<_>>()
+    };
+    let cone = |corners: usize| [ring(corners, 0.0), vec![[0.0, 0.0, 1.0]]].concat();
+    let prism = |corners: usize| [ring(corners, 0.0), ring(corners, 1.0)].concat();
+    let in_rows = |z: f64| vec![[-1.0, -1.0, z], [1.0, -1.0, z], [-1.0, 1.0, z], [1.0, 1.0, z]];
+    for (types, corners, more) in [
+        (&[10][..], cone(3), 0),
+        (&[11], [in_rows(0.0), in_rows(1.0)].concat(), 0),
+        (&[12], prism(4), 0),
+        (&[13], prism(3), 0),
+        (&[14], cone(4), 0),
+        (&[15], prism(5), 0),
+        (&[16], prism(6), 0),
+        (&[24, 71, 78], cone(3), 6),
+        (&[25, 29, 33, 72, 79], prism(4), 12),
+        (&[26, 31, 32, 73, 80], prism(3), 9),
+        (&[27, 37, 74, 81], cone(4), 8),
+        (&[5, 7], ring(3, 0.0), 0),
+        (&[7, 9], ring(4, 0.0), 0),
+        (&[7], ring(5, 0.0), 0),
+        (&[8], in_rows(0.0), 0),
+        (&[22, 34, 69, 76], ring(3, 0.0), 3),
+        (&[23, 28, 30, 70, 77], ring(4, 0.0), 4),
+        (&[36], ring(5, 0.0), 5),
+    ] {
+        let is_solid = corners.iter().any(|at| at[2] > 0.0);
+        let points = [corners, vec![[0.1, 0.1, 0.0]; more]].concat();
+        for kind in types {
+            let (field, warnings) = of_cells(&points, &[(*kind, points.len())]);
+            let Description::Mesh { cells, .. } = field.describe() else { panic!("{kind} is no mesh") };
+            let is_curved =
+                warnings.iter().any(|warning| warning.message.contains("1 cell has curved edges"));
+            assert_eq!((cells, is_curved, warnings.len()), (1, more > 0, usize::from(more > 0)), "{kind}");
+            let at = Vec3::new(0.05, -0.1, if is_solid { 0.3 } else { 0.0 });
+            let local = field.sample(at, &mut Hint::default());
+            assert!(local.inside && (local.velocity.x - 1.65).abs() < 1e-12, "{kind}: {local:?}");
+        }
+    }
+    // Each point of a strip makes a triangle with the two before it.
+    let (strip, _) = of_cells(&in_rows(0.0), &[(6, 4)]);
+    assert_eq!(strip.describe(), Description::Mesh { points: 4, cells: 2 });
+    // Points, lines and faces beside cells with a volume are left out.
+    let points = [cone(3), ring(3, 0.0)].concat();
+    for (kind, count) in [(0, 0), (1, 1), (2, 3), (3, 2), (4, 3), (5, 3), (21, 3), (35, 3), (68, 3), (75, 3)]
+    {
+        let (field, warnings) = of_cells(&points, &[(10, 4), (kind, count)]);
+        assert!(matches!(field.describe(), Description::Mesh { cells: 1, .. }), "{kind}");
+        assert!(
+            warnings[0].message.starts_with("1 cell is a point, a line or a face"),
+            "{kind}: {warnings:?}"
+        );
+    }
+}
+
+/// Types of numbers in the words of VTK's legacy files.
+#[test]
+fn published_types_of_numbers_of_legacy_files_are_read() {
+    for word in [
+        "char",
+        "signed_char",
+        "unsigned_char",
+        "short",
+        "unsigned_short",
+        "int",
+        "unsigned_int",
+        "long",
+        "unsigned_long",
+        "float",
+        "double",
+        "vtkIdType",
+        "vtktypeint8",
+        "vtktypeuint8",
+        "vtktypeint16",
+        "vtktypeuint16",
+        "vtktypeint32",
+        "vtktypeuint32",
+        "vtktypeint64",
+        "vtktypeuint64",
+    ] {
+        let text = format!(
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n\
+            SPACING 1 1 1\nPOINT_DATA 8\nVECTORS U {word}\n{}",
+            "7 0 1\n".repeat(8)
+        );
+        let (field, _) = read(text.as_bytes(), "a.vtk");
+        assert_eq!(field.overview().speed.mean, f64::sqrt(50.0), "{word}");
     }
 }
