@@ -342,9 +342,22 @@ mod thousands_tests {
         for cell in ["1.234.567", "1.234,5", "-1,234.56", "1'234", "1 234,5", "12,345,678", "1.234.567,8"] {
             assert!(has_thousands(cell), "{cell}");
         }
-        for cell in
-            ["", "1.234", "1,5", "1234.5", "1.23.4", "1.2345,6", "12:00", "1 2", "a", ".5", "1.234,", "--"]
-        {
+        for cell in [
+            "",
+            "1.234",
+            "1,5",
+            "1234.5",
+            "1.23.4",
+            "1.2345,6",
+            "12:00",
+            "1 2",
+            "a",
+            ".5",
+            "1.234,",
+            "--",
+            "1234.567.890",
+            "1.234,5.678",
+        ] {
             assert!(!has_thousands(cell), "{cell}");
         }
     }
@@ -359,6 +372,20 @@ mod thousands_tests {
     fn a_column_is_doubted_only_if_no_number_tells() {
         assert!(doubted(&["1.035", "964", "1.022"]));
         assert!(doubted(&["998", "1,002"]));
+        // The largest number without a sign and the smallest with one count, wherever they stand.
+        for cells in [["998", "5", "1.002"], ["5", "998", "1.002"], ["900.125", "998", "1.002"]] {
+            assert!(doubted(&cells), "{cells:?}");
+        }
+        // Nearer to a thousand times the number than to the number itself: by √1000.
+        for (cells, is_doubted) in [
+            (["32", "1.000"], true),
+            (["31", "1.000"], false),
+            (["64", "2.000"], true),
+            (["63", "2.000"], false),
+        ] {
+            assert_eq!(doubted(&cells), is_doubted, "{cells:?}");
+        }
+        assert!(!doubted(&["1,002"]));
         // Decimals that are always written, decimals of another length, a zero, thousands without a sign.
         for cells in [
             &["1.035", "0.964"][..],

@@ -1,4 +1,5 @@
 use super::*;
+use crate::units::Dimension;
 
 /// The names of the columns and the numbers in these of them.
 fn read(text: &str, columns: &[usize]) -> (Vec<String>, Vec<Vec<f64>>) {
@@ -45,6 +46,7 @@ fn rows_begin_below_the_names_whatever_is_above_them() {
         "t s u m/s\n0 1.5\n1 2.5\n".replace("t s", "t_s").as_str(),
         "t\tu\ns\tm/s\n0\t1.5\n1\t2.5\n",
         "\"t_s\",\"u_m_s\"\n\"0\",\"1.5\"\n\"1\",\"2.5\",,\n",
+        "first,second\nt_s,u_m_s\n0,1.5\n1,2.5\n",
         // Decimal commas in quotation marks, and characters that take no room.
         "\"t_s\",\"u_m_s\"\n\"0,0\",\"1,5\"\n\"1,0\",\"2,5\"\n",
         "\u{feff}t_s\u{200b},u\u{ad}_m_s\n0,1.5\u{2060}\n\u{200e}1,2.5\n",
@@ -65,7 +67,13 @@ fn columns_of_text_do_no_harm() {
     assert_eq!(names, ["TIMESTAMP", "RECORD", "u", "state"]);
     assert_eq!(rows[0], [1.0, 10.5]);
     assert!(rows[1][1].is_nan());
-    assert_eq!(Head::new("u [m/s]").unit.as_deref(), Some("m/s"));
+    let table = Table::open(toa5.as_bytes(), FileKind::Table, 0).unwrap();
+    let units: Vec<_> = table.heads().iter().map(|head| head.unit.as_deref()).collect();
+    assert_eq!((units, table.header()), (vec![Some("TS"), Some("RN"), Some("m/s"), None], Position::Line(2)));
+    assert_eq!(
+        table.first_row(),
+        [FirstCell::Stamp, FirstCell::Number, FirstCell::Number, FirstCell::Text("on, still".to_owned())]
+    );
     // Two lines above the header look alike too, but fewer than the rows.
     let log = "Rate;20\nGain;7\nstamp;u_m_s;state\n10:00;1,5;on\n10:01;2,5;off\n10:02;;off\n";
     let (names, rows) = read(log, &[1]);
@@ -157,4 +165,98 @@ fn rejects_columns_with_one_name_also_in_other_spellings() {
     }
     assert!(refused(["t", "u", "v", "U"], &[1]).contains("occurs twice, in columns 2 and 4"));
     assert_eq!(refused(["t", "U [i]", "U [j]", "w"], &[1, 2]), "");
+}
+
+#[test]
+fn limit_a_line_has_so_many_bytes() {
+    for (length, kind, said) in [
+        (LONGEST_LINE, FileKind::Table, ""),
+        (LONGEST_LINE + 1, FileKind::Table, "end each row with a line break"),
+        (LONGEST_LINE + 1, FileKind::Scan, ".npy"),
+    ] {
+        let row = format!("0,{}", "0".repeat(length - 3));
+        let read = Table::open(format!("t,u\n{row}\n1,2\n").as_bytes(), kind, 0).and_then(|mut table| {
+            assert!(table.next_row()?);
+            table.next_row()?;
+            Ok(table.line())
+        });
+        match read {
+            Ok(line) => assert_eq!((line, said), (3, "")),
+            Err(error) => assert!(!said.is_empty() && error.to_string().contains(said), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn empty_lines_above_a_row_are_counted_and_rows_of_empty_cells_are_rows_between_tabs() {
+    let read = |text: &str| {
+        let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
+        let mut rows = Vec::new();
+        while table.next_row().unwrap() {
+            rows.push((table.number(1).unwrap().is_nan(), table.blank_lines()));
+        }
+        rows
+    };
+    let [full, empty] = [|blank: u64| (false, blank), |blank: u64| (true, blank)];
+    assert_eq!(read("t,u\n0,1\n\n\n1,2\n\n# word\n\n2,3\n\t\n3,4\n"), [full(0), full(2), full(2), full(1)]);
+    assert_eq!(read("t\tu\tv\n0\t1\t2\n\t\t\n\t\n1\t2\t3\n"), [full(0), empty(0), full(1)]);
+}
+
+#[test]
+fn rejects_what_is_no_text() {
+    let is_refused = |bytes: &[u8]| Table::open(bytes, FileKind::Table, 0).is_err();
+    assert!(is_refused(b"\xff\xfet,u\n0,1\n") && is_refused(b"\xfe\xfft,u\n0,1\n"));
+    assert!(is_refused(b"t,u\n0,1\n\0,2\n"));
+    // In Latin-1 the same signs are letters.
+    let mut table = Table::open(&b"name;u\n\xff\xfe;1\n\xfe\xff;2\n"[..], FileKind::Table, 0).unwrap();
+    assert!(table.next_row().unwrap());
+    assert_eq!((table.number(1), table.text(0)), (Ok(1.0), "\u{ff}\u{fe}"));
+}
+
+#[test]
+fn a_remark_may_be_left_out_with_its_separator_and_quotation_marks_may_be_inches() {
+    let (names, rows) = read("t,u,Remark\n0,1\n1,2,wind\n", &[0, 1]);
+    assert_eq!((names.len(), rows), (3, vec![vec![0.0, 1.0], vec![1.0, 2.0]]));
+    let mut cut_off = Table::open(&b"t,u,v,remark\n0,1,2\n1,2\n"[..], FileKind::Table, 0).unwrap();
+    assert!(cut_off.next_row().unwrap() && cut_off.next_row().is_err());
+    let (_, rows) = read("name,u\n1\" pipe,1.5\n2\" pipe,2.5\n", &[1]);
+    assert_eq!(rows, [[1.5], [2.5]]);
+    // Below a single name a comma is that of decimals; of two columns it is not.
+    assert_eq!(read("u_m_s\n1,5\n2,5\n", &[0]).1, [[1.5], [2.5]]);
+    assert_eq!(read("t_s,u_m_s\n1,5\n2,5\n", &[0, 1]).1, [[1.0, 5.0], [2.0, 5.0]]);
+}
+
+#[test]
+fn rejects_numbers_with_another_decimal_sign_than_those_above() {
+    let mut table = Table::open(&b"t;u\n0;1,5\n1;1.#QNAN\n2;2.5\n"[..], FileKind::Table, 0).unwrap();
+    assert!(table.next_row().unwrap());
+    assert_eq!((table.number(1), table.is_number(1), table.last_place(1)), (Ok(1.5), true, 0.1));
+    assert!(table.next_row().unwrap() && table.number(1).unwrap().is_nan() && table.is_number(1));
+    assert!(table.next_row().unwrap() && table.number(1).is_err());
+    let mut text = Table::open(&b"t;u\n10:00:00;inf\n10:00:01;1\n"[..], FileKind::Table, 0).unwrap();
+    assert!(text.next_row().unwrap() && text.stamp(0).is_some() && text.stamp(1).is_none());
+    assert!(!text.is_number(0) && !text.is_number(1));
+}
+
+#[test]
+fn headers_are_compared_with_names_and_give_factors_to_si() {
+    let named = |text: &str, names: &[&str]| Head::new(text).named(names).map(|unit| unit.map(str::to_owned));
+    let unit = |unit: &str| Some(Some(unit.to_owned()));
+    assert_eq!(named("U Mean [m/s]", &["u_mean"]), unit("m/s"));
+    assert_eq!(named("u-mean", &["u", "u_mean"]), Some(None));
+    assert_eq!(named("velocity_x_foo", &["velocity", "velocity_x"]), unit("foo"));
+    assert_eq!(named("w", &["u"]), None);
+    let factor = |text: &str| Head::new(text).factor(Dimension::Velocity, "u_m_s");
+    assert_eq!((factor("u [cm/s]"), factor("u_m_min")), (Ok(0.01), Ok(1.0 / 60.0)));
+    assert!(factor("u").is_err() && factor("u [s]").is_err());
+    for (unit, dimension, wanted) in [
+        ("sec", Dimension::Time, Some(1.0)),
+        ("ms^-1", Dimension::Velocity, Some(1.0)),
+        ("KHZ", Dimension::Frequency, Some(1000.0)),
+        ("percent", Dimension::Ratio, Some(0.01)),
+        ("", Dimension::Ratio, Some(1.0)),
+        ("sec", Dimension::Velocity, None),
+    ] {
+        assert_eq!(scale(unit, dimension), wanted, "{unit}");
+    }
 }
