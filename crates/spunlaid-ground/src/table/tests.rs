@@ -46,6 +46,8 @@ fn rows_begin_below_the_names_whatever_is_above_them() {
         "t s u m/s\n0 1.5\n1 2.5\n".replace("t s", "t_s").as_str(),
         "t\tu\ns\tm/s\n0\t1.5\n1\t2.5\n",
         "\"t_s\",\"u_m_s\"\n\"0\",\"1.5\"\n\"1\",\"2.5\",,\n",
+        "t_s,u_m_s\r0,1.5\r1,2.5\r",
+        "t_s,u_m_s\r\n0,1.5\r\n1,2.5\r\n",
         "first,second\nt_s,u_m_s\n0,1.5\n1,2.5\n",
         // Decimal commas in quotation marks, and characters that take no room.
         "\"t_s\",\"u_m_s\"\n\"0,0\",\"1,5\"\n\"1,0\",\"2,5\"\n",
@@ -108,7 +110,12 @@ fn faults_name_line_and_column() {
         message("t,u\n0,x7\n1,2\n"),
         "a.csv:2: column u: \"x7\" is not a number; write one, or leave the cell empty where a value is missing"
     );
-    assert!(message("t,u\n0,1\n1\n").starts_with("a.csv:3: this row has 1 cell and needs 2"));
+    for (row, said) in
+        [("1", "1 cell and needs 2; is the file cut off"), ("1,2,3", "3 cells and needs 2; are both")]
+    {
+        let found = message(&format!("t,u\n0,1\n{row}\n"));
+        assert!(found.starts_with(&format!("a.csv:3: this row has {said}")), "{found}");
+    }
     assert_eq!(message("t,u\n0,1\n1,\n"), "");
 }
 
@@ -259,4 +266,33 @@ fn headers_are_compared_with_names_and_give_factors_to_si() {
     ] {
         assert_eq!(scale(unit, dimension), wanted, "{unit}");
     }
+}
+
+/// Rows of numbers and words are the last of the longest lists of lines that look alike; a missing number looks like any.
+#[test]
+fn rows_with_words_are_the_longest_list_of_lines_that_look_alike() {
+    for (above, rows) in [
+        ("Rate;20\nGain;7\n", "10:00;1,5;on\n10:01;;off\n10:02;2,5;off\n"),
+        ("Rate;20\nGain;7;dB\n", "10:00;1,5;on\n"),
+        ("Rate;20\nGain\t7\n", "10:00;1,5;on\n"),
+    ] {
+        let text = format!("{above}stamp;u_m_s;state\n{rows}");
+        let (names, rows) = read(&text, &[1]);
+        assert_eq!((names, rows[0][0]), (["stamp", "u", "state"].map(str::to_owned).to_vec(), 1.5), "{text}");
+    }
+    let (names, rows) = read("Rate;20;a\nGain;7;b\nn;u_m_s;state\n1;;on\n2;1,5;on\n3;2,5;on\n", &[0, 1]);
+    assert_eq!((names[1].as_str(), rows.len(), rows[1].clone()), ("u", 3, vec![2.0, 1.5]));
+}
+
+#[test]
+fn a_comment_or_a_title_above_the_rows_is_no_column() {
+    let table = Table::open(&b"a file of mine\n# t_s u_m_s\n0 1.5\n1 2.5\n"[..], FileKind::Table, 0).unwrap();
+    assert_eq!((table.header(), table.heads().len()), (Position::Line(2), 2));
+    // A single name above two columns is too few, unless a comma may be that of decimals.
+    for text in ["Title\n0\t1.5\n1\t2.5\n", "Title\n0;1.5\n1;2.5\n"] {
+        let mut table = Table::open(text.as_bytes(), FileKind::Table, 0).unwrap();
+        assert!(table.next_row().is_err(), "{text}");
+    }
+    // A line of blanks is no row of a single column.
+    assert_eq!(read("u_m_s\n1.5\n\t\n2.5\n", &[0]).1, [[1.5], [2.5]]);
 }
