@@ -155,6 +155,17 @@ mod tests {
         assert!((layered / speed(OF_EXAMPLE, THICKNESS, 200.0) - 1.0).abs() < 1e-12);
     }
 
+    /// Without inertia the speed changes as Davies's permeability, `1/(s^1.5 (1 + 56 s³))` of a solid fraction s.
+    #[test]
+    fn analytic_the_sensitivity_to_the_weight_is_that_of_the_permeability() {
+        for thickness in [THICKNESS, 0.1e-3] {
+            let solid = solid_fraction(&[OF_EXAMPLE], thickness);
+            let wanted = -1.5 - 168.0 * solid.powi(3) / (1.0 + 56.0 * solid.powi(3));
+            let found = sensitivity(&[OF_EXAMPLE], thickness, 1e-3);
+            assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
+        }
+    }
+
     #[test]
     fn rejects_a_fabric_that_is_denser_than_the_formulas() {
         assert_eq!(air_permeability(&[OF_EXAMPLE], &[1.0], (0.05e-3, 200.0)), None);

@@ -104,6 +104,41 @@ mod tests {
         }
     }
 
+    /// The series and the formula have 3/2 x² beside them where they meet; at nothing they are τ²d².
+    #[test]
+    fn order_the_growth_close_to_a_uniform_web() {
+        for (x, within) in [(1e-9, 1e-12), (0.999e-3, 2e-6), (1.001e-3, 1e-8)] {
+            let covered = 2.0;
+            let found = growth_with_clouds(covered, x / covered) / (covered * covered);
+            assert!((found - (1.0 - 4.0 / 3.0 * x + 1.5 * x * x)).abs() < within, "{x}: {found}");
+        }
+    }
+
+    /// The error is that of `(1 + τdc²)^(−1/c²)` by the CV and of `exp(−τd)` by the length.
+    #[test]
+    fn analytic_the_error_of_the_bare_area() {
+        let (length, diameter, patch, error) = (80e3, 18e-6, 2e-3, 1e-5);
+        let covered = length * diameter;
+        let by_chance = straight_fibres(length, patch).powi(2);
+        let cv = (0.1 + by_chance).sqrt();
+        let logarithm = |cv: f64| {
+            let square = cv * cv - by_chance;
+            -libm::log1p(covered * square) / square
+        };
+        let by_cv = 0.5 * (logarithm(cv + error) - logarithm(cv - error));
+        for of_length in [0.0, 1e-5] {
+            let found = Unevenness { patch, cv, standard_error: Some(error) };
+            let found = bare_area(&[0.8, 1.2], length, of_length, diameter, &found);
+            let share = 0.5 * (libm::exp(-0.8 * covered) + libm::exp(-1.2 * covered));
+            let Known::Value(value, Some(error)) = found else { panic!("{found:?}") };
+            let wanted = share * by_cv.hypot(covered * of_length);
+            assert!(
+                (value / share - 1.0).abs() < 1e-12 && (error / wanted - 1.0).abs() < 1e-6,
+                "{error} {wanted}"
+            );
+        }
+    }
+
     #[test]
     fn analytic_opacity_and_scattering_are_inverses() {
         for measured in [0.05, 0.3, 0.6, 0.9, 0.99] {

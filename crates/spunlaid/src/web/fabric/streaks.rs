@@ -206,3 +206,123 @@ fn beside(bands: &Bands<'_>, corner: f64, width: usize, all: &[StreakSource]) ->
         .map(|first| bands.weights(first, width))
         .collect()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// Bands of alternating blocks whose means are one apart from ± `off`.
+    fn bands(step: f64, off: f64) -> Vec<[f64; BLOCKS]> {
+        let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let band =
+            |band: usize| std::array::from_fn(|block| 1.0 + off * sign(band / 2) + step * sign(band + block));
+        (0..4).map(band).collect()
+    }
+
+    /// Blocks scatter by 32 a² over 21 degrees of freedom, and the means of four bands by 4 b²/3.
+    #[test]
+    fn analytic_what_bands_vary_beyond_their_blocks_is_fixed() {
+        let (a, b) = (0.1, 0.2);
+        let of_block = 32.0 * a * a / 21.0;
+        let is_near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-9;
+        let varied = Chance::new(&bands(a, b));
+        assert!(is_near(varied.of_block, of_block) && is_near(varied.degrees, 21.0) && varied.bands == 4.0);
+        assert!(is_near(varied.fixed, 4.0 * b * b / 3.0 - of_block / 8.0), "{}", varied.fixed);
+        assert!(is_near(varied.over(2.0), (of_block / 2.0 + varied.fixed) * 1.25));
+        // The ratio of two variances has the error √(2/3 + 2/21), of which two are 1.75.
+        for (ratio, is_fixed) in [(2.7, false), (2.8, true)] {
+            let off = (0.75 * ratio * of_block / 8.0).sqrt();
+            assert_eq!(Chance::new(&bands(a, off)).fixed > 0.0, is_fixed, "{ratio}");
+        }
+    }
+
+    const CELL: f64 = 1e-3;
+    /// So that a band is 14 columns wide.
+    const SPREAD: f64 = 5e-3;
+    const COLUMNS: usize = 19 * 14;
+    const STEP: f64 = 0.03;
+
+    /// Of 19 bands, each in eight blocks of ten rows that are heavier or lighter by turns.
+    fn map() -> Map {
+        let is_heavy = |i: usize| (i % COLUMNS / 14 + i / COLUMNS / 10).is_multiple_of(2);
+        let cell = |i: usize| 1e6 * (1.0 + if is_heavy(i) { STEP } else { -STEP });
+        let cells = (0..COLUMNS * 80).map(|i| cell(i) as u32).collect();
+        Map { columns: COLUMNS, rows: 80, cell: CELL, quantum: 1e-14, closed: [false; 2], cells }
+    }
+
+    fn source(place: f64, mass: f64, until: f64) -> StreakSource {
+        StreakSource { missing: vec![(place, mass)], spread: SPREAD, until }
+    }
+
+    /// A streak in the middle band: the bands that are farther than three standard deviations, eight on
+    /// either side, have the mean one in each block.
+    #[test]
+    fn analytic_the_length_at_which_a_streak_shows_follows_from_the_blocks_beside_it() {
+        let (map, corner, mass) = (map(), 0.4, 1e-5);
+        let place = corner + 9.5 * 14.0 * CELL;
+        let of_block = 16.0 * 8.0 * STEP * STEP / (15.0 * 7.0);
+        for (until, blocks, measured) in [(0.03, 3, STEP / 3.0), (0.029, 2, 0.0), (9.0, 8, 0.0)] {
+            let found = streaks(&map, corner, &[source(place, mass, until)]).remove(0);
+            let weight = map.basis_weight() + mass / (COLUMNS as f64 * CELL);
+            let dip = mass * libm::erf(7e-3 / (SQRT_2 * SPREAD)) / (weight * 14e-3);
+            assert!((found.place - place).abs() < 1e-12 && found.holes == 1, "{found:?}");
+            assert!((found.band - 14e-3).abs() < 1e-12 && found.until == until.min(80.0 * CELL));
+            assert!((found.dip / dip - 1.0).abs() < 1e-9, "{} {dip}", found.dip);
+            let Some(Known::Value(value, Some(error))) = found.found else { panic!("{found:?}") };
+            let wanted = (of_block / f64::from(blocks) * (1.0 + 1.0 / 16.0)).sqrt();
+            assert!(
+                (value - measured).abs() < 1e-9 && (error / wanted - 1.0).abs() < 1e-6,
+                "{value} {error}"
+            );
+            let Some(Known::Value(length, Some(error))) = found.length else { panic!("{found:?}") };
+            let wanted = NORMAL_95 * NORMAL_95 * (1.0 + 1.0 / 16.0) * of_block * 10.0 * CELL / (dip * dip);
+            assert!((length / wanted - 1.0).abs() < 1e-6, "{length} {wanted}");
+            assert!((error / length / f64::sqrt(2.0 / 105.0) - 1.0).abs() < 1e-9);
+        }
+        // Too short for a block.
+        let short = streaks(&map, corner, &[source(place, mass, 0.009)]).remove(0);
+        assert_eq!((short.found, short.length), (None, None));
+    }
+
+    #[test]
+    fn streaks_lie_where_their_mass_is_missing_and_none_lies_beyond_the_map() {
+        let (map, corner) = (map(), 0.4);
+        let width = COLUMNS as f64 * CELL;
+        let at = |missing: &[(f64, f64)]| {
+            let source = StreakSource { missing: missing.to_vec(), spread: SPREAD, until: 1.0 };
+            streaks(&map, corner, &[source]).first().map(|streak| (streak.place, streak.band))
+        };
+        let is_at = |found: Option<(f64, f64)>, place: f64, cells: f64| {
+            found.is_some_and(|(at, band)| (at - place).abs() < 1e-12 && (band - cells * CELL).abs() < 1e-12)
+        };
+        assert!(is_at(at(&[(0.45, 1e-5), (0.46, 3e-5)]), 0.4575, 17.0));
+        // What one lacks and another has more of is between them.
+        assert!(is_at(at(&[(0.45, 1e-5), (0.47, -1e-5)]), 0.46, 24.0));
+        assert!(is_at(at(&[(corner, 1e-5)]), corner, 14.0));
+        assert!(is_at(at(&[(corner + width - 1e-4, 1e-5)]), corner + width - 1e-4, 14.0));
+        assert_eq!([at(&[(corner - 1e-4, 1e-5)]), at(&[(corner + width, 1e-5)])], [None, None]);
+        let few_rows =
+            Map { rows: BLOCKS - 1, cells: map.cells[..COLUMNS * (BLOCKS - 1)].to_vec(), ..map.clone() };
+        assert_eq!(streaks(&few_rows, corner, &[source(0.5, 1e-5, 1.0)]), []);
+        let empty = Map { cells: vec![0; map.cells.len()], ..map.clone() };
+        assert_eq!(streaks(&empty, corner, &[source(0.5, 1e-5, 1.0)]), []);
+    }
+
+    /// On a sheet that is closed across, a streak at its edge lacks its mass at the other edge too.
+    #[test]
+    fn analytic_a_streak_over_the_edges_of_a_closed_sheet() {
+        let [open, closed] = [false, true].map(|closed| Map { closed: [closed, false], ..map() });
+        let round = COLUMNS as f64 * CELL;
+        let of = |map: &Map, place: f64, ends: [f64; 2]| missing_between(&source(place, 2.0, 1.0), ends, map);
+        let half = libm::erf(7e-3 / (SQRT_2 * SPREAD));
+        assert!((of(&open, 0.0, [0.0, 7e-3]) - half).abs() < 1e-12);
+        for place in [0.0, round] {
+            assert!((of(&closed, place, [0.0, 7e-3]) - half).abs() < 1e-12);
+            assert!((of(&closed, place, [round - 7e-3, round]) - half).abs() < 1e-12);
+        }
+        // Bands near either edge are not taken for sampling error, of 19 the first two and the last two.
+        let near = |map: &Map| beside(&Bands::new(map), 0.0, 14, &[source(0.0, 1.0, 1.0)]).len();
+        assert_eq!([near(&open), near(&closed)], [17, 15]);
+    }
+}

@@ -310,6 +310,78 @@ fn stat_the_thinnest_places_are_the_lightest_of_all_places() {
     }
 }
 
+/// One patch of half the weight and one of three fifths, with the strips in which they lie.
+#[test]
+fn analytic_marks_lie_where_the_web_is_thin() {
+    let weight = |i: usize| match [i % 40 / 5, i / 40 / 5] {
+        [2, 3] => 0.5,
+        [7, 5] => 0.6,
+        _ => 1.0,
+    };
+    let sheet = map([40, 30], 1e-3, weight);
+    let corner = 0.02;
+    let marks = Marks::new(&sheet, corner, StripSize { width: 10e-3, length: 20e-3, section: 5e-3 });
+    let mean = (46.0 + 0.5 + 0.6) / 48.0;
+    let is_at = |marked: &Marked, at: [f64; 2], sides: [f64; 2], weight: f64| {
+        let found = [marked.corner[0], marked.corner[1], marked.sides[0], marked.sides[1], marked.weight];
+        let wanted = [corner + at[0], at[1], sides[0], sides[1], weight];
+        found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-9)
+    };
+    assert_eq!((marks.thin.len(), marks.thin_of_all, marks.strips.each_ref().map(Vec::len)), (2, 2, [4, 6]));
+    assert!(is_at(&marks.thin[0], [10e-3, 15e-3], [5e-3; 2], 0.5 / mean), "{:?}", marks.thin);
+    assert!(is_at(&marks.thin[1], [35e-3, 25e-3], [5e-3; 2], 0.6 / mean), "{:?}", marks.thin);
+    assert!((marks.thin[0].middle()[0] - 0.0325).abs() < 1e-12);
+    // Of the section half the cells are half as heavy: 0.75 of 3.75/4.
+    let along = marks.strips[0][1];
+    assert!(is_at(&along.weakest, [10e-3, 15e-3], [10e-3, 5e-3], 0.8), "{along:?}");
+    assert!(is_at(
+        &Marked { corner: along.corner, sides: along.sides, weight: 0.0 },
+        [10e-3, 0.0],
+        [10e-3, 20e-3],
+        0.0
+    ));
+    let across = marks.strips[1][2];
+    assert!(is_at(&across.weakest, [10e-3, 10e-3], [5e-3, 10e-3], 0.8), "{across:?}");
+    let behind = marks.strips[1][3];
+    assert!(is_at(
+        &Marked { corner: behind.corner, sides: behind.sides, weight: 0.0 },
+        [20e-3, 10e-3],
+        [20e-3, 10e-3],
+        0.0
+    ));
+}
+
+/// Sections that are lighter and heavier by turns, in strips that are all alike.
+#[test]
+fn analytic_the_sections_of_strips_that_are_alike() {
+    for side in [400, 800] {
+        let sheet = map([side, side], 1e-3, |i| if i / side / 5 % 2 == 0 { 0.9 } else { 1.1 });
+        let [md, cd] = strips(&sheet, STRIP, KNOWN).map(Option::unwrap);
+        assert!((md.sections.value() - 0.1 * f64::sqrt(40.0 / 39.0)).abs() < 1e-9, "{:?}", md.sections);
+        assert!((md.weakest.value() - 0.9).abs() < 1e-9 && cd.sections.value() < 1e-9);
+        assert!((md.size.length - 0.2).abs() < 1e-12 && (md.size.section - 5e-3).abs() < 1e-12);
+        // Of 16 strips nothing is known of the weakest 5 %.
+        assert_eq!(md.low.map(|low| (low.value() * 10.0).round()), (side == 800).then_some(9.0));
+    }
+    // Of two sections at least, side by side and as long as the sheet.
+    let one = map([50, 10], 1e-3, |_| 1.0);
+    let is_there = |length: f64, width: f64| {
+        strips(&one, StripSize { width, length, section: 5e-3 }, KNOWN).map(|strips| strips.is_some())
+    };
+    assert_eq!(is_there(10e-3, 10e-3), [true, true]);
+    assert_eq!(is_there(9e-3, 10e-3), [false, false]);
+    assert_eq!([is_there(15e-3, 10e-3), is_there(10e-3, 11e-3)], [[false, true], [true, false]]);
+}
+
+#[test]
+fn words_of_those_who_make_fabric_are_answered_in_any_spelling() {
+    for word in ["pinhole", " Pinholes", "pin-hole", "hydrohead"] {
+        assert_eq!(about(word), about("pore"), "{word}");
+    }
+    assert!(about("pore").is_some_and(|said| said.starts_with("Holes and hydrohead")));
+    assert_eq!([about("diameter"), about("s"), about("")], [None; 3]);
+}
+
 /// A web of normal cells with the streak of one blocked hole.
 fn streaked(random: &mut Random, depth: f64, noise: f64) -> (Map, [StreakSource; 1]) {
     let (cell, columns, spread) = (1e-3, 600, 9e-3);

@@ -69,4 +69,23 @@ mod tests {
         assert!((all.width - 1.0).abs() < 1e-9 && all.trim < 1e-9);
         assert_eq!(usable(&Map { closed: [true, false], ..web(|_| 1.0) }, [0.0, 1.0], 0.05), None);
     }
+
+    /// What is wanted is the mean of the middle half of the web, wherever the web lies on the sheet.
+    #[test]
+    fn analytic_the_width_of_a_web_that_lies_off_the_middle_of_its_sheet() {
+        let of_place = |place: f64| match place {
+            0.25..0.55 => 2.0,
+            0.1..0.7 => 2.6,
+            _ => 0.0,
+        };
+        let found = usable(&web(of_place), [0.1, 0.7], 0.05).unwrap();
+        // Of the 20 columns of a window, three at each end of the middle may be heavier by 30 %.
+        assert!((found.width - 0.306).abs() < 1e-9 && (found.trim - 0.49).abs() < 1e-9, "{found:?}");
+        // A heavy thread in the middle makes all of the rest too light.
+        let thread = |place: f64| if (place - 0.4005).abs() < 1e-9 { 100.0 } else { 1.0 };
+        assert_eq!(usable(&web(thread), [0.1, 0.7], 0.05), Some(Usable { width: 0.0, trim: 1.0 }));
+        // A web as narrow as a cell has a cell that is wanted.
+        let narrow = usable(&web(|_| 1.0), [0.5004, 0.5014], 0.05).unwrap();
+        assert!((narrow.width - 1e-3).abs() < 1e-12 && narrow.trim.abs() < 1e-9, "{narrow:?}");
+    }
 }

@@ -152,16 +152,17 @@ mod tests {
     #[test]
     fn larger_cells_hold_the_same_mass_and_a_part_is_a_part() {
         let cells = (0..12 * 8).map(|i| 1000 + (i * i) % 97).collect();
-        let map = Map { columns: 12, rows: 8, cell: 1.0, quantum: 1.0, closed: [true; 2], cells };
+        let map = Map { columns: 12, rows: 8, cell: 0.5, quantum: 1.0, closed: [true; 2], cells };
         for (cell, columns, rows) in [(2.0, 6, 4), (1.5, 8, 5), (1.0, 12, 8)] {
-            let large = map.in_cells(cell);
+            let large = map.in_cells(0.5 * cell);
             assert_eq!([large.columns, large.rows], [columns, rows], "{cell}");
+            assert!((large.total() as f64 / (columns * rows) as f64 / QUANTA - 1.0).abs() < 1e-6);
             let mass = |map: &Map, columns: usize, rows: usize| {
                 let row =
                     |row: usize| map.row(row)[..columns].iter().map(|cell| u64::from(*cell)).sum::<u64>();
                 (0..rows).map(row).sum::<u64>() as f64 * map.quantum
             };
-            // Three or six metres each way are whole cells of both.
+            // Three metres each way are whole cells of both.
             let whole = (6.0 / cell) as usize;
             let found = mass(&large, whole, whole) / mass(&map, 6, 6);
             assert!((found - 1.0).abs() < 1e-6, "{cell}: {found}");
@@ -169,5 +170,38 @@ mod tests {
         let part = map.part([3, 2], [4, 5]);
         assert_eq!(part.row(1), &map.row(3)[3..7]);
         assert_eq!((part.columns, part.rows, part.closed), (4, 5, [false; 2]));
+        let middle = map.between(3..7);
+        assert_eq!((middle.columns, middle.rows, middle.closed), (4, 8, [false, true]));
+        assert_eq!(middle.row(2), &map.row(2)[3..7]);
+        assert!(matches!(map.between(0..12), Cow::Borrowed(_)));
+        let empty = Map { cells: vec![0; 96], ..map }.in_cells(1.0);
+        assert_eq!((empty.total(), empty.quantum), (0, 1.0));
+    }
+
+    #[test]
+    fn analytic_sums_and_profiles_are_those_of_the_cells() {
+        let cells: Vec<u32> = (0..12 * 8).map(|i| 1000 + (i * i) % 97).collect();
+        let map = Map { columns: 12, rows: 8, cell: 2.0, quantum: 3.0, closed: [false; 2], cells };
+        let mean = |columns: Range<usize>, rows: Range<usize>| {
+            let count = (columns.len() * rows.len()) as f64;
+            let cells = rows.flat_map(|row| map.row(row)[columns.clone()].to_vec());
+            cells.map(f64::from).sum::<f64>() / count * 0.75
+        };
+        let are_same = |found: &[f64], wanted: &[f64]| {
+            found.len() == wanted.len() && found.iter().zip(wanted).all(|(a, b)| (a / b - 1.0).abs() < 1e-12)
+        };
+        let across: Vec<f64> = (0..12).map(|i| mean(i..i + 1, 0..8)).collect();
+        let along: Vec<f64> = (0..8).map(|i| mean(0..12, i..i + 1)).collect();
+        assert!(are_same(&map.profile_cd(), &across) && are_same(&map.profile_md(), &along));
+        assert!(are_same(&[map.basis_weight()], &[mean(0..12, 0..8)]));
+        let (sides, sums) = map.squares(3);
+        assert_eq!(sides, [4, 2]);
+        for (number, sum) in sums.iter().enumerate() {
+            let (column, row) = (3 * (number % 4), 3 * (number / 4));
+            assert!(
+                are_same(&[*sum as f64 / 9.0 * 0.75], &[mean(column..column + 3, row..row + 3)]),
+                "{number}"
+            );
+        }
     }
 }

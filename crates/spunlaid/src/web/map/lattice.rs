@@ -174,3 +174,128 @@ pub(crate) fn waves(numbers: &[f64], sides: [usize; 2], counts: [usize; 2]) -> V
         |wave: &[f64], i: usize| -> f64 { wave.iter().zip(&rows).map(|(cosine, row)| cosine * row[i]).sum() };
     along.chunks_exact(sides[1]).flat_map(|wave| (0..counts[0]).map(move |i| of(wave, i))).collect()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    const SIDES: [usize; 2] = [8, 7];
+
+    /// Numbers of which the waves have these strengths, by half waves across and along.
+    fn numbers(sides: [usize; 2], strength: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+        let wave = |k: usize, i: usize, side: usize| {
+            let norm = if k == 0 { 1.0 } else { 2f64.sqrt() };
+            norm * libm::cos(PI * k as f64 * (i as f64 + 0.5) / side as f64)
+        };
+        let at = |x: usize, y: usize| {
+            let of = |k: usize, l: usize| strength(k, l) * wave(k, x, sides[0]) * wave(l, y, sides[1]);
+            (0..sides[0]).flat_map(|k| (0..sides[1]).map(move |l| (k, l))).map(|(k, l)| of(k, l)).sum::<f64>()
+        };
+        (0..sides[0] * sides[1]).map(|i| at(i % sides[0], i / sides[0])).collect()
+    }
+
+    fn lattice(sides: [usize; 2], closed: [bool; 2], streaks: bool) -> Lattice {
+        Lattice { sides, chance: Chance { closed, streaks } }
+    }
+
+    #[test]
+    fn analytic_strengths_of_cosines_make_up_the_numbers() {
+        let strength = |k: usize, l: usize| (1 + k + 10 * l) as f64;
+        let numbers = numbers(SIDES, strength);
+        let found = waves(&numbers, SIDES, [3, 2]);
+        for (at, found) in found.iter().enumerate() {
+            assert!((found - strength(at % 3, at / 3)).abs() < 1e-11, "{at}: {found}");
+        }
+        let all: f64 = waves(&numbers, SIDES, SIDES).iter().map(|wave| wave * wave).sum();
+        let squares: f64 = numbers.iter().map(|number| number * number).sum();
+        assert!((all / (squares / 56.0) - 1.0).abs() < 1e-12 && found.len() == 6);
+    }
+
+    /// Of waves of strength c, up to four half waves either way, the one of infinite length has the same strength,
+    /// with as many degrees of freedom as there are waves.
+    #[test]
+    fn analytic_the_error_of_a_mean_is_the_strength_of_the_longest_waves() {
+        let c = 0.3;
+        let enlarged = |degrees: f64| student_t_95_at(degrees) / NORMAL_95;
+        let even = |k: usize, l: usize| if (k, l) == (0, 0) { 0.0 } else { c };
+        let streaky = |k: usize, l: usize| if l == 0 { 3.0 * even(k, l) } else { even(k, l) };
+        let barred = |k: usize, l: usize| streaky(l, k);
+        // Waves shorter than four half waves do not count.
+        let short = |k: usize, l: usize| if k > 4 || l > 4 { 9.0 } else { even(k, l) };
+        // Of nine times the power in four waves and that of the other twenty.
+        let strong = 81.0 / (64.0 / 4.0 + 1.0 / 20.0);
+        let strong_bars = 81.0 / (64.0 / 4.0 + 1.0 / 16.0);
+        for (strength, streaks, wanted) in [
+            (&even as &dyn Fn(usize, usize) -> f64, true, c * enlarged(24.0)),
+            (&short, true, c * enlarged(24.0)),
+            (&even, false, c * enlarged(20.0)),
+            (&streaky, true, 3.0 * c * enlarged(strong)),
+            (&streaky, false, c * enlarged(20.0)),
+            (&barred, true, 3.0 * c * enlarged(strong)),
+            (&barred, false, 3.0 * c * enlarged(strong_bars)),
+        ] {
+            let numbers = numbers(SIDES, strength);
+            let found = lattice(SIDES, [false; 2], streaks).error_of_mean(&numbers, &[]).unwrap();
+            assert!((found / wanted - 1.0).abs() < 1e-9, "{streaks}: {found} {wanted}");
+            let shifted: Vec<f64> = numbers.iter().map(|number| number + 5.0).collect();
+            let Known::Value(mean, Some(error)) = lattice(SIDES, [false; 2], streaks).mean(&shifted, &[])
+            else {
+                panic!("no error")
+            };
+            assert!((mean - 5.0).abs() < 1e-12 && (error / wanted - 1.0).abs() < 1e-9, "{mean} {error}");
+        }
+        // On a closed sheet what follows the weight has no wave of infinite length.
+        let (influence, weights) = (numbers(SIDES, even), numbers(SIDES, |k, l| 2.0 * even(k, l)));
+        let of =
+            |closed: [bool; 2]| lattice(SIDES, closed, true).error_of_mean(&influence, &weights).unwrap();
+        for (closed, wanted) in [
+            ([false, false], c * enlarged(24.0)),
+            ([true, false], c * enlarged(4.0)),
+            ([false, true], c * enlarged(4.0)),
+            ([true, true], 0.0),
+        ] {
+            assert!((of(closed) - wanted).abs() < 1e-9, "{closed:?}: {}", of(closed));
+        }
+    }
+
+    #[test]
+    fn a_map_of_few_parts_has_no_error() {
+        let even = |k: usize, l: usize| if (k, l) == (0, 0) { 0.0 } else { 1.0 };
+        for (sides, streaks, is_known) in [
+            ([1, 1], false, false),
+            ([1, 7], true, false),
+            ([1, 7], false, true),
+            ([2, 1], true, false),
+            ([3, 1], true, true),
+            ([2, 2], true, true),
+        ] {
+            let error = lattice(sides, [false; 2], streaks).error_of_mean(&numbers(sides, even), &[]);
+            assert_eq!(error.is_some(), is_known, "{sides:?} {streaks}: {error:?}");
+        }
+    }
+
+    /// The standard deviation of n − 1, and at least the error of so many independent numbers.
+    #[test]
+    fn analytic_the_cv_of_numbers_of_two_kinds() {
+        let two: Vec<f64> = (0..56).map(|i| if i % 2 == 0 { 9.0 } else { 11.0 }).collect();
+        let deviation = (56.0_f64 / 55.0).sqrt();
+        let Known::Value(cv, Some(error)) = lattice(SIDES, [false; 2], false).cv(&two, &[]) else {
+            panic!("no error")
+        };
+        assert!((cv - 0.1 * deviation).abs() < 1e-12, "{cv}");
+        let least = 0.1 * deviation / f64::sqrt(110.0);
+        assert!((least - 1e-12..1.5 * least).contains(&error), "{error} {least}");
+        // Columns that differ are few.
+        let Known::Value(_, Some(of_columns)) = lattice(SIDES, [false; 2], true).cv(&two, &[]) else {
+            panic!("no error")
+        };
+        // Between columns the variance is 8/7 of one: of its half, over the deviation, the root of 2/7.
+        let few = 0.1 * 0.5 / deviation * (8.0 / 7.0) * f64::sqrt(2.0 / 7.0);
+        assert!((of_columns / few - 1.0).abs() < 1e-9, "{of_columns} {few}");
+        assert_eq!(
+            lattice([1, 2], [false; 2], true).cv(&[1.0, 3.0], &[]),
+            Known::Value(0.5 * 2f64.sqrt(), None)
+        );
+    }
+}

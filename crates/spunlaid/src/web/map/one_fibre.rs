@@ -304,3 +304,53 @@ impl Fibres {
         SIGMAS * self.sigma_cd()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two fibres each has the other for the mean; one alone has itself.
+    #[test]
+    fn analytic_what_places_do_is_taken_out_with_the_mean_of_the_other_fibres() {
+        let fibre = |squares: f64, profile: &[f64]| Alone { squares, profile: profile.to_vec() };
+        let two = FibreSums {
+            fibres: vec![fibre(10.0, &[1.0, 2.0, 0.0]), fibre(20.0, &[0.0, 1.0, 3.0])],
+            rows: vec![0.5, 2.0],
+        };
+        let found = two.finish(4.0, 1);
+        assert_eq!(found.at_random.values, [2.5, 5.0]);
+        assert_eq!(found.at_places.values, [(10.0 - 0.5 * 2.0) / 4.0, (20.0 - 2.0 * 2.0) / 4.0]);
+        assert_eq!((found.profile, found.trace), (vec![0.5, 1.5, 1.5], 1));
+        let one = FibreSums { fibres: vec![fibre(10.0, &[1.0, 2.0, 0.0])], rows: vec![0.5] };
+        assert_eq!(one.finish(4.0, 1).at_places.values, [(10.0 - 0.5 * 5.0) / 4.0]);
+    }
+
+    /// A filament whose patches hold 1, 2 and 1 m, on ten columns: 0.4 m in the mean.
+    #[test]
+    fn analytic_the_mean_mass_across_a_sheet_is_that_of_the_profiles_side_by_side() {
+        let fibres = SingleFibres {
+            at_random: Estimate::default(),
+            at_places: Estimate::default(),
+            profile: vec![1.0, 2.0, 1.0],
+            profiles: vec![vec![2.0, 2.0, 1.0], vec![0.0, 2.0, 1.0]],
+            trace: 1,
+        };
+        let across = |place: f64, closed: bool| fibres.across(&[place], 10, closed, 4);
+        let wanted = |masses: &[(usize, f64)], columns: usize| {
+            let mass =
+                |column: usize| masses.iter().find(|(at, _)| *at == column).map_or(0.0, |(_, mass)| *mass);
+            (0..columns).map(|column| mass(column) / 0.4).collect::<Vec<_>>()
+        };
+        assert_eq!(across(5.5, true), wanted(&[(4, 1.0), (5, 2.0), (6, 1.0)], 10));
+        // A quarter of a column further on.
+        assert_eq!(across(5.75, true), wanted(&[(4, 0.75), (5, 1.75), (6, 1.25), (7, 0.25)], 10));
+        assert_eq!(across(0.5, true), wanted(&[(9, 1.0), (0, 2.0), (1, 1.0)], 10));
+        // Patches of four columns begin in seven of ten, and what lies beyond an edge is lost.
+        assert_eq!(across(0.5, false), wanted(&[(0, 2.0), (1, 1.0)], 7));
+        let both = fibres.across(&[5.5, 0.5], 10, true, 4);
+        assert_eq!(both[4], 1.0 / 0.8);
+        // Each fibre is one metre off in the first column of its profile, which lies in column 4.
+        let by: Vec<f64> = (0..10).map(f64::from).collect();
+        assert_eq!(fibres.moves(&[5.5], 10, true, &by), [4.0 / 0.4, -4.0 / 0.4]);
+    }
+}

@@ -296,4 +296,56 @@ mod tests {
             assert!((found.cos_squared.mean - 0.5 - 0.25 * share).abs() < 1e-6, "{share}: {found:?}");
         }
     }
+
+    /// Two layers of two filaments each, all of them straight.
+    #[test]
+    fn analytic_layers_count_by_their_mass_and_their_errors_are_independent() {
+        let angles = [[5.0, 65.0], [-35.0, 95.0]].map(|layer| layer.map(|angle: f64| angle.to_radians()));
+        let weights = [0.75, 0.25];
+        let samples: Vec<Sample> = angles
+            .iter()
+            .zip(weights)
+            .map(|(angles, weight)| {
+                let mut sample = Sample::new(2.0 * weight);
+                for (number, angle) in angles.iter().enumerate() {
+                    sample.filaments.push(vec![DirectionSums::default()]);
+                    // A piece without length has no direction.
+                    sample.add((number, 0), [0.0, 0.0]);
+                    sample.add((number, 0), [3.0 * libm::cos(*angle), 3.0 * libm::sin(*angle)]);
+                }
+                sample
+            })
+            .collect();
+        let found = Orientation::of(&samples, 1e-3);
+        // The mean over all of a function of the angle, and its error: of two values half of their difference.
+        let over_all = |of: &dyn Fn(f64) -> f64| {
+            let layer = |angles: &[f64; 2]| angles.map(of);
+            let layers = || angles.iter().map(layer).zip(weights);
+            let mean: f64 = layers().map(|([a, b], weight)| weight * 0.5 * (a + b)).sum();
+            let squares: f64 = layers().map(|([a, b], weight)| (weight * 0.5 * (a - b)).powi(2)).sum();
+            (mean, squares.sqrt())
+        };
+        let is_near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-12;
+        let (cos_squared, error) = over_all(&|angle| libm::cos(angle).powi(2));
+        assert!(is_near(found.cos_squared.mean, cos_squared));
+        assert!(is_near(found.cos_squared.standard_error.unwrap(), error), "{:?}", found.cos_squared);
+        let [first, second] = [0, 1].map(|i| {
+            weights[0] * libm::cos(angles[0][i]).powi(2) + weights[1] * libm::cos(angles[1][i]).powi(2)
+        });
+        assert!(is_near(found.cos_squared.values[0], first) && is_near(found.cos_squared.values[1], second));
+        let (ratio, of_ratio) = found.md_cd_ratio();
+        assert!(is_near(ratio, cos_squared / (1.0 - cos_squared)));
+        assert!(is_near(of_ratio.unwrap(), error / (1.0 - cos_squared).powi(2)));
+        let [md, cd] =
+            [libm::cos as fn(f64) -> f64, libm::sin].map(|of| over_all(&|angle| of(angle).powi(4)).0);
+        let difference = |angle: f64| (libm::cos(angle).powi(4) - md / cd * libm::sin(angle).powi(4)) / cd;
+        let (stiffness, of_stiffness) = found.stiffness_ratio;
+        assert!(is_near(stiffness, md / cd) && is_near(of_stiffness.unwrap(), over_all(&difference).1));
+        // Shares of the mass of 2, in classes of ten degrees.
+        let shares = [(0, 0.75), (6, 0.75), (32, 0.25), (9, 0.25)];
+        for (class, found) in found.directions.iter().enumerate() {
+            let wanted = shares.iter().find(|(number, _)| *number == class).map_or(0.0, |(_, share)| *share);
+            assert!((found - wanted).abs() < 1e-12, "{class}: {found}");
+        }
+    }
 }

@@ -211,3 +211,92 @@ fn add(sums: &mut [u64], row: &[u32]) {
         *sum += u64::from(*cell);
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::waves::Streaks;
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn map(sides: [usize; 2], closed: [bool; 2], weight: impl Fn(usize, usize) -> f64) -> Map {
+        let [columns, rows] = sides;
+        let cells = (0..columns * rows).map(|i| weight(i % columns, i / columns).round() as u32).collect();
+        Map { columns, rows, cell: 1e-3, quantum: 1e-9, closed, cells }
+    }
+
+    /// The sums over the cells of each patch, and the CV that follows from them.
+    #[test]
+    fn analytic_patches_are_the_sums_of_their_cells() {
+        for closed in [[true, true], [true, false], [false, true], [false, false]] {
+            let map = map([7, 5], closed, |x, y| (100 + x * x * 7 + y * 31 + x * y) as f64);
+            for side in 1..=5 {
+                let (places, mean) = places_of_patches(&map, side).unwrap();
+                assert_eq!(places, [0, 1].map(|i| if closed[i] { [7, 5][i] } else { [8, 6][i] - side }));
+                let sum = |x: usize, y: usize| {
+                    let row = |y: usize| (x..x + side).map(|x| u64::from(map.row(y % 5)[x % 7])).sum::<u64>();
+                    (y..y + side).map(row).sum::<u64>()
+                };
+                let (mut rows, mut within) = (0, Vec::new());
+                boxes(&map, side, places, |row, boxes| {
+                    assert_eq!(
+                        boxes,
+                        (0..places[0]).map(|x| sum(x, row)).collect::<Vec<_>>(),
+                        "{closed:?} {side}"
+                    );
+                    rows += 1;
+                });
+                assert_eq!(rows, places[1]);
+                assert!((mean - map.total() as f64 / 35.0 * (side * side) as f64).abs() < 1e-9);
+                (0..6 - side).for_each(|y| within.extend((0..8 - side).map(|x| sum(x, y) as f64)));
+                let mean = within.iter().sum::<f64>() / within.len() as f64;
+                let squares = within.iter().map(|sum| (sum / mean - 1.0).powi(2)).sum::<f64>();
+                let cv = (squares / within.len() as f64).sqrt();
+                assert!((cv_of_piece(&map, side).unwrap() - cv).abs() < 1e-9, "{side}");
+            }
+            for side in [0, 6] {
+                assert_eq!((places_of_patches(&map, side), cv_of_piece(&map, side)), (None, None));
+            }
+        }
+        let empty = map([7, 5], [true; 2], |_, _| 0.0);
+        assert_eq!((places_of_patches(&empty, 2), cv_of_piece(&empty, 2)), (None, None));
+    }
+
+    /// Half of a web is heavier by a fifth: up to its middle a tenth of the mass has crossed, as a triangle.
+    #[test]
+    fn analytic_the_mean_of_a_part_varies_with_what_crosses_its_edges() {
+        let heavier = |x: usize, _: usize| if x < 500 { 1200.0 } else { 800.0 };
+        let found = |closed, share, places: &Places| {
+            variance_of_mean(&map([1000, 4], closed, heavier), 1, share, places)
+        };
+        let crossed = 0.04 / 24.0;
+        let random = |variance_of_mean| Places::AtRandom(Streaks { variance_of_mean, powers: Vec::new() });
+        for (closed, share, places, wanted) in [
+            ([true, true], 0.5, Places::Unknown, 0.0),
+            ([false, true], 0.5, Places::Unknown, crossed),
+            ([false, true], 0.75, random(0.003), 0.25 * 0.003 + crossed - 0.001),
+            ([false, true], 1.5, random(0.003), crossed - 0.001),
+            ([false, true], 0.5, random(0.3), 0.15),
+        ] {
+            let found = found(closed, share, &places);
+            assert!((found - wanted).abs() < 1e-3 * crossed, "{closed:?} {places:?}: {found} {wanted}");
+        }
+        // The ends of a sheet cut its longest waves: each sense has 0.01 of the power, and the mean a quarter of both.
+        let along = map([64, 64], [true, false], |_, y| 1e6 * (1.0 + 0.2 * (PI * y as f64 / 32.0).cos()));
+        assert!((variance_of_mean(&along, 1, 0.5, &Places::Unknown) / 0.005 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn a_cv_of_few_waves_has_the_wider_interval_of_students_t() {
+        let known = Unevenness { patch: 0.01, cv: 0.2, standard_error: Some(0.04) };
+        assert!((known.degrees().unwrap() - 12.5).abs() < 1e-12);
+        let [usual, few] = [known.interval(), known.interval_of_few()].map(Option::unwrap);
+        assert_eq!(usual, interval_of_deviation(0.2, 0.04));
+        assert_eq!(few, interval_of_deviation_by(student_t_95_at(12.5), 0.2, 0.04));
+        assert!(few[0] < usual[0] && usual[1] < few[1]);
+        let unknown = Unevenness { standard_error: None, ..known };
+        assert_eq!((unknown.degrees(), unknown.interval(), unknown.interval_of_few()), (None, None, None));
+        // By ratio: 24 mm are nearer to 10 mm than 4 mm are.
+        assert_eq!(nearest_to_seen([1e-3, 4e-3, 24e-3, 50e-3].into_iter()), Some(2));
+    }
+}

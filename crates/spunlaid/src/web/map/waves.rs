@@ -270,4 +270,86 @@ mod tests {
             }
         }
     }
+
+    /// Waves of amplitude 1 with these numbers across and along, on 16 x 32.
+    fn waves(numbers: &[(i64, i64)]) -> Powers {
+        Powers::new(16, 32, 1, |row, column| {
+            let turns = |(across, along): &(i64, i64)| {
+                *across as f64 * column as f64 / 16.0 + *along as f64 * row as f64 / 32.0
+            };
+            numbers.iter().map(|wave| (2.0 * std::f64::consts::PI * turns(wave)).cos()).sum::<f64>()
+        })
+    }
+
+    /// Either sense of a wave of amplitude 1 has the power ¼.
+    #[test]
+    fn analytic_the_mean_continues_the_longest_waves() {
+        let of = |numbers: &[(i64, i64)]| {
+            [[true, true], [false, true], [true, false], [false, false]]
+                .map(|closed| waves(numbers).variance_of_mean(closed))
+        };
+        let is_near = |found: [f64; 4], wanted: [f64; 4]| {
+            found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-14)
+        };
+        assert!(is_near(of(&[(1, 0), (2, 0), (3, 0)]), [0.0, 0.25, 0.0, 0.25]));
+        assert!(is_near(of(&[(0, 1), (0, 3)]), [0.0, 0.0, 0.125, 0.125]));
+        assert!(is_near(of(&[(1, 0), (0, 1), (0, 2)]), [0.0, 0.125, 0.25, 0.25]));
+    }
+
+    /// One streak across the web, one wave that is nearly one, and one wave of any other kind.
+    #[test]
+    fn analytic_a_variance_divides_into_streaks_and_other_waves() {
+        let powers = waves(&[(1, 0), (1, 1), (3, 5)]);
+        let parts = |places: &Places, reach: i64, gain: f64| {
+            let mut parts = Parts::default();
+            powers.numbers().for_each(|wave| powers.add(wave, places, reach, gain, &mut parts));
+            parts
+        };
+        let is_near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-12;
+        let streaks = Streaks { variance_of_mean: 0.0, powers: vec![0.3] };
+        for (places, share) in [
+            // Two equal waves of each of the two kinds: ¼ of each over ½; four of the others.
+            (Places::Unknown, (0.25 + 1.0 / 3.0) / 2.25),
+            // Of the streak ¼ in each sense, and beside it half of ¼.
+            (Places::Fixed, (0.25 + 1.0 / 3.0) / 2.25),
+            (Places::AtRandom(streaks), (0.36 + 1.0 / 3.0) / (1.6 * 1.6)),
+        ] {
+            let found = parts(&places, 0, 1.0);
+            assert!(is_near(found.sum(), 1.5), "{places:?}: {}", found.sum());
+            assert!(is_near(found.share([false; 2]), share), "{places:?}: {}", found.share([false; 2]));
+            assert!(is_near(parts(&places, 0, 2.0).sum(), 3.0));
+            // A window that spreads a streak to the next waves along the web takes these to it.
+            assert!(is_near(parts(&places, 1, 1.0).sum(), 1.5));
+        }
+        assert!(is_near(parts(&Places::Unknown, 1, 1.0).streaks.powers, 1.0));
+    }
+
+    #[test]
+    fn analytic_windows_make_one_wave_of_two() {
+        let equal = WaveSums { powers: 8.0, squares: 8.0 };
+        // As eight equal waves, of which the mean is known from themselves.
+        let others = Parts { other_waves: equal, ..Parts::default() };
+        let both = Parts { streaks: equal, ..others };
+        for (open, of_others, of_both) in [
+            ([false, false], 1.0 / 7.0, 0.5 / 7.0),
+            ([true, false], HANN / 7.0, HANN * 0.5 / 7.0),
+            ([false, true], HANN / 7.0, 0.25 * (1.0 + HANN) / 7.0),
+            ([true, true], HANN * HANN / 7.0, HANN * 0.25 * (1.0 + HANN) / 7.0),
+        ] {
+            assert!((others.share(open) - of_others).abs() < 1e-14, "{open:?}");
+            assert!((both.share(open) - of_both).abs() < 1e-14, "{open:?}");
+        }
+        let known = Parts { expected: 8.0, expected_variance: 16.0, ..Parts::default() };
+        assert_eq!((known.share([false; 2]), Parts::default().share([true; 2])), (0.25, 0.0));
+    }
+
+    /// Over half a sheet the wave of one period keeps (2/π)² of its power, and that of two periods nothing.
+    #[test]
+    fn analytic_streaks_over_a_part_of_the_sheet() {
+        let streaks = Streaks { variance_of_mean: 0.7, powers: vec![1.0, 1.0] };
+        let half = streaks.over(0.5);
+        assert!((half.power(1) - 4.0 / std::f64::consts::PI.powi(2)).abs() < 1e-15 && half.power(2) < 1e-30);
+        assert_eq!((half.power(-1), half.variance_of_mean), (half.power(1), 0.7));
+        assert_eq!([streaks.power(0), streaks.power(3)], [0.0; 2]);
+    }
 }
