@@ -313,12 +313,12 @@ mod tests {
     }
 
     /// Changes with these effects on measure 0.
-    fn trials(changes: &[(Turned, f64)]) -> Trials<(), u8> {
+    fn trials(changes: &[(Turned, f64)]) -> Sensitivity<(), u8> {
         let outcomes = changes.iter().map(|(_, value)| Ok(vec![effect(*value)])).collect();
         let changes =
             changes.iter().enumerate().map(|(number, (turned, _))| change((number, *turned))).collect();
-        let trials = Trials::new(changes, |_| Ok(outcomes)).unwrap();
-        Trials { judged_by: Some(0), ..trials }
+        let trials = Sensitivity::new(changes, |_| Ok(outcomes)).unwrap();
+        Sensitivity { judged_by: Some(0), ..trials }
     }
 
     /// Two of the running line and one other, or three of a kind, if all are as good as the second best.

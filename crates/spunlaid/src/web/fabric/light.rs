@@ -127,7 +127,7 @@ mod tests {
         };
         let by_cv = 0.5 * (logarithm(cv + error) - logarithm(cv - error));
         for of_length in [0.0, 1e-5] {
-            let found = Unevenness { patch, cv, standard_error: Some(error) };
+            let found = PatchCv { patch, cv, standard_error: Some(error) };
             let found = bare_area(&[0.8, 1.2], length, of_length, diameter, &found);
             let share = 0.5 * (libm::exp(-0.8 * covered) + libm::exp(-1.2 * covered));
             let Known::Value(value, Some(error)) = found else { panic!("{found:?}") };

@@ -288,13 +288,13 @@ mod tests {
 
     #[test]
     fn a_cv_of_few_waves_has_the_wider_interval_of_students_t() {
-        let known = Unevenness { patch: 0.01, cv: 0.2, standard_error: Some(0.04) };
+        let known = PatchCv { patch: 0.01, cv: 0.2, standard_error: Some(0.04) };
         assert!((known.degrees().unwrap() - 12.5).abs() < 1e-12);
         let [usual, few] = [known.interval(), known.interval_of_few()].map(Option::unwrap);
         assert_eq!(usual, interval_of_deviation(0.2, 0.04));
         assert_eq!(few, interval_of_deviation_by(student_t_95_at(12.5), 0.2, 0.04));
         assert!(few[0] < usual[0] && usual[1] < few[1]);
-        let unknown = Unevenness { standard_error: None, ..known };
+        let unknown = PatchCv { standard_error: None, ..known };
         assert_eq!((unknown.degrees(), unknown.interval(), unknown.interval_of_few()), (None, None, None));
         // By ratio: 24 mm are nearer to 10 mm than 4 mm are.
         assert_eq!(nearest_to_seen([1e-3, 4e-3, 24e-3, 50e-3].into_iter()), Some(2));
