@@ -545,7 +545,7 @@ fn published_types_of_cells_of_vtk_are_read() {
     // Each point of a strip makes a triangle with the two before it.
     let (strip, _) = of_cells(&in_rows(0.0), &[(6, 4)]);
     assert_eq!(strip.describe(), Description::Mesh { points: 4, cells: 2 });
-    // Points, lines and faces beside cells with a volume are left out.
+    // Points, lines and faces next to cells with a volume are left out.
     let points = [cone(3), ring(3, 0.0)].concat();
     for (kind, count) in [(0, 0), (1, 1), (2, 3), (3, 2), (4, 3), (5, 3), (21, 3), (35, 3), (68, 3), (75, 3)]
     {

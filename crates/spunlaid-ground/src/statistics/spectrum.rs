@@ -262,14 +262,14 @@ mod tests {
                 (0..found.density.len()).max_by(|a, b| found.density[*a].total_cmp(&found.density[*b]));
             assert_eq!(peak.map(|p| found.frequency(p)), Some(0.25));
             assert_eq!(found.highest(), 2.0);
-            // The transform of a window a + b cos is a at its line and b/2 beside it.
-            let beside = match window {
+            // The transform of a window a + b cos is a at its line and b/2 next to it.
+            let next = match window {
                 Window::Hann => 0.5,
                 Window::Hamming => 0.23 / 0.54,
                 Window::Rectangular => 0.0,
             };
             let ratio = peak.map(|p| found.density[p + 1] / found.density[p]);
-            assert!((ratio.unwrap_or(f64::NAN) - beside * beside).abs() < 1e-12, "{window:?}: {ratio:?}");
+            assert!((ratio.unwrap_or(f64::NAN) - next * next).abs() < 1e-12, "{window:?}: {ratio:?}");
         }
     }
 

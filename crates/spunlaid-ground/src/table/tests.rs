@@ -268,7 +268,7 @@ fn headers_are_compared_with_names_and_give_factors_to_si() {
     }
 }
 
-/// Rows of numbers and words are the last of the longest lists of lines that look alike; a missing number looks like any.
+/// The longest list of lines that look alike holds the rows; a missing number looks like any other cell.
 #[test]
 fn rows_with_words_are_the_longest_list_of_lines_that_look_alike() {
     for (above, rows) in [

@@ -104,7 +104,7 @@ mod tests {
         }
     }
 
-    /// The series and the formula have 3/2 x² beside them where they meet; at nothing they are τ²d².
+    /// The next term of the series is 3/2 x². In a uniform web the growth is τ²d².
     #[test]
     fn order_the_growth_close_to_a_uniform_web() {
         for (x, within) in [(1e-9, 1e-12), (0.999e-3, 2e-6), (1.001e-3, 1e-8)] {

@@ -286,7 +286,7 @@ mod tests {
         assert!((cv - 0.1 * deviation).abs() < 1e-12, "{cv}");
         let least = 0.1 * deviation / f64::sqrt(110.0);
         assert!((least - 1e-12..1.5 * least).contains(&error), "{error} {least}");
-        // Columns that differ are few.
+        // Few columns differ.
         let Known::Value(_, Some(of_columns)) = lattice(SIDES, [false; 2], true).cv(&two, &[]) else {
             panic!("no error")
         };

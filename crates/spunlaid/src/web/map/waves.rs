@@ -310,7 +310,7 @@ mod tests {
         for (places, share) in [
             // Two equal waves of each of the two kinds: ¼ of each over ½; four of the others.
             (Places::Unknown, (0.25 + 1.0 / 3.0) / 2.25),
-            // Of the streak ¼ in each sense, and beside it half of ¼.
+            // The streak has ¼ in each sense, and the waves next to it have half of ¼.
             (Places::Fixed, (0.25 + 1.0 / 3.0) / 2.25),
             (Places::AtRandom(streaks), (0.36 + 1.0 / 3.0) / (1.6 * 1.6)),
         ] {
