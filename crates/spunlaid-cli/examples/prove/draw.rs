@@ -32,7 +32,7 @@ pub struct Base {
 
 /// Small enough for some tenths of a second each, and some seconds where filaments fly. `CASES` stands for the folder
 /// of the cases.
-pub const BASES: [Base; 10] = [
+pub const BASES: [Base; 11] = [
     base("fixed", "run", include_str!("fixed.toml"), OF_FIBRES, 3.0),
     base("field", "run", include_str!("field.toml"), OF_FIBRES, 1.0),
     base("record", "run", include_str!("record.toml"), OF_FIBRES, 1.0),
@@ -44,14 +44,21 @@ pub const BASES: [Base; 10] = [
         "web",
         include_str!("simulated.toml"),
         &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
-        0.7,
+        1.5,
     ),
     base(
         "places",
         "web",
         include_str!("places.toml"),
         &["fibre", "air", "drag", "belt", "web", "fabric"],
-        0.4,
+        1.5,
+    ),
+    base(
+        "in_field",
+        "web",
+        include_str!("in_field.toml"),
+        &["fibre", "air", "drag", "belt", "line", "web", "fabric"],
+        0.7,
     ),
     base("spinline", "spin", include_str!("spinline.toml"), OF_LINES, 2.0),
     base("yarn", "spin", include_str!("yarn.toml"), OF_LINES, 2.0),

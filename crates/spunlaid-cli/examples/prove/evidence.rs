@@ -5,18 +5,39 @@
 //! standard normal. By Ville's inequality it exceeds 1/α once, however long one looks and whenever one stops, with a
 //! probability of at most α: Ramdas et al., Statistical Science 38 (2023) 576.
 
+use std::fmt;
+
 /// How errors can be wrong.
 pub struct Wrong {
     /// Shifts and widths of the scores that they make.
     alternatives: &'static [(f64, f64)],
     /// An error counts as wrong only if it is so by more than this factor.
     tolerance: f64,
+    /// A score beyond this counts as this one.
+    largest: f64,
+    /// The evidence at which a number is reported: the inverse of the probability that a right one ever reaches it.
+    pub reported: f64,
 }
 
-/// Errors that are too small.
-pub static TOO_SMALL: Wrong = Wrong { alternatives: &SHIFTED_OR_WIDER, tolerance: 1.5 };
-/// Errors that are too large.
-pub static TOO_LARGE: Wrong = Wrong { alternatives: &[(0.0, 0.25), (0.0, 0.06)], tolerance: 0.25 };
+/// The errors of an input that are too small. There are some 10⁷ numbers of inputs in ten hours of a processor, so that
+/// there is a false one in ten such runs.
+pub static TOO_SMALL: Wrong =
+    Wrong { alternatives: &SHIFTED_OR_WIDER, tolerance: 1.5, largest: f64::INFINITY, reported: 1e8 };
+/// The errors of an input that are too large.
+pub static TOO_LARGE: Wrong = Wrong {
+    alternatives: &[(0.0, 0.25), (0.0, 0.06)],
+    tolerance: 0.25,
+    largest: f64::INFINITY,
+    reported: 1e8,
+};
+/// The errors of a number in all inputs of a kind together. One input with a large deviation says nothing of all, and is
+/// looked at by itself. There are some 10⁴ such numbers.
+pub static TOO_SMALL_IN_ALL: Wrong = Wrong {
+    alternatives: &[(0.0, 1.3), (0.0, 1.6), (0.0, 2.0)],
+    tolerance: 1.25,
+    largest: 3.0,
+    reported: 1e6,
+};
 
 const SHIFTED_OR_WIDER: [(f64, f64); 10] = [
     (0.5, 1.0),
@@ -40,9 +61,6 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// The evidence at which a number is reported. There are some 10⁷ numbers of inputs in ten hours of a processor, so
-    /// that there is a false one in ten such runs.
-    pub const REPORTED: f64 = 1e8;
     /// Below this nothing is suspected.
     pub const SUSPECTED: f64 = 4.0;
 
@@ -53,15 +71,26 @@ impl Evidence {
     /// Takes a deviation, in units of its error, and the degrees of freedom of that error.
     pub fn take(&mut self, deviation: f64, degrees: f64) {
         let score = normal_score(deviation / self.wrong.tolerance, degrees);
+        let score = score.clamp(-self.wrong.largest, self.wrong.largest);
         for (logarithm, (shift, width)) in self.logarithms.iter_mut().zip(self.wrong.alternatives) {
             *logarithm += 0.5 * (score * score - ((score - shift) / width).powi(2)) - width.ln();
         }
         self.observations += 1;
     }
 
+    pub fn is_enough(&self) -> bool {
+        self.value() > self.wrong.reported
+    }
+
     /// By how much the observations are likelier if the error is wrong.
     pub fn value(&self) -> f64 {
         self.logarithms.iter().map(|logarithm| logarithm.exp()).sum::<f64>() / self.logarithms.len() as f64
+    }
+}
+
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.0e} of {} observations", self.value(), self.observations)
     }
 }
 
@@ -91,12 +120,13 @@ impl Claims {
 
     /// Whether there are too many false ones, by the likelihood of several larger shares.
     pub fn are_wrong(&self) -> bool {
+        const REPORTED: f64 = 1e8;
         /// Shares of wrong claims.
         const SHARES: [f64; 4] = [0.2, 0.4, 0.7, 0.99];
         let usual = 0.05 * Self::TOLERANCE;
         let (wrong, right) = (self.false_ones as f64, (self.all - self.false_ones) as f64);
         let likelihood =
             |share: f64| (wrong * (share / usual).ln() + right * ((1.0 - share) / (1.0 - usual)).ln()).exp();
-        SHARES.map(likelihood).iter().sum::<f64>() / SHARES.len() as f64 > Evidence::REPORTED
+        SHARES.map(likelihood).iter().sum::<f64>() / SHARES.len() as f64 > REPORTED
     }
 }

@@ -7,7 +7,8 @@
 //! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
 //!
 //! `--keys` says which keys are drawn, `--draw N` repeats one draw, `--first` stops at the first finding,
-//! `--threads` is the number of inputs at a time.
+//! `--threads` is the number of inputs at a time. `--python PYTHON` is one that has the packages spunlaid and polars: the
+//! relation `python` is held with it.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 
@@ -19,9 +20,9 @@ mod program;
 mod relations;
 
 use draw::{BASES, Base, Drawn, Random, drawn_keys};
-use evidence::Claims;
+use evidence::{Claims, Evidence, TOO_SMALL_IN_ALL};
 use program::{Program, Said};
-use relations::{Outcome, RELATIONS, Relation};
+use relations::{Deviation, Outcome, PYTHON, RELATIONS, Relation};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -54,6 +55,8 @@ struct Found {
     draws: u64,
     tallies: BTreeMap<(&'static str, &'static str), Tally>,
     claims: BTreeMap<String, Claims>,
+    /// Against the errors of a number in all inputs of a kind, by relation, input and number.
+    evidence: BTreeMap<String, Evidence>,
     /// What has been printed: of each relation, input and number the first one.
     printed: BTreeSet<String>,
 }
@@ -68,8 +71,11 @@ fn main() {
     let word_after = |name: &str| Some(&words[words.iter().position(|word| word == name)? + 1]);
     let number = |name: &str| word_after(name).map(|word| word.parse::<f64>().expect("a number"));
     let is_asked = |name: &str, of: &str| word_after(name).is_none_or(|word| word == of);
-    let relations: Vec<&Relation> =
-        RELATIONS.iter().filter(|relation| is_asked("--only", relation.name)).collect();
+    let python = word_after("--python").map_or("", String::as_str);
+    let is_held = |relation: &&Relation| {
+        is_asked("--only", relation.name) && (relation.name != PYTHON || !python.is_empty())
+    };
+    let relations: Vec<&Relation> = RELATIONS.iter().filter(is_held).collect();
     let has_relation =
         |base: &&'static Base| relations.iter().any(|relation| relation.applies(&base.unchanged()));
     let search = Search {
@@ -89,7 +95,7 @@ fn main() {
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                let program = Program::new();
+                let program = Program::new(python);
                 while begun.elapsed() < search.most && !search.is_over(&found) {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     match search.draw {
@@ -164,6 +170,22 @@ impl Found {
         tally.seconds += seconds;
         match outcome {
             Outcome::Holds => tally.held += 1,
+            Outcome::Deviations(deviations) => {
+                tally.held += 1;
+                for Deviation { name: (number, of), of: deviation, degrees, .. } in deviations {
+                    let name = format!("{relation}, {base}: {number} {of}");
+                    let evidence =
+                        self.evidence.entry(name.clone()).or_insert_with(|| Evidence::new(&TOO_SMALL_IN_ALL));
+                    evidence.take(*deviation, *degrees);
+                    if evidence.is_enough() && self.printed.insert(name.clone()) {
+                        println!(
+                            "\nFINDING: after {} draws the errors of all inputs together are too small: {name} \
+                             (evidence {evidence})",
+                            self.draws
+                        );
+                    }
+                }
+            }
             Outcome::Refused => tally.refused += 1,
             Outcome::Broken(_) => tally.broken += 1,
             Outcome::Claims(claims) => {
@@ -195,12 +217,16 @@ impl Found {
         let all: u64 = self.claims.values().map(|claims| claims.all).sum();
         let false_ones: u64 = self.claims.values().map(|claims| claims.false_ones).sum();
         println!("claims that something has changed where nothing has: {false_ones} of {all}");
+        let largest = self.evidence.iter().max_by(|(_, a), (_, b)| a.value().total_cmp(&b.value()));
+        if let Some((name, evidence)) = largest {
+            println!("largest evidence against errors of all inputs together: {evidence} against {name}");
+        }
         self.is_broken() || !wrong.is_empty()
     }
 
-    /// Whether some relation does not hold of some input.
+    /// Whether some relation does not hold of some input, or of all.
     fn is_broken(&self) -> bool {
-        self.tallies.values().any(|tally| tally.broken > 0)
+        self.tallies.values().any(|tally| tally.broken > 0) || self.evidence.values().any(Evidence::is_enough)
     }
 }
 

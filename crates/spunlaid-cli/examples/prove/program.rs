@@ -4,12 +4,14 @@ use super::draw::{Change, Drawn};
 use super::numbers::{Numbers, numbers};
 use serde_json::Value as Json;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
 /// The program and a folder of its own.
 pub struct Program {
     path: PathBuf,
+    /// A Python that has the package `spunlaid`; empty without one.
+    python: String,
     desk: tempfile::TempDir,
 }
 
@@ -40,11 +42,12 @@ impl Said {
 }
 
 impl Program {
-    pub fn new() -> Self {
+    /// * `python` – a Python that has the package `spunlaid`, or an empty text
+    pub fn new(python: &str) -> Self {
         let own = std::env::current_exe().expect("a path");
         let path = own.ancestors().nth(2).expect("a folder").join("spunlaid");
         assert!(path.exists(), "{} is not there; release/prove builds it", path.display());
-        Self { path, desk: tempfile::tempdir().expect("a folder") }
+        Self { path, python: python.to_owned(), desk: tempfile::tempdir().expect("a folder") }
     }
 
     /// Where files of this program are.
@@ -61,9 +64,37 @@ impl Program {
 
     /// Computes an input, with further arguments.
     pub fn computed(&self, drawn: &Drawn, more: &[&str]) -> Said {
+        self.computed_as(drawn.base.command, drawn, more)
+    }
+
+    /// Computes an input by another command than its own.
+    pub fn computed_as(&self, command: &str, drawn: &Drawn, more: &[&str]) -> Said {
         let set = drawn.changes.iter().map(|Change { key, value }| format!("--set={key}={value}"));
         let more = more.iter().map(|word| (*word).to_owned()).chain(set).collect::<Vec<_>>();
-        self.computed_text(drawn.base.command, &with_folder(drawn.base.text), &more)
+        self.computed_text(command, &with_folder(drawn.base.text), &more)
+    }
+
+    /// What the terminal shows of an input; none if it has no results.
+    pub fn printed(&self, drawn: &Drawn, more: &str) -> Option<String> {
+        std::fs::write(self.place("input.toml"), with_folder(drawn.base.text)).expect("a file");
+        let set = drawn.changes.iter().map(|Change { key, value }| format!("--set={key}={value}"));
+        let mut command = Command::new(&self.path);
+        command.args([drawn.base.command, "input.toml", more]).args(set).current_dir(self.desk.path());
+        if drawn.base.command == "web" {
+            command.arg("--no-advice");
+        }
+        let output = command.output().expect("the program");
+        output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+    }
+
+    /// What `same.py` finds of an input, of which there is a folder.
+    pub fn computed_by_python(&self, drawn: &Drawn, folder: &str) -> Said {
+        std::fs::write(self.place("input.toml"), with_folder(drawn.base.text)).expect("a file");
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/prove/same.py");
+        let set = drawn.changes.iter().map(|Change { key, value }| format!("{key}={value}"));
+        let mut command = Command::new(&self.python);
+        command.arg(script).args([drawn.base.command, "input.toml", folder]).args(set);
+        read(&command.current_dir(self.desk.path()).output().expect("Python"))
     }
 
     /// The numbers of an input that have an error; none if it has no results.
@@ -79,18 +110,7 @@ impl Program {
 
     /// Computes a file.
     pub fn computed_file(&self, command: &str, file: &str, more: &[String]) -> Said {
-        let output = self.command(command).arg(file).args(more).output().expect("the program");
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        match output.status.code() {
-            Some(0) => match serde_json::from_slice(&output.stdout) {
-                Ok(results) => Said::Results(results),
-                Err(error) => Said::Failed(format!("prints no JSON: {error}")),
-            },
-            Some(1) => Said::Refused(said),
-            // Fibres that are lost are reported, and the input is left out here.
-            Some(2) if said.contains("lost") || said.contains("diverge") => Said::Refused(said),
-            code => Said::Failed(format!("exit code {code:?}: {said}")),
-        }
+        read(&self.command(command).arg(file).args(more).output().expect("the program"))
     }
 
     /// Computes an input of which results are kept, and kills the program after a while.
@@ -110,7 +130,7 @@ impl Program {
         if name != "compare" {
             command.arg("--quiet");
         }
-        if ["run", "web", "spin", "sweep", "compare"].contains(&name) {
+        if ["run", "web", "spin", "air", "sweep", "compare"].contains(&name) {
             command.arg("--json");
         }
         if name == "web" {
@@ -124,6 +144,20 @@ impl Program {
     pub fn compared(&self, one: &str, other: &str) -> Option<Json> {
         let output = self.command("compare").args([one, other]).output().expect("the program");
         serde_json::from_slice(&output.stdout).ok()
+    }
+}
+
+fn read(output: &Output) -> Said {
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    match output.status.code() {
+        Some(0) => match serde_json::from_slice(&output.stdout) {
+            Ok(results) => Said::Results(results),
+            Err(error) => Said::Failed(format!("prints no JSON: {error}")),
+        },
+        Some(1) => Said::Refused(said),
+        // Fibres that are lost are reported, and the input is left out here.
+        Some(2) if said.contains("lost") || said.contains("diverge") => Said::Refused(said),
+        code => Said::Failed(format!("exit code {code:?}: {said}")),
     }
 }
 

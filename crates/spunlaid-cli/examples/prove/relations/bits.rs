@@ -99,6 +99,19 @@ pub fn files(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     }
 }
 
+/// One value: the Python package has the numbers of the program, and its arrays are the columns of the files.
+pub fn python(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
+    program.new_place("filed");
+    let Said::Results(_) = program.computed(drawn, &["--out=filed"]) else { return Outcome::Refused };
+    match program.computed_by_python(drawn, "filed") {
+        Said::Results(found) => match found["differing"].as_array().and_then(|all| all.first()) {
+            Some(words) => Outcome::Broken(format!("in Python {words}")),
+            None => same(results, Said::Results(found["summary"].clone()), "in Python"),
+        },
+        Said::Refused(words) | Said::Failed(words) => Outcome::Broken(format!("in Python: {words}")),
+    }
+}
+
 /// The text of a study of a value of a key, beside the case in which the others are written.
 fn study_of(program: &Program, drawn: &Drawn, replicates: usize) -> Option<(String, Change)> {
     let change = drawn.changes.iter().find(|change| change.value.contains(' '))?;

@@ -1,10 +1,11 @@
 //! What goes in comes out, and numbers lie where such numbers can lie.
 
+use super::errors::{pairs, with_seed};
 use super::{Outcome, leaves};
-use crate::draw::Drawn;
+use crate::draw::{Change, Drawn};
 use crate::lines::Lines;
-use crate::numbers::{Reported, numbers};
-use crate::program::Program;
+use crate::numbers::{Name, Numbers, Reported, numbers};
+use crate::program::{Program, Said};
 use serde_json::Value as Json;
 use spunlaid::ground::Dimension;
 use std::collections::BTreeMap;
@@ -123,4 +124,53 @@ pub fn end_of_a_line(_: &Program, drawn: &Drawn, results: &Json) -> Outcome {
             Outcome::Broken(format!("the filament ends at {found} m/s, and the godet draws at {wanted} m/s"))
         }
     }
+}
+
+/// What the air of a line loses is what its filaments feel: the drag on them is their change of momentum, that in the
+/// cells of a field is all of it, and a web of the same filaments says the same of its air.
+pub fn momentum_of_the_air(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
+    const ALONG: &str = "force_along_n_per_m";
+    // The web of the same seed has other turbulence, because its filaments are in one air.
+    let sources = |number: u64| {
+        let seeded = with_seed(drawn, number).with(&[Change::new("run.replicates", "8")]);
+        program.computed_as("air", &seeded, &["--sources"])
+    };
+    let own = match sources(0) {
+        Said::Results(own) => own,
+        Said::Refused(_) => return Outcome::Refused,
+        Said::Failed(words) => return Outcome::Broken(words),
+    };
+    let mean = |number: &Json| number["mean"].as_f64().unwrap_or(f64::NAN);
+    let (along, outside) = (mean(&own[ALONG]), mean(&own["outside_n_per_m"]));
+    let axes: Vec<f64> = own["force_n_per_m"].as_array().into_iter().flatten().map(mean).collect();
+    let is_whole = |axis: &f64| (axis.abs() - (along - outside).abs()).abs() <= 1e-9 * along.abs();
+    if !axes.iter().any(is_whole) {
+        return Outcome::Broken(format!(
+            "the force on all cells is {axes:?} N/m, that along the way {along} and outside of them {outside} N/m"
+        ));
+    }
+    let name = |what: &str| -> Name { (what.to_owned(), String::new()) };
+    pairs(
+        "of the same filaments",
+        |_| true,
+        |number| {
+            let sources = numbers(&sources(number).results()?);
+            let web = program.numbers(&with_seed(drawn, number))?;
+            let place = |((_, of), _): &(&Name, &Reported)| {
+                of.rsplit(' ').next().and_then(|of| of.parse::<u32>().ok())
+            };
+            let is_force = |((name, _), _): &(&Name, &Reported)| name.ends_with("places.force_n_per_m");
+            let at_belt = web.iter().filter(is_force).max_by_key(place);
+            let of = |what: &str| sources.get(&name(what)).cloned();
+            let ours = [("drag", of("above_belt_n_per_m")), ("force on the air", of(ALONG))];
+            let others = [
+                ("drag", of("by_momentum_n_per_m")),
+                ("force on the air", at_belt.map(|(_, own)| own.clone())),
+            ];
+            let known = |pairs: [(&str, Option<Reported>); 2]| -> Numbers {
+                pairs.into_iter().filter_map(|(what, own)| Some((name(what), own?))).collect()
+            };
+            Some((known(ours), known(others)))
+        },
+    )
 }

@@ -17,10 +17,10 @@ const FIRST: u64 = 2;
 const OF_SIZE: [&str; 3] = ["fibre_length", "layers.", "neighbours."];
 
 /// A deviation of a number in units of its error, and the degrees of freedom of that error.
-struct Deviation {
-    name: Name,
-    of: f64,
-    degrees: f64,
+pub struct Deviation {
+    pub name: Name,
+    pub of: f64,
+    pub degrees: f64,
     words: String,
 }
 
@@ -40,19 +40,21 @@ pub(super) fn with_seed(drawn: &Drawn, number: u64) -> Drawn {
 /// Looks at one set of deviations after the other until none is suspicious, or one is surely too large.
 fn sequential(wrong: &'static Wrong, mut next: impl FnMut(u64) -> Option<Vec<Deviation>>) -> Outcome {
     let mut all: BTreeMap<Name, (Evidence, Vec<String>)> = BTreeMap::new();
+    let mut seen = Vec::new();
     for number in 0..MOST {
         let Some(deviations) = next(number) else { return Outcome::Refused };
         for deviation in deviations {
             let (evidence, words) =
-                all.entry(deviation.name).or_insert_with(|| (Evidence::new(wrong), Vec::new()));
+                all.entry(deviation.name.clone()).or_insert_with(|| (Evidence::new(wrong), Vec::new()));
             evidence.take(deviation.of, deviation.degrees);
-            words.push(deviation.words);
+            words.push(deviation.words.clone());
+            seen.push(deviation);
         }
         let value = |entry: &(&Name, &(Evidence, Vec<String>))| entry.1.0.value();
         let worst = all.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
         let of_worst = worst.as_ref().map_or(0.0, value);
         if let Some((name, (evidence, words))) = worst
-            && of_worst > Evidence::REPORTED
+            && evidence.is_enough()
         {
             return Outcome::Broken(format!(
                 "{} {} is off by too many or too few of its errors (evidence {of_worst:.0e}, {} observations):\n{}",
@@ -63,10 +65,10 @@ fn sequential(wrong: &'static Wrong, mut next: impl FnMut(u64) -> Option<Vec<Dev
             ));
         }
         if number + 1 >= FIRST && of_worst < Evidence::SUSPECTED {
-            return Outcome::Holds;
+            break;
         }
     }
-    Outcome::Holds
+    Outcome::Deviations(seen)
 }
 
 /// Another seed gives the same numbers within their errors: each beside the mean of those before.
@@ -77,7 +79,10 @@ pub fn seeds(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
 /// Numbers of other seeds are not much closer together than their errors say. That is so only where no error is one
 /// that all seeds have, like that of a mesh.
 pub fn errors_not_too_large(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
-    other_seeds(&TOO_LARGE, program, drawn, results)
+    match other_seeds(&TOO_LARGE, program, drawn, results) {
+        Outcome::Deviations(_) => Outcome::Holds,
+        outcome => outcome,
+    }
 }
 
 fn other_seeds(wrong: &'static Wrong, program: &Program, drawn: &Drawn, results: &Json) -> Outcome {

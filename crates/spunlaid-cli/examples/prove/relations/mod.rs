@@ -5,9 +5,11 @@ mod bits;
 mod budgets;
 mod errors;
 mod limits;
+mod printed;
 
 use super::draw::Drawn;
 use super::program::{Program, Said};
+pub use errors::Deviation;
 use serde_json::Value as Json;
 use std::collections::BTreeMap;
 
@@ -24,6 +26,8 @@ pub struct Relation {
 /// What became of a relation.
 pub enum Outcome {
     Holds,
+    /// It holds, with deviations that may be too large only in all inputs together.
+    Deviations(Vec<Deviation>),
     /// The program does not compute such an input.
     Refused,
     /// It does not hold: expected and got, in words.
@@ -41,12 +45,16 @@ const fn row(
     Relation { name, inputs, share, check }
 }
 
+/// The relation that needs a Python with the package `spunlaid`.
+pub const PYTHON: &str = "python";
+
 /// One row for each relation.
-pub const RELATIONS: [Relation; 34] = [
+pub const RELATIONS: [Relation; 37] = [
     row("bounds", any, 1.0, budgets::bounds),
     row("mass of a web", is_known_web, 1.0, budgets::mass_of_a_web),
     row("mass of a line", is_line, 1.0, budgets::mass_of_a_line),
     row("end of a line", is_line, 1.0, budgets::end_of_a_line),
+    row("momentum of air", is_web_in_field, 1.0, budgets::momentum_of_the_air),
     row("threads", any, 0.3, bits::threads),
     row("in the file", any, 0.3, bits::in_the_file),
     row("units", any, 0.3, bits::units),
@@ -54,6 +62,8 @@ pub const RELATIONS: [Relation; 34] = [
     row("defaults", any, 1.0, bits::defaults),
     row("read again", any, 0.3, bits::read_again),
     row("files", any, 0.3, bits::files),
+    row("printed", any, 0.3, printed::printed),
+    row(PYTHON, any, 0.3, bits::python),
     row("study", is_run, 0.3, bits::study),
     row("resumed", is_run, 0.2, bits::resumed),
     row("similarity", is_run, 0.5, limits::similarity),
@@ -131,6 +141,10 @@ fn has_layers(drawn: &Drawn) -> bool {
 
 fn flies_in_one_air(drawn: &Drawn) -> bool {
     drawn.base.flies_in_one_air()
+}
+
+fn is_web_in_field(drawn: &Drawn) -> bool {
+    drawn.base.name == "in_field"
 }
 
 fn has_seed(drawn: &Drawn) -> bool {
