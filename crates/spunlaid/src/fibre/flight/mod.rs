@@ -272,28 +272,20 @@ impl Flight {
         self.air.felt(element, step)
     }
 
-    /// Drag on each element in the last step [N], with zeros for elements that were born after it; none with a
-    /// scheme that does not tell it.
-    pub(crate) fn drag_of_last_step(&self) -> Vec<Vec3<Lanes>> {
-        let born = self.chain.laying.as_ref().map_or(0, |laying| laying.born(self.steps_done));
-        self.drag_of_elements(self.chain.elements(), born)
-    }
-
     /// Drag on each element in the last step [N]; none with a scheme that does not tell it.
     ///
     /// * `count` – number of elements
-    /// * `born` – how many of them were born after that step, of which nothing is known yet
-    fn drag_of_elements(&self, count: usize, born: usize) -> Vec<Vec3<Lanes>> {
+    fn drag_of_elements(&self, count: usize) -> Vec<Vec3<Lanes>> {
         if self.scheme != Scheme::ImplicitTension {
             return Vec::new();
         }
         // A node has half of the drag of each element beside it, and the root that of the first one.
         let mut half = Vec3::ZERO;
-        let below = (0..count.saturating_sub(born)).map(|node| {
+        let of_element = |node| {
             half = self.chain.tensions.drag(node) - half;
             half + half
-        });
-        std::iter::repeat_n(Vec3::ZERO, born).chain(below).collect()
+        };
+        (0..count).map(of_element).collect()
     }
 
     /// Share of the time that the elements of the fibre in a lane have spent outside the given flow. `None` in

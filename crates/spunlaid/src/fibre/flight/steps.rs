@@ -62,7 +62,7 @@ impl Flight {
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
         self.run(1, (self.h, self.h), true);
-        let drag = self.drag_of_elements(tension.len(), 0);
+        let drag = self.drag_of_elements(tension.len());
         if first {
             velocity.clone_from(&self.start.velocity);
         } else if self.scheme.is_staggered() {

@@ -1,9 +1,8 @@
 //! Speed and tension of a fed fibre on its way from the inlet to the belt.
 
-use super::momentum::{MomentumBalance, NodeStates};
+use super::momentum::{MomentumBalance, NodeStates, tension_lag};
 use super::{Declaration, FIBRE, Observation, Observer, fed, number_of_each};
 use crate::fibre::Flight;
-use crate::fibre::chain::Scheme;
 use crate::ground::measure::figure;
 use crate::ground::{Figure, MILLINEWTONS, Measure, MeasureKind, RATIO, Unit, Value, WIDTH};
 
@@ -151,10 +150,7 @@ struct Balances {
 impl Balances {
     fn new(flight: &Flight) -> Self {
         let lanes = (0..WIDTH).map_while(|lane| flight.case(lane));
-        // A snapshot has its velocities at the time of its positions.
-        let lags = flight.scheme() == Scheme::ImplicitTension;
-        let tension_lag = if lags { flight.time_step() } else { 0.0 };
-        Self { of_lanes: lanes.map(MomentumBalance::of).collect(), tension_lag }
+        Self { of_lanes: lanes.map(MomentumBalance::of).collect(), tension_lag: tension_lag(flight) }
     }
 }
 
@@ -163,7 +159,7 @@ impl Observer for Balances {
         if !observation.settled {
             return;
         }
-        let nodes = NodeStates::of(observation.snapshot, self.of_lanes.len(), self.tension_lag);
+        let nodes = NodeStates::of(observation.snapshot, self.tension_lag, |lane| lane < self.of_lanes.len());
         MomentumBalance::see(&mut self.of_lanes, &nodes);
     }
 

@@ -23,7 +23,7 @@ use crate::fibre::{Case, Flight, LaidPoint, Snapshot};
 use crate::ground::{Aggregate, Group, Measure, MeasureKind, Value, WIDTH};
 pub(crate) use along_way::{FIBRE_ON_WAY, FORCE_ON_AIR};
 pub use laydown::{LAYDOWN, SURROGATE};
-pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance};
+pub(crate) use momentum::{MomentumBalance, NodeStates, StretchedBalance, tension_lag};
 pub use sample::Sample;
 use std::sync::LazyLock;
 

@@ -8,7 +8,7 @@ use crate::fibre::{Flight, Job, LaidPoint, Line, SurroundingRun};
 use crate::ground::place::Inlet;
 use crate::ground::sort::sort_by_key;
 use crate::ground::{Error, Isa, WIDTH};
-use crate::simulation::observe::{NodeStates, StretchedBalance};
+use crate::simulation::observe::{NodeStates, StretchedBalance, tension_lag};
 use crate::web::{Depositor, Sheet, Window, WindowCurves, WindowOnSheet};
 use std::sync::Arc;
 
@@ -118,19 +118,19 @@ impl Pack {
         let mut left = steps;
         while left > 0 {
             let now = left.min(self.until_look);
-            self.flight.advance(now);
             (left, self.until_look) = (left - now, self.until_look - now);
             if self.until_look > 0 {
+                self.flight.advance(now);
                 continue;
             }
             self.until_look = self.steps_between;
-            let time = self.flight.time() - self.spin_up;
-            let tension = self.flight.chain().tension();
+            self.flight.advance(now - 1);
+            // The drag of a step belongs to where its elements were: one that lands in it hung in the air.
+            let snapshot = self.flight.observe();
             let flies =
                 |lane: usize| self.filaments.get(lane).is_some_and(|filament| filament.lost.is_none());
-            let drag = self.flight.drag_of_last_step();
-            let nodes = NodeStates::between_steps(&self.flight, (&tension, &drag), flies);
-            self.balance.see(&nodes, time);
+            let nodes = NodeStates::of(&snapshot, tension_lag(&self.flight), flies);
+            self.balance.see(&nodes, snapshot.time - self.spin_up);
         }
     }
 

@@ -110,13 +110,6 @@ impl LayingState {
         (self.root_number + 1 - self.left[lane]) as usize
     }
 
-    /// Number of elements that are born after a step.
-    ///
-    /// * `step` – number of steps done
-    pub(crate) fn born(&self, step: u64) -> usize {
-        usize::from(step.is_multiple_of(self.steps_per_element))
-    }
-
     /// Number of elements fed so far.
     pub(crate) fn fed(&self) -> u64 {
         self.root_number

@@ -7,7 +7,7 @@ use crate::ground::place::Inlet;
 use crate::ground::{Error, Lanes, RunContext, Vec3};
 use crate::simulation::ensemble::Job;
 use crate::simulation::ensemble::trajectory::{FlightEnd, each_or_lost};
-use crate::simulation::observe::{MomentumBalance, NodeStates};
+use crate::simulation::observe::{MomentumBalance, NodeStates, tension_lag};
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;
 
@@ -69,8 +69,8 @@ fn fly_until_lost(
             for (lane, (watch, balance)) in watches.iter_mut().zip(&balances).enumerate() {
                 watch.see((&snapshot, &relative), lane, fitting, balance);
             }
-            let tension_lag = flight.time_step();
-            MomentumBalance::see(&mut balances, &NodeStates::of(&snapshot, jobs.len(), tension_lag));
+            let nodes = NodeStates::of(&snapshot, tension_lag(&flight), |lane| lane < jobs.len());
+            MomentumBalance::see(&mut balances, &nodes);
             flight.advance(steps - 1);
         }
         if let Some((lane, error)) = flight.lost() {

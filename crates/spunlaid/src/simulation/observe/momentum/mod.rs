@@ -93,22 +93,19 @@ impl MomentumBalance {
             for lane in (0..WIDTH).filter(|lane| i < count[*lane]) {
                 let balance = &mut balances[lane.min(last)];
                 let (x, v) = (position.x.0[lane], velocity.x.0[lane]);
-                let at = (x - nodes.velocity_lag * v, v);
                 let mut force = balance.weight - from_above[lane];
                 if i + 1 < count[lane] {
                     let below = nodes.position[i + 1].lane(lane);
                     let edge = below - position.lane(lane);
-                    let v_below = nodes.velocity[i + 1].x.0[lane];
                     let tension = nodes.tension[i].0[lane];
                     from_above[lane] = tension * edge.x / edge.norm();
                     force += from_above[lane];
                     if i == 0 {
                         balance.root_tension += tension;
                     }
-                    balance.pass([at, (below.x - nodes.velocity_lag * v_below, v_below)]);
+                    balance.pass([(x, v), (below.x, nodes.velocity[i + 1].x.0[lane])]);
                     if let Some(drag) = nodes.drag.get(i) {
-                        let middle = 0.5 * (x + below.x - nodes.drag_lag * (v + v_below));
-                        balance.drive(middle, drag.x.0[lane]);
+                        balance.drive(0.5 * (x + below.x), drag.x.0[lane]);
                     }
                 }
                 // What holds the root bears the forces on it.
@@ -116,7 +113,7 @@ impl MomentumBalance {
                     balance.push(x - nodes.tension_lag * v, force);
                 } else {
                     // The fibre between the inlet and the root.
-                    balance.pass([(at.0 - balance.element * balance.along, v), at]);
+                    balance.pass([(x - balance.element * balance.along, v), (x, v)]);
                     balance.instants += 1.0;
                 }
             }
@@ -266,51 +263,30 @@ pub(crate) struct NodeStates<'a> {
     pub(crate) drag: &'a [Vec3<Lanes>],
     /// Number of nodes in each lane.
     pub(crate) count: [usize; WIDTH],
-    /// By how much earlier than the positions the velocities are known, the tensions, and the drag [s].
-    pub(crate) velocity_lag: f64,
+    /// By how much earlier than the positions the tensions are known [s].
     pub(crate) tension_lag: f64,
-    pub(crate) drag_lag: f64,
 }
 
 impl<'a> NodeStates<'a> {
-    /// Those of a flight between two steps, as its scheme keeps them.
+    /// Those of a snapshot of a flight.
     ///
-    /// * `tension`, `drag` – of the elements
-    /// * `is_wanted` – whether to look at the fibre in a lane
-    pub(crate) fn between_steps(
-        flight: &'a Flight,
-        (tension, drag): (&'a [Lanes], &'a [Vec3<Lanes>]),
-        is_wanted: impl Fn(usize) -> bool,
-    ) -> Self {
-        let (chain, count) = (flight.chain(), flight.chain().nodes());
-        let lag = |lags: bool, steps: f64| if lags { steps * flight.time_step() } else { 0.0 };
-        Self {
-            position: &chain.position,
-            velocity: &chain.velocity,
-            tension,
-            drag,
-            count: std::array::from_fn(|lane| if is_wanted(lane) { count[lane] } else { 0 }),
-            velocity_lag: lag(flight.scheme().is_staggered(), 0.5),
-            tension_lag: lag(flight.scheme() == Scheme::ImplicitTension, 1.0),
-            drag_lag: flight.time_step(),
-        }
-    }
-
-    /// Those of a snapshot, which has its velocities at the time of its positions.
-    ///
-    /// * `fibres` – number of fibres; the lanes after the last one repeat the first
-    pub(crate) fn of(snapshot: &'a Snapshot, fibres: usize, tension_lag: f64) -> Self {
+    /// * `tension_lag` – that of the flight, see [`tension_lag`]
+    /// * `is_wanted` – whether to look at the fibre in a lane; the lanes after the last fibre repeat the first
+    pub(crate) fn of(snapshot: &'a Snapshot, tension_lag: f64, is_wanted: impl Fn(usize) -> bool) -> Self {
         Self {
             position: &snapshot.position,
             velocity: &snapshot.velocity,
             tension: &snapshot.tension,
             drag: &snapshot.drag,
-            count: std::array::from_fn(|lane| if lane < fibres { snapshot.nodes[lane] } else { 0 }),
-            velocity_lag: 0.0,
+            count: std::array::from_fn(|lane| if is_wanted(lane) { snapshot.nodes[lane] } else { 0 }),
             tension_lag,
-            drag_lag: 0.0,
         }
     }
+}
+
+/// By how much earlier than the positions of a snapshot its tensions are known [s].
+pub(crate) fn tension_lag(flight: &Flight) -> f64 {
+    if flight.scheme() == Scheme::ImplicitTension { flight.time_step() } else { 0.0 }
 }
 
 /// Length of a stretch of time that hardly knows of the next but one, in times from the inlet to the belt.

@@ -38,7 +38,7 @@ fn invariant_the_force_on_the_air_is_the_sum_of_the_drag() {
     let time = STEPS as f64 * flight.time_step();
     for step in 0..=STEPS {
         let snapshot = flight.observe();
-        let nodes = NodeStates::of(&snapshot, 1, flight.time_step());
+        let nodes = NodeStates::of(&snapshot, tension_lag(&flight), |lane| lane == 0);
         if step < STEPS {
             balances
                 .iter_mut()
@@ -119,9 +119,7 @@ fn analytic_a_thread_without_drag_drives_no_air() {
             tension: &[Lanes::ZERO; 59],
             drag: &[],
             count: [60; WIDTH],
-            velocity_lag: 0.0,
             tension_lag: 0.0,
-            drag_lag: 0.0,
         };
         MomentumBalance::see(std::slice::from_mut(&mut balance), &nodes);
     }
