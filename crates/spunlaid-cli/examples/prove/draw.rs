@@ -14,6 +14,8 @@ const KEY: u64 = 0x65766f7270;
 const MOST: usize = 5;
 /// A quantity without a slider lies within this factor of the middle of its usual range.
 const NEAR: f64 = 5.0;
+/// How many of the numbers are the smallest or the largest of their range.
+const AT_ENDS: f64 = 0.25;
 /// Layers of a base that has some.
 const LAYERS: usize = 2;
 
@@ -130,9 +132,12 @@ impl Random {
         (self.0)() < share
     }
 
-    /// Evenly in the logarithm.
+    /// An end, where faults are more often than elsewhere, or any number in between, evenly in the logarithm.
     fn between(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf((self.0)())
+        match self.is_within(AT_ENDS) {
+            true => [low, high][self.below(2)],
+            false => low * (high / low).powf((self.0)()),
+        }
     }
 }
 

@@ -234,6 +234,25 @@ fn rejects_sources_of_flights_that_are_not_steady() {
     }
 }
 
+/// What the filaments of a web do to their air down to the belt is what its sources say. Without the drag on elements that
+/// land in a step it was five errors less.
+#[test]
+fn stat_a_web_drives_its_air_as_its_sources_do() {
+    const LINE: &str = "line.toml --json --set run.duration=100ms --set feed.speed=12m/s";
+    let desk = desk();
+    let summary = |arguments: &str| -> serde_json::Value {
+        serde_json::from_str(&success(&mut desk.spunlaid(arguments))).unwrap()
+    };
+    let web = summary(&format!("web {LINE} --no-advice --set web.flown=40"));
+    let sources = summary(&format!("air {LINE} --sources --set run.replicates=16"));
+    let places = web["layers"][0]["curtain"]["places"].as_array().unwrap();
+    let [of_web, of_sources] = [&places.last().unwrap()["force_n_per_m"], &sources["force_along_n_per_m"]]
+        .map(|force| ["mean", "standard_error"].map(|part| force[part].as_f64().unwrap()));
+    let error = of_web[1].hypot(of_sources[1]);
+    assert!(error < 0.02 * of_web[0].abs(), "{of_web:?} {of_sources:?}");
+    assert!((of_web[0] - of_sources[0]).abs() < 3.5 * error, "{of_web:?} {of_sources:?}");
+}
+
 #[test]
 fn rejects_lines_without_a_field_or_a_number_of_filaments() {
     let desk = Desk::new();
