@@ -175,7 +175,8 @@ struct Drawable {
 impl Drawn {
     pub fn new(base: &'static Base, number: u64, random: &mut Random) -> Self {
         let all = drawable(base);
-        let mut changes: Vec<Change> = Vec::new();
+        // Each input has random numbers of its own, or what is the same in many would count many times.
+        let mut changes: Vec<Change> = base.seeds(number);
         for _ in 0..random.below(MOST + 1) {
             let key = &all[random.below(all.len())];
             let place = base.place(key.name, random);
@@ -280,6 +281,17 @@ impl Base {
     /// Whether its filaments fly in shared turbulence.
     pub fn flies_in_one_air(&self) -> bool {
         self.command == "web" && self.text.contains("[air]")
+    }
+
+    /// Values of the keys of its random numbers.
+    pub fn seeds(&self, seed: u64) -> Vec<Change> {
+        let keys: &[&str] = match self.command {
+            "web" if self.flies_in_one_air() => &["run.seed", "web.seed"],
+            "web" => &["web.seed"],
+            "run" => &["run.seed"],
+            _ => &[],
+        };
+        keys.iter().map(|key| Change::new(key, seed.to_string())).collect()
     }
 
     /// The number that a key has in this file.

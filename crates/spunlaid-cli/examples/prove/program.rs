@@ -156,7 +156,9 @@ fn read(output: &Output) -> Said {
         },
         Some(1) => Said::Refused(said),
         // Fibres that are lost are reported, and the input is left out here.
-        Some(2) if said.contains("lost") || said.contains("diverge") => Said::Refused(said),
+        Some(2) if ["lost", "diverge", "lower run.time_step"].iter().any(|word| said.contains(word)) => {
+            Said::Refused(said)
+        }
         code => Said::Failed(format!("exit code {code:?}: {said}")),
     }
 }

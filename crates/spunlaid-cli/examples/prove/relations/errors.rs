@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 
 /// Most seeds of an input that looks suspicious.
 const MOST: u64 = 40;
+/// Bits of the numbers of seeds of an input.
+const SEEDS: u32 = 8;
 /// Seeds after which an input that does not is left.
 const FIRST: u64 = 2;
 /// Numbers that are not the same of a web of another size, or of other filaments.
@@ -24,17 +26,13 @@ pub struct Deviation {
     words: String,
 }
 
-/// The key of the seed.
-fn seed_of(drawn: &Drawn) -> &'static str {
-    if drawn.base.command == "web" && !drawn.base.flies_in_one_air() { "web.seed" } else { "run.seed" }
+/// A seed that no other input has.
+fn seed(drawn: &Drawn, number: u64) -> u64 {
+    (drawn.number << SEEDS) + number + 1
 }
 
 pub(super) fn with_seed(drawn: &Drawn, number: u64) -> Drawn {
-    let seeds = [Change::new(seed_of(drawn), (1000 + number).to_string())];
-    match drawn.base.flies_in_one_air() {
-        true => drawn.with(&seeds).with(&[Change::new("web.seed", (1000 + number).to_string())]),
-        false => drawn.with(&seeds),
-    }
+    drawn.with(&drawn.base.seeds(seed(drawn, number)))
 }
 
 /// Looks at one set of deviations after the other until none is suspicious, or one is surely too large.
@@ -48,7 +46,10 @@ fn sequential(wrong: &'static Wrong, mut next: impl FnMut(u64) -> Option<Vec<Dev
                 all.entry(deviation.name.clone()).or_insert_with(|| (Evidence::new(wrong), Vec::new()));
             evidence.take(deviation.of, deviation.degrees);
             words.push(deviation.words.clone());
-            seen.push(deviation);
+            // As many of each input: one that looks suspicious is tested by itself.
+            if number < FIRST {
+                seen.push(deviation);
+            }
         }
         let value = |entry: &(&Name, &(Evidence, Vec<String>))| entry.1.0.value();
         let worst = all.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
@@ -294,8 +295,9 @@ pub fn two_equal_layers(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     let text = layers.text();
     pairs("as two equal layers", is_of_the_sheet, |number| {
         let ours = program.numbers(&with_seed(drawn, 2 * number))?;
-        let seed = format!("--set=web.seed={}", 2001 + 2 * number);
-        let others = numbers(&program.computed_text("web", &text, &[seed]).results()?);
+        let seeds = drawn.base.seeds(seed(drawn, 2 * number + 1));
+        let set = seeds.iter().map(|Change { key, value }| format!("--set={key}={value}"));
+        let others = numbers(&program.computed_text("web", &text, &set.collect::<Vec<_>>()).results()?);
         Some((ours, others))
     })
 }

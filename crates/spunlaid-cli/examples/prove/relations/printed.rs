@@ -4,10 +4,10 @@ use super::{Outcome, leaves};
 use crate::draw::Drawn;
 use crate::program::Program;
 use serde_json::{Map, Value as Json};
-use spunlaid::fibre::{OF_LOAD_PLACES, OF_LOADS, OF_SPINLINES};
+use spunlaid::fibre::{LOAD_MEASURES, LOAD_POSITION_MEASURES, SPINLINE_MEASURES};
 use spunlaid::ground::{Dimension, Measure, measure};
 use spunlaid::simulation::DECLARED;
-use spunlaid::web::{OF_FABRIC_PATCHES, OF_FABRICS, OF_PATCHES, OF_STRIPS, OF_WEBS};
+use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
 use std::collections::BTreeMap;
 
 /// Dimensions of what is printed with a unit that is no product of plain SI units.
@@ -61,14 +61,14 @@ impl Labels {
     fn of_measures() -> Self {
         let mut all = Self(BTreeMap::new());
         all.add(DECLARED.iter().flat_map(|declaration| declaration.measures));
-        all.add(measure::with_errors(OF_PATCHES));
-        all.add(measure::with_errors(OF_WEBS));
-        all.add(measure::with_errors(OF_FABRICS));
-        all.add(measure::with_errors(OF_FABRIC_PATCHES));
-        all.add(measure::with_errors(OF_STRIPS));
-        all.add(measure::with_errors(OF_SPINLINES));
-        all.add(measure::with_errors(OF_LOADS));
-        all.add(measure::with_errors(OF_LOAD_PLACES));
+        all.add(measure::with_errors(PATCH_MEASURES));
+        all.add(measure::with_errors(WEB_MEASURES));
+        all.add(measure::with_errors(FABRIC_MEASURES));
+        all.add(measure::with_errors(FABRIC_PATCH_MEASURES));
+        all.add(measure::with_errors(STRIP_MEASURES));
+        all.add(measure::with_errors(SPINLINE_MEASURES));
+        all.add(measure::with_errors(LOAD_MEASURES));
+        all.add(measure::with_errors(LOAD_POSITION_MEASURES));
         all
     }
 
