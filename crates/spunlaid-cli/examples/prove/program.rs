@@ -155,8 +155,12 @@ fn read(output: &Output) -> Said {
             Err(error) => Said::Failed(format!("prints no JSON: {error}")),
         },
         Some(1) => Said::Refused(said),
-        // Fibres that are lost are reported, and the input is left out here.
-        Some(2) if ["lost", "diverge", "lower run.time_step"].iter().any(|word| said.contains(word)) => {
+        // Fibres that are lost or not steady are reported, and the input is left out here.
+        Some(2)
+            if ["lost", "diverge", "lower run.time_step", "not steady"]
+                .iter()
+                .any(|word| said.contains(word)) =>
+        {
             Said::Refused(said)
         }
         code => Said::Failed(format!("exit code {code:?}: {said}")),
