@@ -30,8 +30,8 @@ pub static TOO_LARGE: Wrong = Wrong {
     largest: f64::INFINITY,
     reported: 1e8,
 };
-/// The errors of a number in all inputs of a kind together. One input with a large deviation says nothing of all, and is
-/// looked at by itself. There are some 10⁴ such numbers.
+/// The errors of a number in all inputs of a kind together. One input with a large deviation says nothing of all,
+/// and is looked at by itself. There are some 10⁴ such numbers.
 pub static TOO_SMALL_IN_ALL: Wrong = Wrong {
     alternatives: &[(0.0, 1.3), (0.0, 1.6), (0.0, 2.0)],
     tolerance: 1.5,

@@ -7,8 +7,8 @@
 //! A finding is shrunk to the fewest keys and printed with the command that shows it; the exit code is then 1.
 //!
 //! `--keys` says which keys are drawn, `--draw N` repeats one draw, `--first` stops at the first finding,
-//! `--threads` is the number of inputs at a time. `--python PYTHON` is one that has the packages spunlaid and polars: the
-//! relation `python` is held with it.
+//! `--threads` is the number of inputs at a time. `--python PYTHON` is one that has the packages spunlaid
+//! and polars: the relation `python` is held with it.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
 

@@ -1,4 +1,4 @@
-"""Computes an input with the Python package, and prints its summary and what differs between its arrays and tables, as JSON.
+"""Computes an input with the Python package, and prints its summary and what differs between its arrays and tables.
 
     same.py COMMAND INPUT FOLDER [KEY=VALUE …]       FOLDER is what the program has made of the same input
 """
@@ -25,7 +25,8 @@ def number(value: float | None) -> float:
 
 def columns_of(result: Any) -> dict[str, np.ndarray]:
     """Arrays of a result by the names of their columns, one replicate after the other."""
-    arrays = {name: of.ravel() for name, of in {**getattr(result, "end_node", {}), **getattr(result, "energy", {})}.items() if of.ndim == 2}
+    over_time = {**getattr(result, "end_node", {}), **getattr(result, "energy", {})}
+    arrays = {name: of.ravel() for name, of in over_time.items() if of.ndim == 2}
     laid = getattr(result, "laid", None) or [{}]
     arrays |= {name: np.concatenate([of[name] for of in laid]) for name in laid[0]}
     return arrays | dict(getattr(result, "stations", {}))
@@ -38,7 +39,8 @@ def differing(result: Any, folder: Path) -> list[str]:
         entries = {name: entry for group in GROUPS for name, entry in result.summary.get(group, {}).items()}
         for name, measure in result.measures.items():
             entry = entries.get(name)
-            for attribute, own in (("mean", measure.mean), ("error", measure.error), ("standard_error", measure.standard_error)):
+            for attribute in ("mean", "error", "standard_error"):
+                own = getattr(measure, attribute)
                 if isinstance(entry, dict) and attribute in entry:
                     compared += 1
                     if not np.array_equal(own, number(entry[attribute]), equal_nan=True):

@@ -234,8 +234,8 @@ fn rejects_sources_of_flights_that_are_not_steady() {
     }
 }
 
-/// What the filaments of a web do to their air down to the belt is what its sources say. Without the drag on elements that
-/// land in a step it was five errors less.
+/// What the filaments of a web do to their air down to the belt is what its sources say. Without the drag on elements
+/// that land in a step it was five errors less.
 #[test]
 fn stat_a_web_drives_its_air_as_its_sources_do() {
     const LINE: &str = "line.toml --json --set run.duration=100ms --set feed.speed=12m/s";
