@@ -287,8 +287,8 @@ Examples:
 pub(super) const CHECK_HELP: &str = "\
 For a case it prints every default, the mesh, the limits of the time step, and the expected time
 and memory. For a web it prints the numbers of its line: grams per minute per hole, dtex, holes per
-metre, g/m², the speed of the belt, kg/h from each metre of width, and the air of the filaments. For
-a study it prints its points. The output is itself such a file.
+metre, g/m², the speed of the belt, kg/h from each metre of width, and the air of the filaments.
+For a study it prints its points. The output is itself such a file.
 
 Examples:
   spunlaid check cases/table1.toml --set fibre.element_length=\"5 mm\"

@@ -257,9 +257,9 @@ fn plant_numbers_of_a_slider_that_moves_are_those_of_the_line_with_this_value() 
     let mut page = live.page();
     page.ask(&json!({"do": "pause"}));
     let before = until(&mut page, "state", |state| state["stands"] == true);
-    let preview = |value: Value, stamp: u64| {
-        json!({"do": "preview", "key": "throughput", "value": value, "stamp": stamp})
-    };
+    let key = "throughput";
+    let preview =
+        |value: Value, stamp: u64| json!({"do": "preview", "key": key, "value": value, "stamp": stamp});
     for (value, stamp) in [(0.55, 3), (0.6, 4)] {
         page.ask(&preview(json!(value), stamp));
     }

@@ -167,7 +167,7 @@ fn my_scan_is_compared_with_my_line_in_one_step() {
          assumed value";
     assert!(said.contains(told), "{said}");
     for folder in
-        ["results/scan_analysed", "results/web_simulated", "results/scan_analysed_against_web_flown"]
+        ["results/scan_analysed", "results/web_simulated", "results/scan_analysed_against_web_simulated"]
     {
         assert!(desk.path(folder).join("report.html").is_file(), "{folder}");
     }

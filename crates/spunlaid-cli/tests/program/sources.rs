@@ -243,7 +243,7 @@ fn stat_a_web_drives_its_air_as_its_sources_do() {
     let summary = |arguments: &str| -> serde_json::Value {
         serde_json::from_str(&success(&mut desk.spunlaid(arguments))).unwrap()
     };
-    let web = summary(&format!("web {LINE} --no-advice --set web.flown=40"));
+    let web = summary(&format!("web {LINE} --no-advice --set web.simulated=40"));
     let sources = summary(&format!("air {LINE} --sources --set run.replicates=16"));
     let places = web["layers"][0]["curtain"]["places"].as_array().unwrap();
     let [of_web, of_sources] = [&places.last().unwrap()["force_n_per_m"], &sources["force_along_n_per_m"]]

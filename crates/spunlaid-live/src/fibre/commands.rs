@@ -74,12 +74,12 @@ impl Session {
     /// before stays.
     fn fly_filament(&mut self, text: String) {
         let adapted = adapt_to_clock(self.document.with_text(text)).map_err(Answer::rejected);
-        let flown = adapted.and_then(|(document, remark)| {
+        let simulated = adapted.and_then(|(document, remark)| {
             self.become_of(document)?;
             self.remark = remark;
             Ok(())
         });
-        if let Err(answer) = flown {
+        if let Err(answer) = simulated {
             self.notes =
                 vec![format!("the filament of the line as it is now cannot be shown: {}", answer.words())];
         }

@@ -2,7 +2,8 @@
 
 use super::Session;
 use super::knobs::value_of;
-use super::known_web::{Air, KnownWeb};
+use super::known_web::KnownWeb;
+use super::plan::Air;
 use super::show::of_plant;
 use crate::board::PageId;
 use crate::message::{Answer, Command, KeyValue, Receives, complaints};

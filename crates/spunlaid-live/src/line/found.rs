@@ -1,6 +1,7 @@
 //! The numbers of a web as pages get them: its CV before, now, and the change from one to the other.
 
-use super::known_web::{Air, KnownWeb};
+use super::known_web::KnownWeb;
+use super::plan::Air;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use spunlaid::ground::Difference;

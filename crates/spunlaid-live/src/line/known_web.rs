@@ -2,20 +2,11 @@
 
 use super::flight::steps;
 use super::laid::Laid;
-use super::plan::WebState;
+use super::plan::{Air, WebState};
 use spunlaid::experiment::advice::Look;
 use spunlaid::experiment::{PlantNumber, plant_numbers};
 use spunlaid::input::{Turn, TurnedLine, WebSpec};
 use std::sync::Arc;
-
-/// The air in which two webs are compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Air {
-    /// That of the file.
-    OfFile,
-    /// One with another seed, which a change has not been chosen by.
-    Other,
-}
 
 /// A comparison of a web with the web of a number.
 #[derive(Debug)]

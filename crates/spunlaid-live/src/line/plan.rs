@@ -1,6 +1,13 @@
 //! What is to be simulated next.
 
-use super::known_web::Air;
+/// The air in which two webs are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Air {
+    /// That of the file.
+    OfFile,
+    /// One with another seed, which a change has not been chosen by.
+    Other,
+}
 
 /// A piece of work. Webs are called by their numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

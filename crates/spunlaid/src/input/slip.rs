@@ -245,7 +245,7 @@ mod tests {
             ("diameter = 0,05 mm", "decimal comma", "diameter = \"0.05 mm\""),
             (
                 "modulus = 1,500 MPa",
-                "between thousands",
+                "separates thousands",
                 "modulus = \"1.500 MPa\", or modulus = \"1500 MPa\"",
             ),
             ("diameter = \"50 µm    # or \"18.7 dtex\"", "one end only", "diameter = \"50 µm\""),
