@@ -299,8 +299,8 @@ pub(super) const NEW_HELP: &str = "\
 Without --fed and --web it is the case of Table 1 of the paper. With --web it is the file of a
 web, from the numbers by which a line is known; in a terminal it asks for those that are not
 given. The file also has the filament, which `spunlaid run` simulates alone. A table of the air
-between slot and belt is written next to it: FILE line.toml makes line.toml and line_air.csv. Each number
-that follows from others has a comment that says how.
+between slot and belt is written next to it: FILE line.toml makes line.toml and line_air.csv. Each
+number that follows from others has a comment that says how.
 
 Examples:
   spunlaid new my.toml && spunlaid run my.toml
