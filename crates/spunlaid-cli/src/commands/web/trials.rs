@@ -15,7 +15,7 @@ use std::fs;
 
 /// AssumedValues and changes of the line: what a trial is, of what, and what leaves it out.
 const WORDS: [[&str; 3]; 2] =
-    [["other value", "assumed_values", "--set web.assumed=none"], ["change", "the line", "--no-advice"]];
+    [["variation", "the assumed values", "--set web.assumed=none"], ["change", "the line", "--no-advice"]];
 
 /// AssumedValues and changes of the line, of what is tried.
 pub(super) struct Trials([Option<Vec<Change>>; 2]);
