@@ -14,10 +14,11 @@
 use cpu_time::ThreadTime;
 use spunlaid::ground::threads::{Shared, share_by};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::ops::Range;
+use std::slice::Iter;
 use std::time::Duration;
 
 /// Numbers of cores for which it is computed.
@@ -87,34 +88,84 @@ struct Bar {
     name: Option<&'static str>,
 }
 
-/// Shares a row among some cores; says when it ends [s].
-fn schedule(
-    row: &[Item],
-    name: Option<&'static str>,
-    cores: Range<usize>,
-    start: f64,
-    bars: &mut Vec<Bar>,
-) -> f64 {
-    let mut time = start;
-    for item in row {
-        match item {
-            Item::Alone(seconds) => {
-                bars.push(Bar { core: cores.start, time: time..time + seconds, name });
-                time += seconds;
-            }
-            Item::Pieces { name, threads, pieces } => {
-                let workers = (*threads).min(pieces.len()).min(cores.len()).max(1);
-                let mut free = vec![if workers > 1 { time + BEGIN } else { time }; workers];
-                for piece in pieces {
-                    let next = (0..workers).min_by(|a, b| free[*a].total_cmp(&free[*b])).expect("a worker");
-                    let [from, to] = [next, next + 1].map(|i| cores.start + i * cores.len() / workers);
-                    free[next] = schedule(piece, Some(name), from..to, free[next], bars);
+/// What a thread has begun.
+enum Begun<'r> {
+    /// The rest of a row, and of what it is a piece.
+    Row(Iter<'r, Item>, Option<&'static str>),
+    /// Pieces that it shares, by the number of their group.
+    Pieces(usize),
+}
+
+/// A thread on its core, with what it has begun, the innermost last.
+struct Thread<'r> {
+    core: usize,
+    begun: Vec<Begun<'r>>,
+}
+
+/// Pieces that threads share.
+struct Group<'r> {
+    name: &'static str,
+    rest: Iter<'r, Row>,
+    /// Threads that help, and the one that waits for them when all pieces are begun.
+    helpers: usize,
+    waiting: Option<usize>,
+}
+
+/// Shares a row among some cores: a thread that shares pieces is helped by as many others as it may have and as cores
+/// are free, until no piece is left. Says when it ends [s].
+fn schedule(row: &[Item], cores: usize, bars: &mut Vec<Bar>) -> f64 {
+    let mut free: Vec<usize> = (1..cores).rev().collect();
+    let mut threads = vec![Thread { core: 0, begun: vec![Begun::Row(row.iter(), None)] }];
+    let (mut groups, mut end): (Vec<Group<'_>>, f64) = (Vec::new(), 0.0);
+    let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;
+    // When each thread goes on [ns].
+    let mut events = BTreeSet::from([(0, 0)]);
+    while let Some((now, number)) = events.pop_first() {
+        let time = now as f64 * 1e-9;
+        end = end.max(time);
+        let core = threads[number].core;
+        while let Some(last) = threads[number].begun.last_mut() {
+            let next = match last {
+                Begun::Row(items, name) => match items.next() {
+                    Some(Item::Alone(seconds)) => {
+                        bars.push(Bar { core, time: time..time + seconds, name: *name });
+                        events.insert((now + nanoseconds(*seconds), number));
+                        break;
+                    }
+                    Some(Item::Pieces { name, threads: most, pieces }) => {
+                        let helpers = most.min(&pieces.len()).saturating_sub(1).min(free.len());
+                        for core in free.split_off(free.len() - helpers) {
+                            events.insert((now + nanoseconds(BEGIN), threads.len()));
+                            threads.push(Thread { core, begun: vec![Begun::Pieces(groups.len())] });
+                        }
+                        groups.push(Group { name, rest: pieces.iter(), helpers, waiting: None });
+                        Some(Begun::Pieces(groups.len() - 1))
+                    }
+                    None => None,
+                },
+                Begun::Pieces(group) => {
+                    let group = &mut groups[*group];
+                    group.rest.next().map(|row| Begun::Row(row.iter(), Some(group.name)))
                 }
-                time = free.into_iter().fold(time, f64::max);
+            };
+            let begun = &mut threads[number].begun;
+            if let Some(next) = next {
+                begun.push(next);
+                continue;
+            }
+            let Some(Begun::Pieces(group)) = begun.pop() else { continue };
+            let group = &mut groups[group];
+            if begun.is_empty() {
+                free.push(core);
+                group.helpers -= 1;
+                events.extend(group.waiting.filter(|_| group.helpers == 0).map(|waiting| (now, waiting)));
+            } else if group.helpers > 0 {
+                group.waiting = Some(number);
+                break;
             }
         }
     }
-    time
+    end
 }
 
 /// The last words of the path of a function.
@@ -188,15 +239,15 @@ fn main() {
 
     println!("\nexit code {code}; work that is divided for {threads} threads");
     let mut bars = Vec::new();
-    let all = schedule(&row, None, 0..1, 0.0, &mut bars);
+    let all = schedule(&row, 1, &mut bars);
     println!("{:>8}{:>12}{:>12}{:>12}", "cores", "time [s]", "speed-up", "work, %");
     for cores in CORES {
         bars.clear();
-        let time = schedule(&row, None, 0..cores, 0.0, &mut bars);
+        let time = schedule(&row, cores, &mut bars);
         println!("{cores:8}{time:12.3}{:12.2}{:12.1}", all / time, 100.0 * all / time / cores as f64);
     }
     bars.clear();
-    let end = schedule(&row, None, 0..threads, 0.0, &mut bars);
+    let end = schedule(&row, threads, &mut bars);
     std::fs::write(file, picture(&bars, threads, end)).expect("the picture is written");
     println!("\n{:>10}{:>10}  by", "work [s]", "pieces");
     for (name, work) in by_name(&bars) {

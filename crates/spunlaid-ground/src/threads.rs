@@ -2,9 +2,10 @@
 
 use crate::error::Error;
 use crate::lanes::Isa;
+use std::cell::RefCell;
 use std::convert::Infallible;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::{Scope, ScopedJoinHandle};
 use std::time::Duration;
 
@@ -40,6 +41,63 @@ pub fn try_par_map<T: Send>(
     work: impl Fn(usize) -> Result<T, Error> + Sync,
 ) -> Result<Vec<T>, Error> {
     share(std::any::type_name_of_val(&work), threads, pieces, work)
+}
+
+/// As [`try_par_map`], with pieces that share their own work among threads again: a thread that has no piece any more helps
+/// in those that are not finished, so that never more than `threads` work and hardly fewer.
+///
+/// * `concurrent` – most pieces that are begun before another one is finished
+///
+/// # Errors
+/// As of [`try_par_map`].
+pub fn try_together<T: Send>(
+    threads: usize,
+    concurrent: usize,
+    pieces: usize,
+    work: impl Fn(usize) -> Result<T, Error> + Sync,
+) -> Result<Vec<T>, Error> {
+    let around = FREE.with_borrow(Clone::clone);
+    // Within other such work the threads are those of all of it.
+    let new = || Arc::new(AtomicUsize::new(threads.saturating_sub(1)));
+    FREE.set(Some(around.clone().unwrap_or_else(new)));
+    let _end = OnDrop(|| FREE.set(around.clone()));
+    share(std::any::type_name_of_val(&work), concurrent.min(threads), pieces, work)
+}
+
+thread_local! {
+    /// Threads that may still begin in the work of which this thread does a part; None without a limit.
+    static FREE: RefCell<Option<Arc<AtomicUsize>>> = const { RefCell::new(None) };
+}
+
+/// Threads that help in some work, of those that are free.
+struct Helpers {
+    free: Option<Arc<AtomicUsize>>,
+    count: usize,
+}
+
+impl Helpers {
+    /// Takes as many as are free, and no more than are wanted.
+    fn take(wanted: usize) -> Self {
+        let free = FREE.with_borrow(Clone::clone);
+        let taken = |free: &AtomicUsize| {
+            let rest = |free: usize| Some(free.saturating_sub(wanted));
+            let before = free.fetch_update(Ordering::Relaxed, Ordering::Relaxed, rest);
+            before.unwrap_or_else(|before| before).min(wanted)
+        };
+        let count = free.as_deref().map_or(wanted, taken);
+        Self { free, count }
+    }
+
+    /// Does the work of one of them, whose thread is free again afterwards.
+    fn help(&self, work: &dyn Fn()) {
+        FREE.set(self.free.clone());
+        let _end = OnDrop(|| {
+            if let Some(free) = &self.free {
+                free.fetch_add(1, Ordering::Relaxed);
+            }
+        });
+        work();
+    }
 }
 
 /// Some pieces of work that threads share.
@@ -92,8 +150,9 @@ fn distribute(Shared { threads, pieces, work, .. }: Shared<'_>) {
             }
         }
     };
+    let free = Helpers::take(threads.min(pieces).saturating_sub(1));
     std::thread::scope(|scope| {
-        let helpers: Vec<_> = (1..threads.min(pieces)).map(|_| scope.spawn(some)).collect();
+        let helpers: Vec<_> = (0..free.count).map(|_| scope.spawn(|| free.help(&some))).collect();
         some();
         for helper in helpers {
             helper.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
@@ -159,6 +218,27 @@ impl<F: FnMut()> Drop for OnDrop<F> {
 mod tests {
     use super::*;
     use std::panic::{AssertUnwindSafe, catch_unwind};
+
+    /// Two pieces that share their work among four threads each have four in all, and so has the last one alone.
+    #[test]
+    fn pieces_that_share_threads_have_no_more_than_all_of_them_and_no_fewer() {
+        for rounds in [[20, 20], [20, 0]] {
+            let (working, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+            let piece = |piece| {
+                working.fetch_add(1, Ordering::Relaxed);
+                most.fetch_max(working.load(Ordering::Relaxed), Ordering::Relaxed);
+                std::thread::sleep(Duration::from_millis(2));
+                working.fetch_sub(1, Ordering::Relaxed);
+                piece
+            };
+            let done = try_together(4, 2, 2, |number| {
+                let round = |_| assert_eq!(par_map(4, 8, piece), [0, 1, 2, 3, 4, 5, 6, 7]);
+                (0..rounds[number]).for_each(round);
+                Ok(number)
+            });
+            assert_eq!((done.ok(), most.into_inner()), (Some(vec![0, 1]), 4), "{rounds:?}");
+        }
+    }
 
     #[test]
     fn the_thread_that_looks_ends_with_the_work_also_if_it_panics() {

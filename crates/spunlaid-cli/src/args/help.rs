@@ -189,6 +189,7 @@ tables, each with its own [layer.line]; keys above them hold for all.
   fibres.vtp     the single fibres of a window, for ParaView
   figures/       every figure as SVG, PNG and CSV
   web.toml       the file with every default; laying it again gives the same results
+  kept           numbers of the simulated sheets, from which a smaller web.error goes on
   origin.toml    the command and the file; the same command replaces these results
 
 Examples:

@@ -331,7 +331,7 @@ fn identical_guesses_that_were_interrupted_and_went_on() {
     let mut command = desk.spunlaid("web web.toml --out w --no-advice");
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     // Longer than its first line when a flight is kept.
-    while fs::metadata(desk.path(".w.trials")).map_or(0, |about| about.len()) < 60 {
+    while fs::metadata(desk.path(".w.kept")).map_or(0, |about| about.len()) < 60 {
         std::thread::sleep(Duration::from_millis(5));
     }
     let output = end(child, "INT");
@@ -343,9 +343,52 @@ fn identical_guesses_that_were_interrupted_and_went_on() {
     );
     assert!(desk.summary("w").get("assumed_values").is_none());
     let said = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));
-    assert!(said.contains("\ncontinuing: 1 flight of an earlier command"), "{said}");
+    assert!(said.contains("going on: 1 simulation of earlier commands is kept"), "{said}");
     let numbers = whole["assumed_values"].to_string().replace(" --out whole-", " --out w-");
     assert_eq!(desk.summary("w")["assumed_values"].to_string(), numbers);
     assert!(whole["assumed_values"]["values"].as_array().unwrap().len() >= 3, "{whole}");
-    assert!(!desk.path(".w.trials").exists());
+    assert!(!desk.path(".w.kept").exists() && desk.path("w/kept").exists());
+}
+
+/// One that is killed after its first coarse sheet, and one that asks for a smaller error in the same folder, have the
+/// numbers of one that was left alone; and nothing is simulated twice but the fine sheet.
+#[test]
+fn identical_a_web_goes_on_after_a_kill_and_with_a_smaller_error() {
+    let desk = Desk::with_case(FED);
+    let web = |error: &str| {
+        let text = format!(
+            "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\n\
+            width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\nerror = '{error}'\n"
+        );
+        fs::write(desk.path("web.toml"), text).unwrap();
+    };
+    let run = |folder: &str| success(&mut desk.spunlaid(&format!("web web.toml --out {folder} --no-advice")));
+    web("6 %");
+    let alone = run("alone");
+    assert!(!alone.contains("going on") && desk.path("alone/kept").exists(), "{alone}");
+    let whole = desk.summary("alone");
+    assert!(whole.to_string().contains("are counted on the map, which has the clouds of 0.02 m²"), "{whole}");
+    let numbers = |folder: &str| desk.summary(folder)["web"].to_string();
+
+    let mut command = desk.spunlaid("web web.toml --out killed --no-advice --threads 1");
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while fs::metadata(desk.path(".killed.kept")).map_or(0, |about| about.len()) < 60 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    end(child, "KILL");
+    let said = run("killed");
+    assert!(said.contains(" of earlier commands ") && !desk.path(".killed.kept").exists(), "{said}");
+    assert_eq!(numbers("killed"), numbers("alone"));
+
+    web("30 %");
+    run("smaller");
+    let before = desk.read("smaller/kept");
+    web("6 %");
+    let said = run("smaller");
+    assert!(said.contains(" of earlier commands are kept"), "{said}");
+    assert_eq!(numbers("smaller"), numbers("alone"));
+    // The log only grows: what was kept is not written again.
+    let after = desk.read("smaller/kept");
+    assert!(after.starts_with(&before) && after.len() > before.len(), "{}", after.len());
+    assert_eq!(after.len(), desk.read("alone/kept").len());
 }

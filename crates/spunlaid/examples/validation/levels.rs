@@ -59,6 +59,13 @@ struct Found {
     time: f64,
 }
 
+impl Found {
+    fn row(&self) -> String {
+        let of_side = |[cv, error]: &[f64; 2]| format!("{:.2} ± {:.2}", 100.0 * cv, 100.0 * error);
+        format!("{} %, {:.1} s", self.cvs.iter().map(of_side).collect::<Vec<_>>().join(", "), self.time)
+    }
+}
+
 fn find(spec: &WebSpec) -> Found {
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
@@ -102,6 +109,9 @@ pub fn savings() {
             let of = |error| find(&WebSpec { seed, error, ..spec.clone() });
             one.push(of(WantedError::OfOneSheet));
             two.push(of(WantedError::Of(WANTED)));
+            // Each seed at once, because all of them take long.
+            let last = [&one, &two].map(|found| found.last().map(Found::row).unwrap_or_default());
+            println!("  seed {seed}: {}", last.join(" | "));
         }
         let times = [&one, &two].map(|found| found.iter().map(|of| of.time).sum::<f64>() / seeds as f64);
         println!("{name}: {:.1} s | {:.1} s", times[0], times[1]);

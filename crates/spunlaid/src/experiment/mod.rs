@@ -14,7 +14,7 @@ pub mod advice;
 pub mod fit;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
-pub use advice::{Advice, Change, ChangedWeb, KEPT_OUTCOMES, MOST_STEPS, SensitivityRun, setting};
+pub use advice::{Advice, Change, ChangedWeb, MOST_STEPS, SensitivityRun, setting};
 pub use claim::{Claim, REAL, Verdict};
 pub(crate) use claim::{goes, significance};
 pub(crate) use fit::USUAL_FACTOR;

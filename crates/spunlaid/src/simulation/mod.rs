@@ -20,7 +20,10 @@ pub use ensemble::{
     RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub(crate) use layers::SAME;
-pub use layers::{Flown, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WantedError, WebKey, WebSpec};
+pub use layers::{
+    Flown, KEPT_SIMULATIONS, LaydownSource, LayerSpec, WEB, WEB_KEYS, WEB_TABLES, WantedError, WebKey,
+    WebSpec,
+};
 pub use observe::{DECLARED, FibreMeasure, LAYDOWN, MEASURES, Observation, Observer, SURROGATE};
 pub(crate) use one_air::FewOfWeb;
 pub use one_air::{Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight};

@@ -1,11 +1,13 @@
 //! How many filaments of a web in shared turbulence are simulated for all of them.
 
-use spunlaid::ground::{Isa, RunContext};
+use spunlaid::ground::threads::look_while;
+use spunlaid::ground::{Error, Isa, Log, RunContext};
 use spunlaid::input::read_web;
-use spunlaid::simulation::{Flyer, WebSpec};
+use spunlaid::simulation::{Flights, Flyer, WebSpec};
 use spunlaid::web::map::{Findings, PatchFindings};
 use spunlaid::web::{SubsampleEstimate, SubsampleWarning};
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 /// A row on so short a way that neighbours hardly know of each other.
 const WEB: &str = "
@@ -112,17 +114,36 @@ fn identical_a_defect_is_in_the_cv_of_a_sheet_of_pieces() {
     }
 }
 
+/// A web of 0.016 m², whose coarse sheets are ten times as large.
+fn of_two_levels(error: &str) -> WebSpec {
+    let text = WEB.replace("\"30 mm\"", "\"100 mm\"").replace("length = \"20 mm\"", "length = \"100 mm\"");
+    read_web((format!("{text}error = {error}\n").as_str(), "web.toml"), &[]).unwrap().spec
+}
+
+/// Simulates a web.
+///
+/// * `kept` – where sheets are kept
+/// * `watch` – is called before each simulation, with the number of its filaments
+fn few_of(
+    spec: &WebSpec,
+    threads: usize,
+    kept: Option<&Log>,
+    watch: &dyn Fn(u64),
+) -> Result<SubsampleEstimate, Error> {
+    let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
+    let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
+    let follow = |flights: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+        watch(flights.fibres);
+        work();
+    };
+    let mut web = Flyer::new(threads, &stop, &follow).keeping(kept).web(spec)?;
+    Ok(web.find(by)?.laid.simulated[0].few.clone().unwrap())
+}
+
 /// A web of which little is wanted to be known takes one coarse sheet; the bits are the same on any number of threads.
 #[test]
 fn identical_two_levels_on_any_number_of_threads() {
-    let text = WEB.replace("\"30 mm\"", "\"100 mm\"").replace("length = \"20 mm\"", "length = \"100 mm\"");
-    let of = |error: &str, threads: usize| {
-        let spec = read_web((format!("{text}error = {error}\n").as_str(), "web.toml"), &[]).unwrap().spec;
-        let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-        let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
-        let mut web = Flyer::new(threads, &stop, &|_, work| work()).web(&spec).unwrap();
-        web.find(by).unwrap().laid.simulated[0].few.clone().unwrap()
-    };
+    let of = |error: &str, threads: usize| few_of(&of_two_levels(error), threads, None, &|_| ()).unwrap();
     let [alone, one, two] =
         [("\"none\"", 1), ("0.2", 1), ("0.2", 2)].map(|(error, threads)| of(error, threads));
     assert_eq!(format!("{one:?}"), format!("{two:?}"));
@@ -134,4 +155,57 @@ fn identical_two_levels_on_any_number_of_threads() {
     };
     println!("{:?} {:?} {}", error(&alone), error(&one), one.area);
     assert!(one.area > 10.0 * alone.area && error(&one).unwrap() < 0.2, "{one:?}");
+}
+
+/// What was simulated for a large error is not simulated again for a smaller one, whose bits are those without it; and
+/// what is kept of another web is not taken.
+#[test]
+fn identical_a_smaller_error_goes_on_from_the_kept_sheets_of_a_larger_one() {
+    let (large, small) = (of_two_levels("0.2"), of_two_levels("0.06"));
+    let fibres = AtomicU64::new(0);
+    let of = |spec: &WebSpec, threads: usize, kept: Option<&Log>| {
+        fibres.store(0, Ordering::Relaxed);
+        let count = |count| {
+            fibres.fetch_add(count, Ordering::Relaxed);
+        };
+        let few = few_of(spec, threads, kept, &count);
+        (format!("{:?}", few.unwrap()), fibres.load(Ordering::Relaxed))
+    };
+    let (whole, of_whole) = of(&small, 1, None);
+    for threads in [1, 2] {
+        let kept = Log::in_memory();
+        let (_, of_first) = of(&large, 1, Some(&kept));
+        let (continued, of_rest) = of(&small, threads, Some(&kept));
+        assert_eq!(continued, whole);
+        // Only the fine sheet, from which the map is made, is simulated twice.
+        let (_, of_fine) = of(&small, threads, Some(&kept));
+        println!("{of_whole} {of_first} {of_rest} {of_fine}");
+        assert_eq!(of_first + of_rest, of_whole + of_fine);
+        assert!(of_fine < of_rest && of_rest < of_whole, "{of_fine} {of_rest} {of_whole}");
+    }
+    let kept = Log::in_memory();
+    let other = WebSpec { seed: large.seed + 1, ..large.clone() };
+    assert_ne!(of(&large, 2, Some(&kept)).0, of(&other, 2, Some(&kept)).0);
+    assert_eq!(kept.keys().len(), 4);
+}
+
+/// A command that is stopped after a sheet has kept it.
+#[test]
+fn identical_an_interrupted_web_goes_on_from_its_sheets() {
+    let spec = of_two_levels("0.06");
+    let whole = few_of(&spec, 1, None, &|_| ()).unwrap();
+    let (kept, stop) = (Log::in_memory(), AtomicBool::new(false));
+    let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
+        let look = || {
+            stop.fetch_or(kept.keys().len() > 1, Ordering::Relaxed);
+        };
+        look_while(Duration::from_millis(1), look, work);
+    };
+    let stopped = Flyer::new(1, &stop, &follow).keeping(Some(&kept)).web(&spec);
+    assert!(matches!(stopped, Err(Error::Interrupted)));
+    let before = kept.keys().len();
+    assert!(before >= 2);
+    let continued = few_of(&spec, 2, Some(&kept), &|_| ()).unwrap();
+    assert_eq!(format!("{continued:?}"), format!("{whole:?}"));
+    assert!(kept.keys().iter().all(|key| kept.pieces(*key).count() == 1) && kept.keys().len() > before);
 }

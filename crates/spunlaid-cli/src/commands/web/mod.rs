@@ -1,5 +1,6 @@
 //! `spunlaid web`: lays a web of many filaments and says how even it is.
 
+mod kept;
 mod trials;
 mod tried;
 
@@ -10,6 +11,7 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::file::check_file;
 use crate::{progress, say};
+use kept::Kept;
 use spunlaid::experiment::advice::judged_by;
 use spunlaid::ground::Error;
 use spunlaid::input::{Resources, read_web};
@@ -36,7 +38,10 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
 
     let (started, laid, follow) = (Instant::now(), AtomicU64::new(0), flying(output.quiet));
     let by = control(threads, &laid);
-    let mut simulated = Flyer::new(by.threads, by.stop, &follow).web(&web.spec)?;
+    let kept = if web.spec.flies() { Kept::open(&delivery) } else { None };
+    let flyer = Flyer::new(by.threads, by.stop, &follow).keeping(kept.as_ref().map(|kept| &kept.log));
+    let simulated = flyer.web(&web.spec).map_err(Failure::from);
+    let mut simulated = simulated.map_err(|failure| Kept::after(kept.as_ref(), failure))?;
     let label = format!("laying {} km of fibre", significant(simulated.web.fibre_length() / 1e3, 3));
     let findings = progress::follow(&laid, simulated.pieces()?, &label, output.quiet, || simulated.find(by))?;
     let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
@@ -49,7 +54,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     delivery.publish(&web, threads)?;
     // The web is safe now, whatever becomes of what is tried with it.
     delivery.say(&web, &[laying]);
-    trials.run((web, judged_by), by, output.quiet, &mut delivery)
+    trials.run((web, judged_by), (kept, by), output.quiet, &mut delivery)
 }
 
 /// Shows the progress of the flights of a case.

@@ -1,7 +1,8 @@
 //! What is tried once a web has been laid: other values of numbers that are assumed values, then changes of its line.
 
+use super::kept::Kept;
 use super::settled_with;
-use super::tried::{kept, try_changes};
+use super::tried::try_changes;
 use crate::args::{self, overrides};
 use crate::delivery::Delivery;
 use crate::failure::Failure;
@@ -11,7 +12,6 @@ use spunlaid::ground::RunContext;
 use spunlaid::input::{Changes, Resources, WebSpec, read_changes};
 use spunlaid::web::map::Findings;
 use spunlaid_results::reports::web::WebFolder;
-use std::fs;
 
 /// AssumedValues and changes of the line: what a trial is, of what, and what leaves it out.
 const WORDS: [[&str; 3]; 2] =
@@ -53,12 +53,12 @@ impl Trials {
     pub(super) fn run(
         self,
         (mut web, judged_by): (WebFolder, Option<f64>),
-        by: RunContext<'_>,
+        (kept, by): (Option<Kept>, RunContext<'_>),
         quiet: bool,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
-        let (kept, changes_line) = (kept(delivery), self.0[1].is_some());
-        let log = kept.as_ref().map(|(_, log)| log);
+        let changes_line = self.0[1].is_some();
+        let log = kept.as_ref().map(|kept| &kept.log);
         for (number, changes) in self.0.into_iter().enumerate() {
             let Some(changes) = changes else { continue };
             let tried = (&mut web, judged_by);
@@ -68,10 +68,7 @@ impl Trials {
             delivery.rewrite(&web)?;
             delivery.say(&web, &[]);
         }
-        if let Some((file, log)) = kept {
-            drop(log);
-            drop(fs::remove_file(file));
-        }
+        kept.into_iter().for_each(|kept| kept.finish(delivery));
         delivery.finish(&web, &[]);
         Ok(())
     }

@@ -1,32 +1,16 @@
-//! What changes do to a web, and what of it is kept.
+//! What changes do to a web.
 
 use super::counted;
 use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::advice::{advise, steps};
-use spunlaid::experiment::{Advice, Change, KEPT_OUTCOMES};
+use spunlaid::experiment::{Advice, Change};
 use spunlaid::ground::{Error, Log, RunContext};
 use spunlaid_results::reports::web::WebFolder;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
-
-/// What flights have said, which is kept beside the folder until all is told. Nothing here ends the command: what is
-/// not kept is simulated again.
-pub(super) fn kept(delivery: &Delivery<'_>) -> Option<(PathBuf, Log)> {
-    let folder = delivery.folder()?;
-    let name = folder.file_name().unwrap_or_default().to_string_lossy();
-    let file = folder.with_file_name(format!(".{name}.trials"));
-    let log = Log::open(&file, KEPT_OUTCOMES).ok()?;
-    let is_whole = !log.torn && log.damaged == 0;
-    if !log.keys().is_empty() || !is_whole {
-        let torn = if is_whole { "" } else { "; a torn or damaged record is simulated again" };
-        let flights = counted(log.keys().len() as u64, "flight");
-        delivery.line(&format!("continuing: {flights} of an earlier command are kept{torn}"));
-    }
-    Some((file, log))
-}
 
 /// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web
 /// and what was tried before stay in their folder.

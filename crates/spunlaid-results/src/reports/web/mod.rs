@@ -37,6 +37,9 @@ use spunlaid_charts::Figure;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
+/// The file of a web with the numbers of its simulations, from which a smaller error goes on.
+pub const KEPT: &str = "kept";
+
 /// Everything of a web that goes into the files.
 #[derive(Debug)]
 pub struct WebFolder {
@@ -116,6 +119,7 @@ impl Contents for WebFolder {
         TABLES,
         "figures",
         "report.html",
+        KEPT,
         "summary.json",
     ];
     const OF_ONE_FORMAT: &'static [&'static str] = &["map.npy"];

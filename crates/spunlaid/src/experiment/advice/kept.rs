@@ -2,9 +2,6 @@
 
 use crate::ground::{Difference, Effect, Outcome};
 
-/// The first line of a log that keeps outcomes.
-pub const KEPT_OUTCOMES: &str = "spunlaid outcomes of changes, format 1";
-
 /// Numbers of an effect.
 const EFFECT: usize = 6;
 

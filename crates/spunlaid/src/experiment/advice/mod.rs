@@ -12,18 +12,17 @@ mod pinned;
 pub mod setting;
 mod web_of_few;
 
-pub use kept::KEPT_OUTCOMES;
 pub use pinned::{CvSoFar, LOOKS, LaidStretch, Look, PinnedWeb, Seen};
 pub use setting::{ChangedWeb, judged_by};
 
 use self::kept::{numbers_of, outcomes_of};
 use self::web_of_few::{OF_OTHER_MESH, WebOfFew};
-use crate::experiment::study::Experiment;
 use crate::fibre::Case;
 use crate::ground::threads::try_par_map;
 use crate::ground::{
     Dimension, Effect, Error, Fault, Log, Outcome, RACING, RunContext, Sensitivity, effects,
 };
+use crate::simulation::layers::kept_under;
 use crate::simulation::one_air::{fits_memory, steps_in_same_air};
 use crate::simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use crate::web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
@@ -163,21 +162,23 @@ fn few_of_changes(
     (kept, by): (Option<&Log>, RunContext<'_>),
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
-    // Flies webs, unless it is known what they say of the changed ones among them.
-    let tell = |webs: &[&WebSpec], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
-        let key = [u64::from(checksum(spec, webs, of_each)), 0];
-        if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
-            by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
-            return Ok(Some(found));
-        }
-        let Some(told) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
-        let found = effects(told)?;
-        // What cannot be kept is simulated again.
-        kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
-        Ok::<_, Error>(Some(found))
-    };
+    // Flies webs, unless it is known what they say of the changed ones among them, by the numbers of a base.
+    let tell =
+        |webs: &[&WebSpec], base: &[f64], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
+            let deciding = [&[of_each.area, of_each.pitches, spec.memory_limit], base].concat();
+            let key = [kept_under(webs.iter().copied(), &deciding), 0];
+            if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
+                by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
+                return Ok(Some(found));
+            }
+            let Some(told) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
+            let found = effects(told)?;
+            // What cannot be kept is simulated again.
+            kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
+            Ok::<_, Error>(Some(found))
+        };
     let webs = all_webs(spec, changes);
-    let beside = tell(&webs, &|told| {
+    let beside = tell(&webs, &[], &|told| {
         let mut told = webs.iter().zip(told).map(|(spec, few)| Ok(WebOfFew::new(spec, few?)));
         let base = told.next().unwrap_or_else(|| Err(Error::no_fibre()))?;
         let changes = told.map(|few: Result<_, Error>| few.map(|few| base.changes_to(&few)));
@@ -192,11 +193,13 @@ fn few_of_changes(
         }
         // The web as it is has been simulated.
         let changed = &change.experiment.spec;
-        let alone = tell(&[changed], &|told| {
-            // Both without what places, defects and common clouds of layers do to the sheet of the web as it is.
-            let mut base = WebOfFew::new(spec, findings.laid.few().cloned().collect()).cvs(0.0);
-            let of_web = of_maps(&findings.patches);
-            base.retain(|cv| of_web.iter().any(|of_web| of_web.patch == cv.patch));
+        // Both without what places, defects and common clouds of layers do to the sheet of the web as it is.
+        let mut base = WebOfFew::new(spec, findings.laid.few().cloned().collect()).cvs(0.0);
+        let of_web = of_maps(&findings.patches);
+        base.retain(|cv| of_web.iter().any(|of_web| of_web.patch == cv.patch));
+        let numbers: Vec<f64> =
+            base.iter().flat_map(|base| [base.patch, base.cv, base.standard_error]).collect();
+        let alone = tell(&[changed], &numbers, &|told| {
             let effects =
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
@@ -205,19 +208,6 @@ fn few_of_changes(
         tried.push(alone.into_iter().flatten().next().unwrap_or_else(all_are_flown));
     }
     Ok(Some(tried))
-}
-
-/// Under what is kept what webs say: a checksum of all on which it depends.
-fn checksum(spec: &WebSpec, webs: &[&WebSpec], of_each: Compared) -> u32 {
-    let mut sum = crc32fast::Hasher::new();
-    sum.update(env!("CARGO_PKG_VERSION").as_bytes());
-    let numbers = [of_each.area, of_each.pitches, spec.memory_limit];
-    numbers.iter().for_each(|number| sum.update(&number.to_bits().to_le_bytes()));
-    for web in std::iter::once(&spec).chain(webs) {
-        sum.update(&web.seed.to_le_bytes());
-        sum.update(&Experiment::from((*web).clone()).checksum().to_le_bytes());
-    }
-    sum.finalize()
 }
 
 /// Whether a changed web hangs in eddies of other lengths, so that it has no clouds in common with the web as it

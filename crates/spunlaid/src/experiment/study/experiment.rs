@@ -1,8 +1,7 @@
 //! What a point of a study repeats: flights of a case, webs, or a spinline.
 
-use crate::fibre::case::keys;
 use crate::fibre::{Case, SpinSpec};
-use crate::simulation::{WEB_KEYS, WebSpec};
+use crate::simulation::WebSpec;
 
 /// What a point repeats, with its seed.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,36 +90,9 @@ impl Experiment {
     /// Enters everything on which its records depend into a checksum.
     pub(super) fn enter(&self, sum: &mut crc32fast::Hasher) {
         match self {
-            Self::Case(case) => enter_keys(sum, case),
-            Self::Spinline(spec) => enter_keys(sum, &Case::from(&**spec)),
-            Self::Web(web) => {
-                for number in 0..web.layers.len() {
-                    let alone = web.alone(number);
-                    for key in WEB_KEYS {
-                        if let Some(value) = key.get(&alone) {
-                            sum.update(key.name.as_bytes());
-                            sum.update(&value.bytes());
-                        }
-                    }
-                    let layer = &alone.layers[0];
-                    // The keys of rows show the first row only.
-                    sum.update(format!("{:?}", layer.filaments).as_bytes());
-                    layer.source.case().iter().for_each(|case| enter_keys(sum, case));
-                }
-            }
-        }
-    }
-}
-
-/// Enters the name and the value of every key of a case but those on which no fibre depends. A case that is
-/// written and read again has the same values, to the last bit; of files, the contents count.
-fn enter_keys(sum: &mut crc32fast::Hasher, case: &Case) {
-    for key in keys::all().iter().filter(|key| !["run.replicates", "run.checks"].contains(&key.name)) {
-        if let Some(value) = key.get(case) {
-            sum.update(key.name.as_bytes());
-            // A number that the flow tells along the way is another than the same number everywhere.
-            sum.update(&[u8::from(key.is_derived(case))]);
-            sum.update(&value.bytes());
+            Self::Case(case) => case.enter(sum),
+            Self::Spinline(spec) => Case::from(&**spec).enter(sum),
+            Self::Web(web) => web.enter(sum),
         }
     }
 }

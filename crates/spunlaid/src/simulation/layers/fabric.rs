@@ -1,6 +1,7 @@
 //! The fabric that a web becomes.
 
 use super::{LayerSpec, WebSpec};
+use crate::ground::Dimension;
 use crate::web::fabric::LaidPatch;
 use crate::web::fabric::{Filaments, columns_sold, estimate};
 use crate::web::map::uniformity::variance_of_mean;
@@ -9,6 +10,18 @@ use crate::web::{Defect, Fabric, Laid, Layer, StreakSource, Web};
 
 /// Side of the patches whose waves show how the ends of a sheet cut its clouds [m].
 const OF_PART: f64 = 10e-3;
+
+/// On which area numbers are counted, where the CV comes from a larger one.
+fn counted_on(found: &Findings) -> Option<String> {
+    let few = found.laid.few().find(|few| few.is_of_two_levels())?;
+    let area = |area: f64| Dimension::Ratio.pretty_to(area, 2);
+    Some(format!(
+        "thin spots, weights, strips, bare area and light are counted on the map, which has the clouds of {} m²; the \
+        CV comes from {} m². How far the map is off is in their errors",
+        area(few.sheet[0] * few.sheet[1]),
+        area(few.area)
+    ))
+}
 
 impl WebSpec {
     /// What a buyer wants to know of the fabric.
@@ -38,7 +51,9 @@ impl WebSpec {
             error_of_weight: self.error_of_part(web, found).or(found.error_of_weight).unwrap_or(0.0),
             defects: self.streak_sources(web),
         };
-        estimate(&laid, &self.fabric, threads)
+        let mut fabric = estimate(&laid, &self.fabric, threads);
+        fabric.notes.extend(counted_on(found));
+        fabric
     }
 
     /// Standard error of the mean weight of a part that is sold, as a fraction of it; None if all of the web is.

@@ -378,3 +378,46 @@ impl WebSpec {
         web
     }
 }
+
+/// The first line of a log that keeps numbers of simulations.
+pub const KEPT_SIMULATIONS: &str = "spunlaid kept simulations, format 2";
+
+/// Under what the numbers of simulations of webs are kept: a checksum of all on which they depend.
+///
+/// * `numbers` – on which they depend besides the webs
+pub(crate) fn kept_under<'a>(webs: impl IntoIterator<Item = &'a WebSpec>, numbers: &[f64]) -> u64 {
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(env!("CARGO_PKG_VERSION").as_bytes());
+    numbers.iter().for_each(|number| sum.update(&number.to_bits().to_le_bytes()));
+    for web in webs {
+        sum.update(&web.seed.to_le_bytes());
+        web.of_any_error().enter(&mut sum);
+    }
+    sum.finalize().into()
+}
+
+impl WebSpec {
+    /// Enters everything on which its records depend into a checksum.
+    pub(crate) fn enter(&self, sum: &mut crc32fast::Hasher) {
+        for number in 0..self.layers.len() {
+            let alone = self.alone(number);
+            for key in WEB_KEYS {
+                if let Some(value) = key.get(&alone) {
+                    sum.update(key.name.as_bytes());
+                    sum.update(&value.bytes());
+                }
+            }
+            let layer = &alone.layers[0];
+            // The keys of rows show the first row only.
+            sum.update(format!("{:?}", layer.filaments).as_bytes());
+            layer.source.case().iter().for_each(|case| case.enter(sum));
+        }
+    }
+
+    /// The same web without the keys that change no sheet of it, only how many there are or what is tried with it.
+    fn of_any_error(&self) -> Self {
+        // One sheet alone is a larger one, which the area says.
+        let (error, assumed) = (WantedError::Auto, Vec::new());
+        Self { error, time: None, assumed, turnable: None, ..self.clone() }
+    }
+}

@@ -2,10 +2,12 @@
 
 use super::BeamFindings;
 use super::layer_beam::LayerBeam;
-use crate::ground::{Error, Isa, RunContext};
+use crate::ground::threads::{lock, unlock};
+use crate::ground::{Error, Isa, Log, RunContext};
 use crate::simulation::WebSpec;
 use crate::web::Depositor;
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The flights of a case, to be watched.
@@ -31,6 +33,7 @@ pub struct Flyer<'a> {
     pub(super) threads: usize,
     pub(super) stop: &'a AtomicBool,
     pub(super) follow: ProgressDisplay<'a>,
+    pub(super) kept: Option<&'a Log>,
 }
 
 impl std::fmt::Debug for Flyer<'_> {
@@ -42,7 +45,13 @@ impl std::fmt::Debug for Flyer<'_> {
 impl<'a> Flyer<'a> {
     /// * `stop` – set from elsewhere to stop early
     pub const fn new(threads: usize, stop: &'a AtomicBool, follow: ProgressDisplay<'a>) -> Self {
-        Self { threads, stop, follow }
+        Self { threads, stop, follow, kept: None }
+    }
+
+    /// Keeps the numbers of coarse sheets, and takes those that are kept in place of simulating them again.
+    #[must_use]
+    pub const fn keeping(self, kept: Option<&'a Log>) -> Self {
+        Self { kept, ..self }
     }
 
     /// Flies a layer and shows the progress.
@@ -54,17 +63,12 @@ impl<'a> Flyer<'a> {
         spec: &WebSpec,
         on: Option<&Depositor<'_>>,
     ) -> Result<BeamFindings, Error> {
-        let (beam, done) = (layer.beam(), AtomicU64::new(0));
-        let by = RunContext { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: &done };
-        let flights = Flights {
-            path: layer.path,
-            fibres: layer.places.len() as u64,
-            done: &done,
-            steps: beam.steps(&layer.sheet),
-            time_step: beam.case.run.time_step,
-        };
-        let mut simulated = Err(Error::Interrupted);
-        (self.follow)(flights, &mut || simulated = beam.fly((&layer.sheet, spec.window()), on, by));
-        simulated
+        let (simulated, threads, stop) = (Mutex::new(None), self.threads, self.stop);
+        self.watched(&[layer], |done| {
+            let by = RunContext { threads, isa: Isa::detect(), stop, done };
+            *lock(&simulated) = Some(layer.beam().fly((&layer.sheet, spec.window()), on, by)?);
+            Ok(())
+        })?;
+        unlock(simulated).ok_or_else(Error::no_fibre)
     }
 }

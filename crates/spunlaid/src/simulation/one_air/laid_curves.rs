@@ -9,7 +9,7 @@ use super::BeamFindings;
 use super::flyer::Flyer;
 use super::layer_beam::{FilledLayer, LayerBeam, beam_on};
 use super::sampled::FlownSheet;
-use super::two_levels::FineSheet;
+use super::two_levels::{FineSheet, LayerSheets};
 use crate::ground::{Error, RunContext};
 use crate::simulation::{Flown, LaydownSource, WebSpec};
 use crate::web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
@@ -85,9 +85,12 @@ impl Flyer<'_> {
         on: &Depositor<'_>,
     ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
-        let mut asked = spec.flown_sheet(number, None);
+        let (mut asked, sheets) = (spec.flown_sheet(number, None), LayerSheets::new(self, spec, number));
         loop {
-            let mut simulated = self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?;
+            let mut simulated = match &asked {
+                Some(asked) if flights == 0 && layer.few.is_some() => sheets.fine(&layer, asked)?,
+                _ => self.fly_layer(&layer, spec, Some(on).filter(|_| layer.few.is_none()))?,
+            };
             spent.whole += simulated.layer.spent.whole;
             spent.in_parallel += simulated.layer.spent.in_parallel;
             simulated.layer.spent = spent;
@@ -103,7 +106,7 @@ impl Flyer<'_> {
                 let told = match &asked {
                     Some(on) if told.doubt().is_none() => {
                         let first = FineSheet { on, layer: &layer, simulated: &simulated, few: told };
-                        self.until_sure(spec, number, first)?
+                        sheets.until_sure(first)?
                     }
                     _ => told,
                 };

@@ -67,6 +67,12 @@ impl FlownSheet {
         Self { sheet: Sheet { length, ..self.sheet.clone() }, ..*self }
     }
 
+    /// On what the numbers of a layer on this sheet depend besides its web.
+    pub(super) fn deciding(&self, layer: usize) -> [f64; 5] {
+        let Self { sheet, pitches, pairs } = self;
+        [layer as f64, sheet.width, sheet.length, *pitches, *pairs as f64]
+    }
+
     /// The same sheet, on which fewer neighbours are looked at.
     pub(super) fn coarse(&self) -> Self {
         Self { pairs: PAIRS_OF_COARSE, ..self.clone() }

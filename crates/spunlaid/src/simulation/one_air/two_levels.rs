@@ -4,6 +4,9 @@
 //! fine sheet → the same sheet and air, simulated coarsely → a pair
 //!            → coarse sheets in other airs → CV of all and its error → more sheets until it is small enough
 //! ```
+//!
+//! Each sheet depends on its number and not on the wanted error, so that a smaller error goes on from those that are
+//! kept.
 
 use super::BeamFindings;
 use super::comparison::Laid;
@@ -12,13 +15,15 @@ use super::flying::Sink;
 use super::layer_beam::{LayerBeam, beam_on, key};
 use super::sampled::{FINE, FlownSheet};
 use super::shared_air::{LARGER_WAVES, SharedAir};
-use crate::ground::threads::try_par_map;
-use crate::ground::{Error, Isa, RunContext};
-use crate::simulation::layers::USUAL_ERROR;
+use crate::ground::threads::{lock, try_together, unlock};
+use crate::ground::{Error, Isa, Log, RunContext};
+use crate::simulation::layers::{USUAL_ERROR, kept_under};
 use crate::simulation::{WantedError, WebSpec};
 use crate::web::map::blocks_on;
-use crate::web::map::levels::{Levels, Pair};
+use crate::web::map::levels::{Levels, Pair, numbers_of, sheet_of};
 use crate::web::{Sheet, SubsampleEstimate, Window};
+use std::ops::Range;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 
@@ -46,6 +51,57 @@ pub(super) struct FineSheet<'a> {
     pub(super) layer: &'a LayerBeam<'a>,
     pub(super) simulated: &'a BeamFindings,
     pub(super) few: SubsampleEstimate,
+}
+
+/// The sheets of a layer that are kept, each under the number of its air.
+struct KeptSheets<'a> {
+    logs: [Option<&'a Log>; 2],
+    /// A checksum of all else on which they depend.
+    sum: u64,
+}
+
+impl KeptSheets<'_> {
+    /// Returns the sheets in an air; None if they are not kept.
+    fn find<const N: usize>(&self, air: u64) -> Option<[SubsampleEstimate; N]> {
+        let of_log = |log: &Log| {
+            let numbers = log.pieces([self.sum, air]).last()?.ok()?;
+            let mut rest = &numbers[..];
+            let sheets: Option<Vec<SubsampleEstimate>> = (0..N).map(|_| sheet_of(&mut rest)).collect();
+            sheets?.try_into().ok()
+        };
+        self.logs.iter().copied().flatten().find_map(of_log)
+    }
+
+    /// Keeps sheets in the first log that takes them.
+    fn keep(&self, air: u64, sheets: &[&SubsampleEstimate]) {
+        let numbers: Vec<f64> = sheets.iter().flat_map(|sheet| numbers_of(sheet)).collect();
+        let takes = |log: &&Log| log.append([self.sum, air], numbers.iter().copied()).is_ok();
+        let _ = self.logs.iter().copied().flatten().find(takes);
+    }
+
+    /// Simulates a fine sheet coarsely too, and keeps both, unless the coarse filaments have not laid all of it.
+    fn keep_pair(
+        &self,
+        air: u64,
+        fine: &FineSheet<'_>,
+        again: &LayerBeam<'_>,
+        by: RunContext<'_>,
+    ) -> Result<(), Error> {
+        let FineSheet { layer, simulated, few, .. } = fine;
+        let laid = coarsely(again, by)?;
+        let beam = again.beam();
+        let belt_speed = beam.case.line.map_or(f64::NAN, |line| line.belt_speed);
+        let [from, to] =
+            [simulated.back + layer.sheet.length, simulated.back].map(|place| -place / belt_speed);
+        let within = Laid::new([&beam, &beam], &laid)?.during;
+        if from < within.start || to > within.end {
+            return Ok(());
+        }
+        let laid = BeamFindings { back: simulated.back, ..laid };
+        let coarse = look_at(again, &with_larger_cells(&layer.sheet), &laid, (by.threads, by.stop))?;
+        coarse.iter().for_each(|coarse| self.keep(air, &[few, coarse]));
+        Ok(())
+    }
 }
 
 impl WebSpec {
@@ -101,32 +157,80 @@ impl LayerBeam<'_> {
     }
 }
 
-impl Flyer<'_> {
-    /// Flies coarse sheets of a layer until its CV is known to the wanted error.
+/// The sheets of a layer whose CV is to be known to an error.
+pub(super) struct LayerSheets<'a> {
+    flyer: &'a Flyer<'a>,
+    spec: &'a WebSpec,
+    number: usize,
+    /// The numbers of sheets that no file keeps.
+    memory: Log,
+}
+
+/// A pair that is simulated at the same time as coarse sheets.
+#[derive(Clone, Copy)]
+struct NextPair<'p> {
+    on: &'p FlownSheet,
+    /// Number of its air.
+    air: u64,
+    /// The fine sheet, if that has been simulated.
+    fine: Option<&'p FineSheet<'p>>,
+}
+
+/// What is simulated at the same time as coarse sheets.
+struct Meanwhile<'m> {
+    beams: &'m [&'m LayerBeam<'m>],
+    work: &'m (dyn Fn(RunContext<'_>) -> Result<(), Error> + Sync),
+}
+
+impl<'a> LayerSheets<'a> {
+    /// * `number` – of the layer
+    pub(super) fn new(flyer: &'a Flyer<'a>, spec: &'a WebSpec, number: usize) -> Self {
+        Self { flyer, spec, number, memory: Log::in_memory() }
+    }
+
+    /// How many coarse sheets are simulated before their error is looked at: some fewer than are expected, because some
+    /// webs need fewer; and one where the time is short.
+    fn at_first(&self) -> u64 {
+        match self.spec.time {
+            Some(_) => 1,
+            None => (2 * self.spec.expected_sheets(self.number) / 3).clamp(1, MOST_AT_FIRST),
+        }
+    }
+
+    /// Simulates the fine sheet. Where one sheet has too few filaments for all threads, the coarse sheets that are
+    /// needed in any case are simulated at the same time.
+    pub(super) fn fine(&self, layer: &LayerBeam<'_>, on: &FlownSheet) -> Result<BeamFindings, Error> {
+        let (spec, simulated) = (self.spec, Mutex::new(None));
+        let has_coarse = self.flyer.threads > 1 && spec.time.is_none() && layer.few.is_some();
+        let has_coarse = has_coarse && spec.wanted_error(self.number).is_some();
+        let work = |by: RunContext<'_>| {
+            *lock(&simulated) = Some(layer.beam().fly((&layer.sheet, spec.window()), None, by)?);
+            Ok(())
+        };
+        let airs = 1..if has_coarse { 1 + self.at_first() } else { 1 };
+        self.coarse_meanwhile(on, airs, &Meanwhile { beams: &[layer], work: &work })?;
+        unlock(simulated).ok_or_else(Error::no_fibre)
+    }
+
+    /// Simulates coarse sheets until the CV of the layer is known to the wanted error.
     ///
     /// * `first` – the fine sheet, in the air of the web
-    pub(super) fn until_sure(
-        &self,
-        spec: &WebSpec,
-        number: usize,
-        first: FineSheet<'_>,
-    ) -> Result<SubsampleEstimate, Error> {
-        let begun = Instant::now();
-        let Some(wanted) = spec.wanted_error(number) else { return Ok(first.few) };
+    pub(super) fn until_sure(&self, first: FineSheet<'_>) -> Result<SubsampleEstimate, Error> {
+        let (begun, spec) = (Instant::now(), self.spec);
+        let Some(wanted) = spec.wanted_error(self.number) else { return Ok(first.few) };
         let on = first.on;
         let of_pairs = on.with_area(first.few.fine_area.max(FINE));
         // If nothing can be combined, the fine sheet stands alone, and its error may be larger than the wanted one.
         let alone = SubsampleEstimate { wanted: Some(wanted), ..first.few.clone() };
-        let Some(pair) = self.pair(spec, number, first)? else { return Ok(alone) };
-        let mut levels = Levels { pairs: vec![pair], coarse: Vec::new() };
-        // Numbers of the airs in which coarse sheets and pairs fly.
-        let (mut airs, mut pairs) = (1, 1);
-        // Some fewer than are expected, because some webs need fewer; and one where the time is short.
-        let expected = (2 * spec.expected_sheets(number) / 3).clamp(1, MOST_AT_FIRST);
-        let mut more = if spec.time.is_some() { 1 } else { expected };
+        let mut levels = Levels::default();
+        // Numbers of the airs of coarse sheets and of pairs.
+        let (mut airs, mut pairs, mut simulated) = (1, 1, 0);
+        let mut more = self.at_first();
+        let mut pair = Some(NextPair { on, air: 0, fine: Some(&first) });
         loop {
-            let coarse = self.coarse_sheets(spec, number, on, airs..airs + more)?;
-            levels.coarse.extend(coarse);
+            simulated += self.simulate(on, airs..airs + more, pair)?;
+            levels.pairs.extend(pair.and_then(|pair| self.kept_pair(pair)));
+            levels.coarse.extend((airs..airs + more).filter_map(|air| self.kept_coarse(on, air)));
             airs += more;
             let Some(variances) = levels.variances() else { return Ok(alone) };
             let (limit, area) = (wanted * wanted, AREA * airs as f64);
@@ -136,11 +240,10 @@ impl Flyer<'_> {
                 return Ok(SubsampleEstimate { wanted: Some(wanted), ..combined });
             }
             let mut by_pairs = variances.by_pairs;
+            pair = None;
             if by_pairs > BY_PAIRS * limit {
-                let other = spec.in_air(PAIRS | pairs);
+                pair = Some(NextPair { on: &of_pairs, air: PAIRS | pairs, fine: None });
                 pairs += 1;
-                let pair = self.fine_sheet(&other, number, &of_pairs)?;
-                levels.pairs.extend(pair);
                 // The sheets that it spares are not simulated.
                 by_pairs *= (pairs - 1) as f64 / pairs as f64;
             }
@@ -149,90 +252,134 @@ impl Flyer<'_> {
             let needed = airs as f64 * ((variances.by_area + variances.by_pitch) / left - 1.0);
             more = (needed.ceil() as u64).clamp(1, airs);
             if let Some(time) = spec.time {
-                let of_each = begun.elapsed().as_secs_f64() / airs as f64;
-                more = more.min(((time / of_each) as u64).saturating_sub(airs)).max(1);
+                // Nothing is known of the time where all sheets were kept.
+                let so_far = begun.elapsed().as_secs_f64();
+                let of_each = if simulated > 0 { so_far / simulated as f64 } else { f64::INFINITY };
+                more = more.min(((time - so_far) / of_each) as u64).max(1);
             }
         }
     }
 
-    /// Flies another sheet both ways.
-    fn fine_sheet(&self, spec: &WebSpec, number: usize, on: &FlownSheet) -> Result<Option<Pair>, Error> {
-        let layer = beam_on(spec, number, Some(on))?;
-        let simulated = self.fly_layer(&layer, spec, None)?;
-        let Some(few) = look_at(&layer, &layer.sheet, &simulated, (self.threads, self.stop))? else {
-            return Ok(None);
-        };
-        self.pair(spec, number, FineSheet { on, layer: &layer, simulated: &simulated, few })
-    }
-
-    /// Flies a fine sheet coarsely too; None if the coarse filaments have not laid all of it.
-    fn pair(&self, spec: &WebSpec, number: usize, first: FineSheet<'_>) -> Result<Option<Pair>, Error> {
-        let FineSheet { on, layer, simulated, few } = first;
-        let Some(line) = layer.beam().case.line else { return Ok(None) };
-        let coarse = beam_on(spec, number, Some(&on.coarse()))?.with_coarsest_mesh();
-        // It begins to lay earlier, because its start is shorter.
-        let earlier = layer.beam().case.run.spin_up() - coarse.beam().case.run.spin_up();
-        let longer = (earlier * line.belt_speed + FARTHER * line.distance).max(0.0);
-        let coarse = [coarse.longer_by(longer)];
-        let (threads, stop) = (self.threads, self.stop);
-        let laid = self.watched(&coarse, |done| {
-            coarsely(&coarse[0], RunContext { threads, isa: Isa::detect(), stop, done })
-        })?;
-        let beam = coarse[0].beam();
-        let [from, to] =
-            [simulated.back + layer.sheet.length, simulated.back].map(|place| -place / line.belt_speed);
-        let within = Laid::new([&beam, &beam], &laid)?.during;
-        if from < within.start || to > within.end {
-            return Ok(None);
-        }
-        let laid = BeamFindings { back: simulated.back, ..laid };
-        let coarse = look_at(&coarse[0], &with_larger_cells(&layer.sheet), &laid, (threads, stop))?;
-        Ok(coarse.map(|coarse| Pair { fine: few, coarse }))
-    }
-
-    /// Flies coarse sheets side by side, each in another air.
-    fn coarse_sheets(
+    /// Simulates the coarse sheets of some airs and a pair at the same time, unless they are kept. Returns how many that
+    /// were.
+    fn simulate(
         &self,
-        spec: &WebSpec,
-        number: usize,
         on: &FlownSheet,
-        airs: std::ops::Range<u64>,
-    ) -> Result<Vec<SubsampleEstimate>, Error> {
-        let specs: Vec<WebSpec> = airs.map(|air| spec.in_air(air)).collect();
-        let on = on.coarse().with_area(AREA);
-        let beams = specs.iter().map(|spec| Ok(beam_on(spec, number, Some(&on))?.with_coarsest_mesh()));
-        let beams: Vec<LayerBeam<'_>> = beams.collect::<Result<_, Error>>()?;
-        let Some(first) = beams.first() else { return Ok(Vec::new()) };
-        let fits =
-            (spec.memory_limit / first.beam().memory_of_air(&first.sheet, LARGER_WAVES).max(1.0)) as usize;
-        let concurrent = beams.len().min(self.threads).min(fits).max(1);
-        let (threads, stop) = (self.threads.div_ceil(concurrent), self.stop);
-        let found = self.watched(&beams, |done| {
-            try_par_map(concurrent, beams.len(), |i| {
-                let by = RunContext { threads, isa: Isa::detect(), stop, done };
-                let laid = coarsely(&beams[i], by)?;
-                let beam = beams[i].beam();
-                let of_sheet = Laid::new([&beam, &beam], &laid)?;
-                let (sheet, laid) = of_sheet.sheet(&beams[i].sheet, &of_sheet.during)?;
-                look_at(&beams[i], &with_larger_cells(&sheet), &laid, (threads, stop))
+        airs: Range<u64>,
+        pair: Option<NextPair<'_>>,
+    ) -> Result<usize, Error> {
+        let Some(pair) = pair.filter(|pair| self.kept_pair(*pair).is_none()) else {
+            return self.coarse_meanwhile(on, airs, &Meanwhile { beams: &[], work: &|_| Ok(()) });
+        };
+        let other = self.spec.in_air(pair.air);
+        let own = match pair.fine {
+            None => Some(beam_on(&other, self.number, Some(pair.on))?),
+            Some(_) => None,
+        };
+        let Some(layer) = pair.fine.map(|fine| fine.layer).or(own.as_ref()) else { return Ok(0) };
+        let again = beam_on(&other, self.number, Some(&pair.on.coarse()))?.with_coarsest_mesh();
+        let Some(again) = lays_around(again, layer) else { return self.simulate(on, airs, None) };
+        let (kept, NextPair { on: of_pair, air, fine }) = (self.kept(pair.on), pair);
+        let work = |by: RunContext<'_>| {
+            if let Some(fine) = fine {
+                return kept.keep_pair(air, fine, &again, by);
+            }
+            let simulated = layer.beam().fly((&layer.sheet, other.window()), None, by)?;
+            let few = look_at(layer, &layer.sheet, &simulated, (by.threads, by.stop))?;
+            few.map_or(Ok(()), |few| {
+                let fine = FineSheet { on: of_pair, layer, simulated: &simulated, few };
+                kept.keep_pair(air, &fine, &again, by)
             })
-        })?;
-        Ok(found.into_iter().flatten().collect())
+        };
+        let beams: Vec<&LayerBeam<'_>> = own.iter().chain([&again]).collect();
+        Ok(1 + self.coarse_meanwhile(on, airs, &Meanwhile { beams: &beams, work: &work })?)
     }
 
-    /// Shows the progress of coarse flights while it does the work that it is given.
-    fn watched<T: Send>(
+    /// Simulates the coarse sheets of some airs that are not kept, each in another air, and keeps them. Returns their
+    /// number.
+    ///
+    /// * `meanwhile` – what is simulated at the same time
+    fn coarse_meanwhile(
         &self,
-        beams: &[LayerBeam<'_>],
-        work: impl Fn(&AtomicU64) -> Result<T, Error> + Sync,
-    ) -> Result<T, Error> {
-        let (Some(first), done) = (beams.first(), AtomicU64::new(0)) else { return Err(Error::no_fibre()) };
+        on: &FlownSheet,
+        airs: Range<u64>,
+        meanwhile: &Meanwhile<'_>,
+    ) -> Result<usize, Error> {
+        let Flyer { threads, stop, .. } = *self.flyer;
+        let airs: Vec<u64> = airs.filter(|air| self.kept_coarse(on, *air).is_none()).collect();
+        let on = on.coarse().with_area(AREA);
+        let kept = self.kept(&on);
+        let specs: Vec<WebSpec> = airs.iter().map(|air| self.spec.in_air(*air)).collect();
+        let beams = specs.iter().map(|spec| Ok(beam_on(spec, self.number, Some(&on))?.with_coarsest_mesh()));
+        let beams: Vec<LayerBeam<'_>> = beams.collect::<Result<_, Error>>()?;
+        let memory =
+            |of_beam: &LayerBeam<'_>, highest: f64| of_beam.beam().memory_of_air(&of_beam.sheet, highest);
+        let by_others =
+            meanwhile.beams.iter().map(|of_beam| memory(of_beam, f64::INFINITY)).fold(0.0, f64::max);
+        let of_each = beams.first().map_or(f64::INFINITY, |first| memory(first, LARGER_WAVES).max(1.0));
+        let fits = 1 + ((self.spec.memory_limit - by_others) / of_each) as usize;
+        let all: Vec<&LayerBeam<'_>> = meanwhile.beams.iter().copied().chain(&beams).collect();
+        let work = |i: usize, by: RunContext<'_>| {
+            // The longest work begins first.
+            let Some(number) = i.checked_sub(1) else { return (meanwhile.work)(by) };
+            let laid = coarsely(&beams[number], by)?;
+            let beam = beams[number].beam();
+            let of_sheet = Laid::new([&beam, &beam], &laid)?;
+            let (sheet, laid) = of_sheet.sheet(&beams[number].sheet, &of_sheet.during)?;
+            let few = look_at(&beams[number], &with_larger_cells(&sheet), &laid, (by.threads, stop))?;
+            few.iter().for_each(|few| kept.keep(airs[number], &[few]));
+            Ok(())
+        };
+        self.flyer.watched(&all, |done| {
+            let by = RunContext { threads, isa: Isa::detect(), stop, done };
+            try_together(threads, fits, 1 + beams.len(), |i| work(i, by)).map(drop)
+        })?;
+        Ok(beams.len())
+    }
+
+    fn kept(&self, on: &FlownSheet) -> KeptSheets<'_> {
+        let sum = kept_under([self.spec], &on.deciding(self.number));
+        KeptSheets { logs: [self.flyer.kept, Some(&self.memory)], sum }
+    }
+
+    fn kept_coarse(&self, on: &FlownSheet, air: u64) -> Option<SubsampleEstimate> {
+        let [sheet] = self.kept(&on.coarse().with_area(AREA)).find(air)?;
+        Some(sheet)
+    }
+
+    fn kept_pair(&self, pair: NextPair<'_>) -> Option<Pair> {
+        let [fine, coarse] = self.kept(pair.on).find(pair.air)?;
+        // What is kept of a sheet is less than the first one has to say.
+        Some(Pair { fine: pair.fine.map_or(fine, |first| first.few.clone()), coarse })
+    }
+}
+
+/// Makes a coarse layer lay the sheet of a fine one and what lies around it; None of filaments that are not fed.
+fn lays_around<'a>(coarse: LayerBeam<'a>, fine: &LayerBeam<'_>) -> Option<LayerBeam<'a>> {
+    let line = fine.beam().case.line?;
+    // It begins to lay earlier, because its start is shorter.
+    let earlier = fine.beam().case.run.spin_up() - coarse.beam().case.run.spin_up();
+    let longer = (earlier * line.belt_speed + FARTHER * line.distance).max(0.0);
+    Some(coarse.longer_by(longer))
+}
+
+impl Flyer<'_> {
+    /// Shows the progress of flights while it does the work that it is given; nothing if there are none.
+    pub(super) fn watched(
+        &self,
+        beams: &[&LayerBeam<'_>],
+        work: impl Fn(&AtomicU64) -> Result<(), Error> + Sync,
+    ) -> Result<(), Error> {
+        let (Some(first), done) = (beams.first(), AtomicU64::new(0)) else { return Ok(()) };
+        let steps = |of_beam: &&LayerBeam<'_>| of_beam.beam().steps(&of_beam.sheet);
+        let time = |of_beam: &&LayerBeam<'_>| steps(of_beam) as f64 * of_beam.beam().case.run.time_step;
+        let all = beams.iter().map(steps).sum::<u64>();
         let flights = Flights {
             path: first.path,
             fibres: beams.iter().map(|of_beam| of_beam.places.len() as u64).sum(),
             done: &done,
-            steps: beams.iter().map(|of_beam| of_beam.beam().steps(&of_beam.sheet)).sum(),
-            time_step: first.beam().case.run.time_step,
+            steps: all,
+            time_step: beams.iter().map(time).sum::<f64>() / all.max(1) as f64,
         };
         let mut found = Err(Error::Interrupted);
         (self.follow)(flights, &mut || found = work(&done));

@@ -26,6 +26,19 @@ pub struct SubsampleCv {
 }
 
 impl SubsampleCv {
+    /// Nothing of it is known yet.
+    pub(crate) const UNKNOWN: Self = Self {
+        patch: f64::NAN,
+        cv: f64::NAN,
+        by_chance: None,
+        by_pitch: 0.0,
+        of_halves: 0.0,
+        own: 0.0,
+        few: f64::NAN,
+        beyond_filling: 0.0,
+        beyond_sheet: 0.0,
+    };
+
     /// With another square of the CV: the errors of the square stay.
     pub(crate) fn with_square(self, square: f64) -> Self {
         let cv = square.max(0.0).sqrt();
