@@ -357,7 +357,7 @@ fn identical_a_web_goes_on_after_a_kill_and_with_a_smaller_error() {
     let desk = Desk::with_case(FED);
     let web = |error: &str| {
         let text = format!(
-            "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\ndepth = '10 mm'\n[web]\n\
+            "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\nslot_gap = '10 mm'\n[web]\n\
             width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\nerror = '{error}'\n"
         );
         fs::write(desk.path("web.toml"), text).unwrap();

@@ -7,7 +7,7 @@ use std::fs;
 use std::time::Duration;
 
 #[test]
-fn a_finished_study_is_not_flown_again() {
+fn a_finished_study_is_not_simulated_again() {
     let place = place();
     place.swept("out", &[]);
     let before = contents(&place.path("out"));

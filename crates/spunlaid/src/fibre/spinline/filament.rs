@@ -213,7 +213,7 @@ impl<'a> Filament<'a> {
     pub(super) fn until_solid(&self, state: &State) -> f64 {
         let cooling = state[TEMPERATURE] / self.material().solidification_temperature - 1.0;
         match self.crystals() {
-            Some(crystals) => cooling.min(1.0 - self.transformed(state) / crystals.freezing_share),
+            Some(crystals) => cooling.min(1.0 - self.transformed(state) / crystals.solidification_fraction),
             None => cooling,
         }
     }

@@ -73,7 +73,7 @@ pub struct Crystals {
     /// Exponent `b` of the hardening [-].
     pub hardening_exponent: f64,
     /// Transformed share `θ_s` at which the filament is solid [-].
-    pub freezing_share: f64,
+    pub solidification_fraction: f64,
 }
 
 /// The constants of a polymer as a file gives them.
@@ -118,7 +118,7 @@ const CHOSEN: Crystals = Crystals {
     enhancement_limit: 1e4,
     hardening_factor: 4.0,
     hardening_exponent: 2.0,
-    freezing_share: 0.1,
+    solidification_fraction: 0.1,
 };
 
 impl Polymer {

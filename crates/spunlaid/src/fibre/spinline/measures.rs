@@ -30,10 +30,10 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
         found.solidification.distance
     })
     .meaning("distance from the die at which the filament becomes solid; from there on its speed is constant")
-    .kept("freezing_distance", "freezing_distance_m")
+    .kept("solidification_distance", "solidification_distance_m")
     .main()
     .figure(&figure(
-        "freezing_distance",
+        "solidification_distance",
         "Distance of the solidification point from the die",
         "distance of the solidification point",
     )),
@@ -52,7 +52,7 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
         };
         Some(by.to_owned())
     })
-    .kept("solidification_temperature", "freezing_temperature_k")
+    .kept("solidification_temperature", "solidification_temperature_k")
     .figure(&figure(
         "solidification_temperature",
         "Temperature at solidification",
@@ -66,9 +66,9 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
         found.solidification.stress
     })
     .meaning("tensile stress where it becomes solid, which orients the polymer")
-    .kept("freezing_stress", "freezing_stress_pa")
+    .kept("solidification_stress", "solidification_stress_pa")
     .main()
-    .figure(&figure("freezing_stress", "Stress at solidification", "stress at solidification")),
+    .figure(&figure("solidification_stress", "Stress at solidification", "stress at solidification")),
     spun("solidification.cooling_rate_k_s", "Cooling rate at solidification", KELVIN_PER_SECOND, |found| {
         found.solidification.cooling_rate
     })

@@ -187,7 +187,7 @@ fn analytic_crystallisation_at_a_constant_temperature() {
     // θ after t = 2.7466365 s is 1 − exp(−(Kt)³).
     let mut line = Spinline { crystallisation: true, die_temperature: 373.15, ..isothermal(1e-6) };
     line.material.crystals =
-        Crystals { hardening_factor: 0.0, heat_of_fusion: 0.0, freezing_share: 2.0, ..crystals };
+        Crystals { hardening_factor: 0.0, heat_of_fusion: 0.0, solidification_fraction: 2.0, ..crystals };
     line.material.full_birefringence = 1e30;
     line.material.stress_optical_coefficient = 1e-9;
     line.length = 2.746_636_5 * SPEED;

@@ -116,7 +116,7 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assu
             told["layers"] = change.layers.as_slice().into();
         }
         if advice.is_confirmed {
-            told["flown_again"] = (!at_first.is_empty()).into();
+            told["simulated_again"] = (!at_first.is_empty()).into();
         }
         told["patches"] = effects.iter().map(|effect| patch(tried, effect)).collect();
         joined([guess, told])

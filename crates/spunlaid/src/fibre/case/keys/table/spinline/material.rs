@@ -154,7 +154,7 @@ pub(super) const KEYS: &[Key] = &[
     constant!("hardening_exponent", Ratio, Positive, crystals.hardening_exponent, (0.1, 10.0))
         .meaning("Exponent b of the viscosity's rise by crystals. It was chosen.")
         .label("Exponent of the hardening *b*"),
-    constant!("freezing_share", Ratio, Share, crystals.freezing_share, (0.001, 1.0))
+    constant!("solidification_fraction", Ratio, Share, crystals.solidification_fraction, (0.001, 1.0))
         .meaning("Transformed fraction at which the filament is solid. It was chosen.")
         .label("Transformed fraction at solidification *θ*_{s}"),
 ];
