@@ -113,7 +113,7 @@ fn rejects_what_cannot_change_and_flies_on() {
         ("air.velocty", "20 m/s", "air.velocity"),
         ("air.velocity", "20 mm", "velocity"),
         ("air.velocity", "fast", "velocity"),
-        ("fibre.diameter", "-1 µm", "positive"),
+        ("fibre.diameter", "-60 µm", "positive"),
         ("fibre.length", "2 m", "cannot change in flight"),
         ("run.time_step", "1 µs", "cannot change in flight"),
         ("air.speed_factor", "2", "no meaning"),
