@@ -81,7 +81,7 @@ def test_the_drag_factor_of_a_titre_is_found() -> None:
 
 
 def test_rejects_spinlines_without_a_steady_state() -> None:
-    with pytest.raises(spunlaid.CaseError, match="freezes at 110 °C") as caught:
+    with pytest.raises(spunlaid.CaseError, match="solidifies at 110 °C") as caught:
         spunlaid.spin({"spinline": {**LINE, "length": "50 mm", "end": "take-up", "take_up_speed": 20.0}})
     assert caught.value.key.startswith("spinline.")
     with pytest.raises(spunlaid.CaseError, match="is missing"):

@@ -321,7 +321,8 @@ mod tests {
         assert_eq!(errors_of("cv_2.5_mm_one_fibre"), []);
         // A temperature is kept in kelvin.
         assert!(
-            all.iter().any(|quantity| quantity.column == "solidification_temperature_k" && quantity.unit == KELVIN)
+            all.iter()
+                .any(|quantity| quantity.column == "solidification_temperature_k" && quantity.unit == KELVIN)
         );
     }
 }

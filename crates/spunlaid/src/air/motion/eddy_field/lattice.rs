@@ -166,17 +166,13 @@ pub(super) fn left(turn: f64) -> f64 {
     ((2416.0 + 2382.0 * cos(1.0) + 240.0 * cos(2.0) + 2.0 * cos(3.0)) / 5040.0).sqrt()
 }
 
-/// The smallest number without other factors than 2, 3 and 5 that is not below `least`.
+/// The smallest number without other factors than 2, 3 and 5 that is not below `least`, or `least` where that is too
+/// large for a number. Such numbers lie far apart where they are large, so they are not sought one after the other.
 fn smooth(least: usize) -> usize {
-    let is_smooth = |mut number: usize| {
-        for factor in [2, 3, 5] {
-            while number.is_multiple_of(factor) {
-                number /= factor;
-            }
-        }
-        number == 1
-    };
-    (least.max(1)..).find(|number| is_smooth(*number)).unwrap_or(least)
+    let powers = |factor: usize| std::iter::successors(Some(1_usize), move |power| power.checked_mul(factor));
+    let multiples = powers(3).flat_map(|three| powers(5).map_while(move |five| three.checked_mul(five)));
+    let of_odd = |odd: usize| odd.checked_mul(least.div_ceil(odd).checked_next_power_of_two()?);
+    multiples.filter_map(of_odd).min().unwrap_or(least)
 }
 
 /// Samples before a place that its interpolation needs, and all that it needs.
@@ -195,4 +191,32 @@ pub(super) const READ: usize = 16;
 /// Numbers in a line of a block. What follows the last point is read, but does not count.
 pub(super) fn line_size(samples: usize, points: usize) -> usize {
     points.div_ceil(BRICK) * samples * row_size(points) + READ - 3 * NEEDED
+}
+
+#[cfg(test)]
+mod tests {
+    use super::smooth;
+
+    /// A page that turned a knob very far waited for the next such number for minutes.
+    #[test]
+    fn analytic_smooth_numbers_are_the_next_products_of_two_three_and_five() {
+        let is_smooth = |number: &usize| {
+            2_usize.pow(30).is_multiple_of(
+                number
+                    / [3, 5].iter().fold(1, |all, factor| {
+                        all * std::iter::successors(Some(*factor), |power| Some(power * factor))
+                            .take_while(|power| number.is_multiple_of(*power))
+                            .last()
+                            .unwrap_or(1)
+                    }),
+            )
+        };
+        for least in 1..2000 {
+            assert_eq!(Some(smooth(least)), (least..).find(is_smooth), "{least}");
+        }
+        assert_eq!([0, (1 << 62) + 1].map(smooth)[0], 1);
+        // Numbers as large have such a neighbour within 1 %.
+        let large = smooth((1 << 62) + 1);
+        assert!(large > 1 << 62 && (large as f64) < 1.01 * 2_f64.powi(62), "{large}");
+    }
 }
