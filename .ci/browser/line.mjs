@@ -116,13 +116,13 @@ async function followThumb(page, { expect, wait }) {
   await page.evaluate(() => dispatchEvent(new Event("pointerup")));
 }
 
-/** The change is found again in another air, with an error of its own, next to the first one. */
+/** The change is found again in other turbulence, with its own error, next to the first one. */
 async function confirmChange(page, { expect, shot }) {
   const first = await page.locator("#change").innerText();
   await page.locator("#confirm").click();
   await page.waitForFunction(() => spunlaidLive.state.confirmation?.is_done, null, { timeout: 180000 });
   const text = await page.locator("#confirmed").innerText();
-  expect(/[+−]?[\d.]+\s±\s[\d.]+\s% in another air/.test(text), `the headline says of the other air: ${text}`);
+  expect(/[+−]?[\d.]+\s±\s[\d.]+\s% in other turbulence/.test(text), `the headline says of other turbulence: ${text}`);
   expect((await page.locator("#change").innerText()) === first, "a confirmation changes the change");
   const columns = await page.locator("#patches tr").first().locator("th, td").count();
   expect(columns === 5, `the table has ${columns} columns with a confirmation`);
