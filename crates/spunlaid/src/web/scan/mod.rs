@@ -53,7 +53,7 @@
 //! let light = Light::Weight { mean: Some(16e-3) };
 //! let found = analyse(&picture, &Settings { patches: vec![2e-3], ..Settings::new(light) })?;
 //! assert!((found.map.basis_weight() / 16e-3 - 1.0).abs() < 1e-12);
-//! assert!(found.patches[0].CV.cv < 0.1);
+//! assert!(found.patches[0].patch_cv.cv < 0.1);
 //! # Ok(())
 //! # }
 //! ```
