@@ -43,8 +43,8 @@ pub fn try_par_map<T: Send>(
     share(std::any::type_name_of_val(&work), threads, pieces, work)
 }
 
-/// As [`try_par_map`], with pieces that share their own work among threads again: a thread that has no piece any more helps
-/// in those that are not finished, so that never more than `threads` work and hardly fewer.
+/// As [`try_par_map`], with pieces that share their own work among threads again: a thread that has no piece any more
+/// helps in those that are not finished, so that never more than `threads` work and hardly fewer.
 ///
 /// * `concurrent` – most pieces that are begun before another one is finished
 ///

@@ -260,8 +260,8 @@ impl<'a> LayerSheets<'a> {
         }
     }
 
-    /// Simulates the coarse sheets of some airs and a pair at the same time, unless they are kept. Returns how many that
-    /// were.
+    /// Simulates the coarse sheets of some airs and a pair at the same time, unless they are kept. Returns how many
+    /// that were.
     fn simulate(
         &self,
         on: &FlownSheet,

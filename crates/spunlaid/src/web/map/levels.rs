@@ -454,9 +454,9 @@ mod tests {
         }
     }
 
-    /// On a sheet of 24 blocks, as of a change in advice, and on one of 64: blocks that have nothing in common, and clouds
-    /// that reach over several. Of these the falling weights leave out two fifths of the variance. Weights that do not
-    /// fall would leave 24 blocks one degree of freedom.
+    /// On a sheet of 24 blocks, as of a change in advice, and on one of 64: blocks that have nothing in common, and
+    /// clouds that reach over several. Of these the falling weights leave out two fifths of the variance. Weights
+    /// that do not fall would leave 24 blocks one degree of freedom.
     #[test]
     fn stat_the_variance_of_the_mean_of_blocks_leaves_out_what_reaches_far() {
         const TRIALS: usize = 4000;

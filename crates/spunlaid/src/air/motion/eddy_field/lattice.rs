@@ -200,17 +200,13 @@ mod tests {
     /// A page that turned a knob very far waited for the next such number for minutes.
     #[test]
     fn analytic_smooth_numbers_are_the_next_products_of_two_three_and_five() {
-        let is_smooth = |number: &usize| {
-            2_usize.pow(30).is_multiple_of(
-                number
-                    / [3, 5].iter().fold(1, |all, factor| {
-                        all * std::iter::successors(Some(*factor), |power| Some(power * factor))
-                            .take_while(|power| number.is_multiple_of(*power))
-                            .last()
-                            .unwrap_or(1)
-                    }),
-            )
+        let without = |mut number: usize, factor: usize| {
+            while number.is_multiple_of(factor) {
+                number /= factor;
+            }
+            number
         };
+        let is_smooth = |number: &usize| [2, 3, 5].into_iter().fold(*number, without) == 1;
         for least in 1..2000 {
             assert_eq!(Some(smooth(least)), (least..).find(is_smooth), "{least}");
         }
