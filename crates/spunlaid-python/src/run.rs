@@ -41,7 +41,7 @@ pub(crate) fn fly(
     })?;
     let (is_whole, paths) = (simulated.paths.is_some(), simulated.paths);
     let results = (simulated.results, simulated.replicates, is_whole);
-    let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, (started, computing));
+    let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, started, computing);
     let [lost, outside, _] = found(&run.case, &run.results);
     lost.iter().chain(&outside).try_for_each(|text| warn(py, text))?;
     // As many shapes as memory holds may be kept, and each open file counts.

@@ -40,7 +40,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
         return Err(paused());
     }
     let (case, simulated) = ((Arc::new(case), &notes[..]), (results, replicates, paths.is_some()));
-    let mut written = RunFolder::new(name, case, simulated, &plans, (started, by));
+    let mut written = RunFolder::new(name, case, simulated, &plans, started, by);
     let [lost, outside, coarse] = found(&written.case, &written.results);
     outside.iter().for_each(|outside| say::warning(outside));
     delivery.publish(&written, run.threads)?;

@@ -101,8 +101,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let laying = RunContext { threads: 2, isa: Isa::detect(), stop: &STOP, done: &laid };
     let found = simulated.find(laying).unwrap();
     let (name, kinds) = ("web".to_owned(), kinds(&found));
-    let mut written =
-        WebFolder::new((name.clone(), name), file, (simulated, found), (Instant::now(), laying));
+    let mut written = WebFolder::new((name.clone(), name), file, simulated, found, Instant::now(), laying);
     let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
     for findings in kinds {
         let desk = tempfile::tempdir().unwrap();

@@ -148,7 +148,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
         let word = Overrides::new(&[], "--set");
         let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();
-        let advice = advise(&spec, (&web, &findings), changes, None, (None, by)).expect("advice");
+        let advice = advise(&spec, (&web, &findings), changes, None, None, by).expect("advice");
         let seconds = begun.elapsed().as_secs_f64();
         println!(
             "  {name} {seconds:.1} s, {:.2} times the web, {} steps",

@@ -53,7 +53,8 @@ impl Trials {
     pub(super) fn run(
         self,
         (mut web, judged_by): (WebFolder, Option<f64>),
-        (kept, by): (Option<Kept>, RunContext<'_>),
+        kept: Option<Kept>,
+        by: RunContext<'_>,
         quiet: bool,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
@@ -62,7 +63,7 @@ impl Trials {
         for (number, changes) in self.0.into_iter().enumerate() {
             let Some(changes) = changes else { continue };
             let tried = (&mut web, judged_by);
-            let found = try_changes(changes, WORDS[number], tried, (log, by), (quiet, delivery))?;
+            let found = try_changes(changes, WORDS[number], tried, log, by, (quiet, delivery))?;
             *(if number == 0 { &mut web.assumed_values } else { &mut web.advice }) = found;
             web.awaited = number == 0 && changes_line;
             delivery.rewrite(&web)?;

@@ -18,13 +18,14 @@ pub(super) fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
     (web, judged_by): (&mut WebFolder, Option<f64>),
-    (kept, by): (Option<&Log>, RunContext<'_>),
+    kept: Option<&Log>,
+    by: RunContext<'_>,
     (quiet, delivery): (bool, &mut Delivery<'_>),
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), RunContext { done: &done, ..by });
-    let work = || advise(spec, (&web.simulated.web, &web.findings), changes, judged_by, (kept, by));
+    let work = || advise(spec, (&web.simulated.web, &web.findings), changes, judged_by, kept, by);
     match progress::follow(&done, all, &label, quiet, work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);

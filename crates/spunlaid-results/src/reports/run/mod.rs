@@ -161,7 +161,8 @@ impl RunFolder {
         (mut case, notes): (Arc<Case>, &[Note]),
         (results, replicates, is_whole): (Results, u64, bool),
         plans: &FinerPlans,
-        (started, by): (Instant, RunContext<'_>),
+        started: Instant,
+        by: RunContext<'_>,
     ) -> Self {
         let mut notes = Remark::notes_of_results(notes);
         let checks = if is_whole { plans.before_flight() } else { plans.stopped() };

@@ -74,8 +74,10 @@ impl WebFolder {
     pub fn new(
         (name, beside): (String, String),
         file: WebFile,
-        (simulated, findings): (FlownWeb, Findings),
-        (started, by): (Instant, RunContext<'_>),
+        simulated: FlownWeb,
+        findings: Findings,
+        started: Instant,
+        by: RunContext<'_>,
     ) -> Self {
         let fabric = file.spec.fabric(&simulated.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);

@@ -114,10 +114,11 @@ pub fn advise(
     (web, findings): (&Web, &Findings),
     changes: Vec<Change>,
     judged_by: Option<f64>,
-    (kept, by): (Option<&Log>, RunContext<'_>),
+    kept: Option<&Log>,
+    by: RunContext<'_>,
 ) -> Result<Advice, Error> {
     let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
-        few_of_changes((spec, findings), (changes, of_each), (kept, by))
+        few_of_changes((spec, findings), (changes, of_each), kept, by)
     };
     let has_few = findings.laid.few().next().is_some();
     let mut is_in_same_air = false;
@@ -159,7 +160,8 @@ type Outcomes = Vec<Outcome<f64>>;
 fn few_of_changes(
     (spec, findings): (&WebSpec, &Findings),
     (changes, of_each): (&[Change], Compared),
-    (kept, by): (Option<&Log>, RunContext<'_>),
+    kept: Option<&Log>,
+    by: RunContext<'_>,
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them, by the numbers of a base.
