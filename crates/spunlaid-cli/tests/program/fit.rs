@@ -51,7 +51,7 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
     assert!(low < 900.0 && 900.0 < high, "{key}");
     // CV² falls as one over the number, so a single CV that scatters by s tells its logarithm to 2 s, and
     // Student's t of ten webs is 2.26. All together tell it better than patches of 2 mm alone, which scatter more than
-    // smaller ones, and do not tell what they cannot.
+    // smaller ones, and do not give what they cannot.
     let numbers = found["numbers"].as_array().unwrap();
     let scatter = |number: &Value| 2.26 * 2.0 * number["scatter"].as_f64().unwrap();
     let of_best = numbers.iter().map(scatter).fold(f64::INFINITY, f64::min);

@@ -15,7 +15,7 @@ use super::tree::Tree;
 use spunlaid_ground::error::counted;
 use spunlaid_ground::{Fault, FileError};
 
-/// Number of points in the mean. The distance of the next one is where the weights become zero.
+/// Number of points on average. The distance of the next one is where the weights become zero.
 const NEAREST: usize = 8;
 /// Number of neighbours that gradients are fitted to. It is doubled until there are some in all directions.
 const NEIGHBOURS: [usize; 4] = [16, 32, 64, 128];

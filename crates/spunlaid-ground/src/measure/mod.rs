@@ -77,7 +77,7 @@ pub enum Formula<T: 'static> {
     /// A number with its 95 % confidence interval.
     Interval(fn(&T) -> Interval),
     /// A number of which only a bound or a range may be known, or none if this one has none.
-    Told(fn(&T) -> Option<Known>),
+    Reported(fn(&T) -> Option<Known>),
 }
 
 /// What an error is to its measure, as studies and tables have to know.
@@ -109,7 +109,7 @@ pub enum Value {
     /// A number with its 95 % confidence interval.
     Interval(Interval),
     /// A number, a bound or a range.
-    Told(Known),
+    Reported(Known),
     /// Places, times or frequencies, and the values there, as many of both, in SI units.
     Curve(Vec<f64>, Vec<f64>),
 }
@@ -122,7 +122,7 @@ impl Value {
                 *value
             }
             Self::Count(count) => *count as f64,
-            Self::Told(known) => known.value(),
+            Self::Reported(known) => known.value(),
             Self::Curve(..) => f64::NAN,
         }
     }
@@ -267,7 +267,7 @@ impl<T> Measure<T> {
                 Some(Value::Mean { mean, standard_error })
             }
             Formula::Interval(interval) => Some(Value::Interval(interval(found))),
-            Formula::Told(known) => known(found).map(Value::Told),
+            Formula::Reported(known) => known(found).map(Value::Reported),
         }
     }
 

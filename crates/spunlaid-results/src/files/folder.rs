@@ -354,7 +354,7 @@ fn refuse_results(
 pub(crate) fn refuse_others(folder: &Path, results: &[&str], own: &[&str]) -> Result<(), Failure> {
     let named =
         |entry: io::Result<fs::DirEntry>| Some(entry.ok()?.file_name().to_string_lossy().into_owned());
-    // A folder that cannot be read is told of where it is written to.
+    // A folder that cannot be read is reported of where it is written to.
     let mut found: Vec<String> = fs::read_dir(folder).into_iter().flatten().filter_map(named).collect();
     found.retain(|name| !name.starts_with('.') && !own.contains(&name.as_str()));
     found.sort_unstable();

@@ -78,23 +78,23 @@ cutoff_frequency = "420 Hz"
 across = "marheineke-wegener"
 "#;
 
-/// What is told of a change: its name, the CV over patches of 10 mm as a share of the web's, and whether it
+/// What is reported of a change: its name, the CV over patches of 10 mm as a share of the web's, and whether it
 /// is one of the best two.
-struct Told {
+struct Estimate {
     name: String,
     spec: WebSpec,
     change: Difference,
     is_named: bool,
 }
 
-/// Compares what is told of the lines that are asked for with long webs.
+/// Compares what is reported of the lines that are asked for with long webs.
 pub fn changes() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let asked = |name: &str| std::env::args().any(|word| word == name);
     let lines = [
         ("slot", SLOT, "line.slot_gap, air.intensity_factor, air.length_factor", "500"),
         ("row", ROW, "air.intensity_factor, air.length_factor", "500"),
-        // Half of its filaments do not tell the CV of all.
+        // Half of its filaments do not give the CV of all.
         ("thick", THICK, "line.slot_gap, air.turbulence_intensity", "990"),
     ];
     let all = !lines.iter().any(|(name, ..)| asked(name));
@@ -132,7 +132,7 @@ fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
 }
 
 /// What the program tells of a line, with what it takes.
-fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
+fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let spec = read(text, &[]);
@@ -172,7 +172,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Told>) {
                 tried.change.setting.turned.name(),
                 if is_named(tried) { " *" } else { "" }
             );
-            Some(Told { name, spec, change, is_named: is_named(tried) })
+            Some(Estimate { name, spec, change, is_named: is_named(tried) })
         }));
     }
     (spec, told)
@@ -184,8 +184,13 @@ fn label(change: &Change) -> String {
 }
 
 /// Prints what long webs say of each change beside what is told; how many are within two told errors, and of how many.
-/// A long web whose few filaments do not tell the CV of all is left out with its partner, and counted.
-fn compare(base: &WebSpec, told: &[Told], like: &WebSpec, (seeds, threads): (usize, usize)) -> [usize; 2] {
+/// A long web whose few filaments do not give the CV of all is left out with its partner, and counted.
+fn compare(
+    base: &WebSpec,
+    told: &[Estimate],
+    like: &WebSpec,
+    (seeds, threads): (usize, usize),
+) -> [usize; 2] {
     let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
     let cvs = par_map(threads, specs.len() * seeds, |i| {
         let seed = 1000 + (i % seeds) as u64;
@@ -204,7 +209,7 @@ fn compare(base: &WebSpec, told: &[Told], like: &WebSpec, (seeds, threads): (usi
         "  change                                          told             long webs          pairs  in told errors"
     );
     let [mut held, mut compared] = [0, 0];
-    for (web, Told { name, change, is_named, .. }) in (1..).zip(told) {
+    for (web, Estimate { name, change, is_named, .. }) in (1..).zip(told) {
         let pair = |(cv, base): (&Option<f64>, &Option<f64>)| Some((*cv)? / (*base)? - 1.0);
         let ratios: Vec<f64> = of(web).iter().zip(of(0)).filter_map(pair).collect();
         let pairs = ratios.len() as f64;

@@ -115,7 +115,7 @@ impl Implausible {
         (format!("{} {unit}", shown(self.value / size)), range)
     }
 
-    /// What is told of it.
+    /// What is reported of it.
     ///
     /// * `is_written` – whether its key is, so that another unit may have been meant
     pub(crate) fn note(&self, is_written: bool) -> Note {

@@ -138,7 +138,7 @@ pub struct Circle {
     pub apart: f64,
 }
 
-/// The circle whose squared distances from the points, `|p − c|² − R²`, are smallest in the mean square.
+/// The circle whose squared distances from the points, `|p − c|² − R²`, are smallest on average square.
 pub fn circle_through(points: &[LaidPoint]) -> Circle {
     let count = points.len() as f64;
     let mean = |quantity: &dyn Fn(&LaidPoint) -> f64| points.iter().map(quantity).sum::<f64>() / count;

@@ -128,7 +128,7 @@ fn frozen_stretches_are_named_with_place_and_length() {
             for words in [&format!("frozen in {many} "), &format!(" samples from data row {row} (at ")] {
                 assert!(named.len() == 1 && named[0].contains(words), "{words}: {named:?}");
             }
-            // Each joint takes about an integral time off; where that is much of the rest, nothing is told of it.
+            // Each joint takes about an integral time off; where that is much of the rest, nothing is reported of it.
             if count as f64 * correlated < 0.02 * (10_000 - count * length) as f64 {
                 // What is left is another record of the same air, known as well as its interval says.
                 let within = (whole.integral_time.high / whole.integral_time.low).ln() / 2.0;

@@ -189,11 +189,11 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
 fn told<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
     let kept = measures.iter().filter(|of| !of.name.is_empty());
     let number = |of: &Measure<T>| match found.and_then(|found| of.value(found)) {
-        Some(Value::Told(Known::Value(value, error))) => [value, error.unwrap_or(f64::NAN)],
+        Some(Value::Reported(Known::Value(value, error))) => [value, error.unwrap_or(f64::NAN)],
         // None were found: zero, as likely as one on the sheet.
-        Some(Value::Told(Known::AtMost(bound))) if of.column.ends_with("_per_m2") => [0.0, bound / 3.0],
-        Some(Value::Told(Known::Exact(value))) => [value, f64::NAN],
-        Some(Value::Told(known @ Known::Between(_))) => [known.value(), f64::NAN],
+        Some(Value::Reported(Known::AtMost(bound))) if of.column.ends_with("_per_m2") => [0.0, bound / 3.0],
+        Some(Value::Reported(Known::Exact(value))) => [value, f64::NAN],
+        Some(Value::Reported(known @ Known::Between(_))) => [known.value(), f64::NAN],
         _ => [f64::NAN; 2],
     };
     kept.flat_map(number).collect()

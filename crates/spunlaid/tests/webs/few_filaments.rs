@@ -54,7 +54,7 @@ fn found(text: &str) -> Findings {
     web.find(by).unwrap()
 }
 
-/// Eight filaments in a length scale of 16 mm do not tell what those between them do, so that twice and then
+/// Eight filaments in a length scale of 16 mm do not give what those between them do, so that twice and then
 /// four times as many are simulated, as a number would say; a number is simulated as it is.
 #[test]
 fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell() {

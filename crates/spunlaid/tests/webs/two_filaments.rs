@@ -30,7 +30,7 @@ fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
 /// over all neighbours at z and the belt v that passes meanwhile, with the pitch p and [`overlap`] T.
 #[test]
 fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
-    // In single airs the sum is up to a tenth off, and 3 % too high in the mean of twelve.
+    // In single airs the sum is up to a tenth off, and 3 % too high on average of twelve.
     const AIRS: u64 = 8;
     let mut off = [0.0; 2];
     for seed in 1..=AIRS {

@@ -128,7 +128,7 @@ fn the_parts_of_white_noise_are_the_areas_of_their_rings() {
     assert!((whole / 0.01 - 1.0).abs() < 0.02, "{whole}");
 }
 
-/// Streaks that are longer than any cloud that is told of have no part in the clouds, and a wave of the sheet
+/// Streaks that are longer than any cloud that is reported of have no part in the clouds, and a wave of the sheet
 /// has all of its variance where it belongs, also where cells and the parts of the transform do not agree.
 #[test]
 fn analytic_long_streaks_do_not_leak_into_the_clouds() {

@@ -16,7 +16,7 @@ use spunlaid::input::Resources;
 use spunlaid_results::reports::air::{AirFolder, AirViews, Slices};
 use std::sync::atomic::AtomicU64;
 
-/// What a reader is told of a case whose fibres have turbulence of their own.
+/// What a reader is reported of a case whose fibres have turbulence of their own.
 const UNIFORM: &str = "the case has air.lateral = \"uniform\": each of its fibres is simulated in independent \
     turbulence, which is the same across. What is shown is its air with air.lateral = \"von-karman\", as \
     neighbours share it";

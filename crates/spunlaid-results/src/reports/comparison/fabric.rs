@@ -12,7 +12,7 @@ const PATCH: f64 = 5e-3;
 /// The number of a fabric that goes with the square of its CV.
 const SQUARE_OF_CV: &str = "formation";
 
-/// Every number that is told of both fabrics with what is known of it: of the whole, of patches and strips.
+/// Every number that is reported of both fabrics with what is known of it: of the whole, of patches and strips.
 pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
     let fabrics = webs.map(|web| (&web.fabric, web.name.as_str()));
     let mut found = both(FABRIC_MEASURES, ["", ""], fabrics, |_, values| values);

@@ -27,7 +27,7 @@ pub(super) struct Web {
     pub(super) has_camera: bool,
     /// Side of a cell of its map, if it is known [m].
     pub(super) cell: Option<f64>,
-    /// What is told of its fabric; nothing in an older folder.
+    /// What is reported of its fabric; nothing in an older folder.
     pub(super) fabric: Json,
     /// What is said of the scan, and of the layers of the line.
     pub(super) scan: Json,

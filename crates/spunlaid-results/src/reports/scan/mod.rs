@@ -25,7 +25,7 @@ pub struct ScanFolder {
     file: String,
     /// What was found of it.
     pub findings: Findings,
-    /// What is told of the fabric.
+    /// What is reported of the fabric.
     fabric: Fabric,
     /// What a reader must know of what was found.
     notes: Vec<String>,

@@ -31,7 +31,7 @@ use std::borrow::Cow;
 /// A scanned web.
 ///
 /// * `file` – its path
-/// * `findings` – of it, with what is told of its fabric
+/// * `findings` – of it, with what is reported of its fabric
 ///
 /// # Errors
 /// The picture cannot be drawn.

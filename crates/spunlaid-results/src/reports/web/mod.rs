@@ -51,7 +51,7 @@ pub struct WebFolder {
     pub simulated: FlownWeb,
     /// What was found of it.
     pub findings: Findings,
-    /// What is told of the fabric.
+    /// What is reported of the fabric.
     pub fabric: Fabric,
     /// What would make it more even; None if it was not tried.
     pub advice: Option<Advice>,

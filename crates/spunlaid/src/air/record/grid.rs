@@ -52,7 +52,7 @@ impl TimeGrid {
         (size > 0.0).then_some(Self { size, is_exact: size > DIGITS * unit })
     }
 
-    /// Rows before which samples are missing, and how many; none if the times do not tell.
+    /// Rows before which samples are missing, and how many; none if the times do not give.
     pub(super) fn place(self, known: &[(usize, f64)]) -> Option<Vec<(usize, usize)>> {
         if self.is_interval(known) {
             return Some(self.skips(known).map(|(row, grids, rows)| (row, grids - rows)).collect());

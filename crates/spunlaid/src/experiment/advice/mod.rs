@@ -154,7 +154,7 @@ pub fn advise(
 /// What changes do, each to the CV over patches of each size [m].
 type Outcomes = Vec<Outcome<f64>>;
 
-/// Flies a few filaments of all webs in the same air; None if a few do not tell the web as it is.
+/// Flies a few filaments of all webs in the same air; None if a few do not give the web as it is.
 ///
 /// * `of_each` – what is simulated of each
 fn few_of_changes(

@@ -107,7 +107,7 @@ pub fn identity(start: &WebSpec, parameters: &[Parameter], target: &Target, webs
 ///
 /// * `flyer` – flies the fibres of each trial
 /// * `journal` – webs that are in it are not laid again
-/// * `watch` – is told of every web that is laid
+/// * `watch` – is reported of every web that is laid
 ///
 /// # Errors
 /// If there are too many keys, too few webs or too few numbers; if the webs of the start cannot be laid; if

@@ -109,7 +109,7 @@ impl Simulator for WebSimulator<'_> {
             };
             self.target.textures().iter().map(error).collect()
         };
-        // Where a few filaments do not tell the CV of all, the map may be off by all of it.
+        // Where a few filaments do not give the CV of all, the map may be off by all of it.
         let of_map =
             |patch: &PatchFindings| Some((patch.of_map - patch.reported().map_or(0.0, |told| told.cv)).abs());
         let causes = [errors(&|patch| patch.total_error().flight), errors(&of_map)];

@@ -64,7 +64,7 @@ fn variance(spectrum: &[(f64, f64)], [shortest, longest]: [f64; 2]) -> f64 {
 ///
 /// * `shortest` – wave [m]
 pub(super) fn bands(map: &Map, shortest: f64) -> Vec<Texture> {
-    /// Fewest waves of a tile in the longest one that is told of.
+    /// Fewest waves of a tile in the longest one that is reported of.
     const FEWEST: f64 = 2.0;
     let Some(clouds) = Clouds::measure(map) else { return Vec::new() };
     let tile = clouds.spectrum(0).first().map_or(0.0, |(wave, _)| *wave);

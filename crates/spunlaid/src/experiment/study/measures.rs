@@ -139,14 +139,14 @@ fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], part: &Part)
 
 /// Whether the value of a measure comes with its error.
 const fn tells_its_error<T>(measure: &Measure<T>) -> bool {
-    matches!(measure.formula, Formula::Told(_))
+    matches!(measure.formula, Formula::Reported(_))
 }
 
 /// Adds the numbers of some measures, in the order of their quantities; NaN where there is nothing.
 fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&T>) {
     for measure in measure::with_errors(measures).filter(|measure| is_kept(measure)) {
         match found.and_then(|found| measure.value(found)) {
-            Some(Value::Told(known)) => all.extend(of_one_web(known, measure.unit)),
+            Some(Value::Reported(known)) => all.extend(of_one_web(known, measure.unit)),
             value if tells_its_error(measure) => {
                 all.extend([value.map_or(f64::NAN, |value| value.number()); 2])
             }

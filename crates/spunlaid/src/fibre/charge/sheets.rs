@@ -306,7 +306,7 @@ mod tests {
     }
 
     /// As in the words of a line: 18 µm of polypropylene, 5000 filaments per metre, fed at 50 m/s into air of
-    /// 35 m/s in the mean.
+    /// 35 m/s on average.
     #[test]
     fn analytic_the_estimate_goes_with_charge_and_its_square() {
         let mass = 5000.0 * 0.25 * std::f64::consts::PI * 18e-6_f64.powi(2) * 910.0 * 50.0 / 35.0;

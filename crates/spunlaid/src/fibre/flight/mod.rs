@@ -164,7 +164,7 @@ pub struct Snapshot {
     pub velocity: Vec<Vec3<Lanes>>,
     /// Tension of the `N` elements, negative in compression [N].
     pub tension: Vec<Lanes>,
-    /// Drag on the `N` elements [N]; empty with a scheme that does not tell it.
+    /// Drag on the `N` elements [N]; empty with a scheme that does not give it.
     pub drag: Vec<Vec3<Lanes>>,
     /// Number of nodes of the fibre in each lane.
     pub nodes: [usize; WIDTH],
@@ -272,7 +272,7 @@ impl Flight {
         self.air.felt(element, step)
     }
 
-    /// Drag on each element in the last step [N]; none with a scheme that does not tell it.
+    /// Drag on each element in the last step [N]; none with a scheme that does not give it.
     ///
     /// * `count` – number of elements
     fn drag_of_elements(&self, count: usize) -> Vec<Vec3<Lanes>> {

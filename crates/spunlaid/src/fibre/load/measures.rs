@@ -1,4 +1,4 @@
-//! What is told of the load of the filaments on their air. `summary.json` and the report follow from it.
+//! What is reported of the load of the filaments on their air. `summary.json` and the report follow from it.
 
 use super::{Heat, Load, LoadPlace};
 use crate::ground::{Formula, KELVIN, MILLIMETRES, Measure, PER_METRE, PERCENT, RATIO, Unit};

@@ -1,6 +1,6 @@
 //! The changed webs of a file.
 
-use super::super::web::Guess;
+use super::super::web::AssumedValue;
 use super::super::{Overrides, Source};
 use super::Base;
 use super::line::WebToChange;
@@ -47,7 +47,7 @@ const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.leng
 
 fn changes_of_guesses(web: &WebToChange<'_>) -> Vec<Change> {
     let spec = web.base.spec();
-    let named = spec.assumed.iter().filter_map(|name| Some((name, Guess::new(spec, name).ok()?)));
+    let named = spec.assumed.iter().filter_map(|name| Some((name, AssumedValue::new(spec, name).ok()?)));
     named
         .flat_map(|(name, guess)| FACTORS.map(|factor| with_guess(web, name, &guess, factor)))
         .flatten()
@@ -55,7 +55,7 @@ fn changes_of_guesses(web: &WebToChange<'_>) -> Vec<Change> {
 }
 
 /// The web with another value of an assumed value; None if that is no other value.
-fn with_guess(web: &WebToChange<'_>, name: &str, guess: &Guess, factor: f64) -> Option<Change> {
+fn with_guess(web: &WebToChange<'_>, name: &str, guess: &AssumedValue, factor: f64) -> Option<Change> {
     let value = factor * guess.value;
     let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
     let mut values: Vec<(VariedKey, f64)> =

@@ -15,7 +15,7 @@ const GUESSED: &str = "web.assumed";
 
 /// A number that is an assumed value.
 #[derive(Clone, Debug)]
-pub(crate) struct Guess {
+pub(crate) struct AssumedValue {
     /// The full names of its keys: of a key that every layer has, those of all layers.
     pub(crate) keys: Vec<String>,
     /// What kind of number it is.
@@ -24,7 +24,7 @@ pub(crate) struct Guess {
     pub(crate) value: f64,
 }
 
-impl Guess {
+impl AssumedValue {
     /// The number of a key.
     ///
     /// * `name` – as the file of the web has it
@@ -123,7 +123,7 @@ impl WebParser<'_> {
     pub(super) fn check_assumed(&mut self, web: &WebSpec) {
         // What other problems hide is not known.
         if self.key_values.problems.is_empty()
-            && let Some(fault) = web.assumed.iter().find_map(|name| Guess::new(web, name).err())
+            && let Some(fault) = web.assumed.iter().find_map(|name| AssumedValue::new(web, name).err())
         {
             self.key_values.reject(GUESSED, fault);
         }

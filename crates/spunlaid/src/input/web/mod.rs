@@ -14,7 +14,7 @@ mod read;
 mod sheet;
 mod write;
 
-pub(super) use assumed::Guess;
+pub(super) use assumed::AssumedValue;
 pub use write::write_web;
 pub(super) use write::write_web_to_vary;
 

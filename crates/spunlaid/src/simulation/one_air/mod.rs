@@ -78,7 +78,7 @@ pub struct BeamFindings {
     pub layer: LayerFlown,
     /// The filaments that were lost, by their numbers across the web, each with the reason.
     pub lost: Vec<(usize, Error)>,
-    /// What a filament does to its air on its way, in the mean.
+    /// What a filament does to its air on its way, on average.
     pub way: Vec<WayPlace>,
     /// Where the sheet begins on the belt, at its back [m].
     pub back: f64,

@@ -31,7 +31,7 @@ pub(crate) struct Covariances {
 }
 
 impl Covariances {
-    /// As simulated filaments tell them.
+    /// As simulated filaments give them.
     pub(crate) fn fit(simulated: &FlownCurves, threads: usize) -> Self {
         let [smooth, rough] = [SMOOTH, ROUGH].map(|shortest| Covariance::fit(simulated, shortest, threads));
         Self { smooth, rough }
@@ -123,7 +123,7 @@ impl FlownCurves {
 }
 
 impl Filling<'_> {
-    /// The part of the variance that the simulated filaments do not tell, in machine and in cross direction: mean
+    /// The part of the variance that the simulated filaments do not give, in machine and in cross direction: mean
     /// over the filaments.
     pub fn missing(&self) -> [f64; 2] {
         self.missing

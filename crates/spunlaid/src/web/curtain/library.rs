@@ -160,7 +160,7 @@ impl Library {
         })
     }
 
-    /// The part of the variance that the simulated filaments do not tell, in machine and in cross direction.
+    /// The part of the variance that the simulated filaments do not give, in machine and in cross direction.
     pub(crate) fn missing(&self) -> [f64; 2] {
         self.missing
     }

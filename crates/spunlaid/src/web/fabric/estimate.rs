@@ -1,4 +1,4 @@
-//! Everything that is told of a fabric.
+//! Everything that is reported of a fabric.
 
 use super::air_through::{Filaments, air_permeability, sensitivity, solid_fraction};
 use super::light::{LOCAL, bare_area, formation as formation_number, local_weights};
@@ -18,7 +18,7 @@ use crate::web::scan::{Findings, PatchFindings};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Sides of the patches of which thin spots are told [m].
+/// Sides of the patches of which thin spots are reported [m].
 pub(crate) const PATCHES: [f64; 5] = [1e-3, 2e-3, 5e-3, 10e-3, 20e-3];
 /// Area of a test of the air permeability (ISO 9073-15) [m²], and side of the patches over which the opacity
 /// varies [m].
@@ -260,7 +260,7 @@ fn columns(map: &Map, margins: [f64; 2]) -> Range<usize> {
     first..map.columns - last
 }
 
-/// The part of the map that is told of, and its first column: what is sold, or all but the edges.
+/// The part of the map that is reported of, and its first column: what is sold, or all but the edges.
 fn part<'a>(laid: &Laid<'a>, keys: &FabricKeys) -> (usize, Cow<'a, Map>) {
     let within = columns_sold(laid.map, laid.margins, laid.reach, keys.saleable_width);
     (within.start, laid.map.between(within))
@@ -388,7 +388,7 @@ fn unknown(laid: &Laid<'_>) -> Vec<String> {
 /// Any density, of which only the length of fibre is made, which depends on the titre alone.
 const DENSITY: f64 = 1000.0;
 
-/// What a scan tells of the fabric: thin spots, weights and strips, and the formation number where basis
+/// What a scan gives of the fabric: thin spots, weights and strips, and the formation number where basis
 /// weight and titre are known.
 pub fn of_scan(findings: &Findings) -> Fabric {
     let titre = findings.titre.filter(|_| findings.mean_known);

@@ -105,8 +105,8 @@ fn stat_straight_fibres_at_random_have_a_formation_number_of_one() {
     }
 }
 
-/// The formation number is the square of the CV that is told over that of straight fibres at random of the mass between
-/// the edges, with the error of that CV, whatever is sold; of two kinds of filaments the variances add up.
+/// The formation number is the square of the CV that is reported over that of straight fibres at random of the mass
+/// between the edges, with the error of that CV, whatever is sold; of two kinds of filaments the variances add up.
 #[test]
 fn analytic_the_formation_number_is_of_the_part_of_which_the_cv_is() {
     let (cell, mut random) = (0.5e-3, Random::new(5));
@@ -561,7 +561,7 @@ fn stat_the_errors_of_a_fabric_with_random_streaks() {
 
 fn numbers_of<T>(measures: &'static [Measure<T>], found: &T, of: &str) -> Vec<(String, Option<Known>)> {
     let number = |measure: &Measure<T>| match measure.formula {
-        Formula::Told(number) => Some((format!("{}{of}", measure.entry()), number(found))),
+        Formula::Reported(number) => Some((format!("{}{of}", measure.entry()), number(found))),
         _ => None,
     };
     measures.iter().filter_map(number).collect()

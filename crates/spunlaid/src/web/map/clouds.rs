@@ -31,7 +31,7 @@ pub struct Clouds {
     /// The waves of the whole sheet, and the shortest of them that counts [m].
     sheet: Sheet,
     from: f64,
-    /// Longest wave that is told of [m].
+    /// Longest wave that is reported of [m].
     longest: f64,
     /// Errors of the variance in some bands of wavelength, as a part of it.
     filling: Vec<BandError>,
@@ -176,7 +176,7 @@ impl Clouds {
         self.along.extend(tile.along.map(|along| (place, along)));
     }
 
-    /// Longest wave that is told of: a quarter of the sheet's shorter side [m].
+    /// Longest wave that is reported of: a quarter of the sheet's shorter side [m].
     pub fn longest(&self) -> f64 {
         self.longest
     }

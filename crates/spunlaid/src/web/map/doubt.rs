@@ -18,7 +18,7 @@ pub enum Doubt {
     },
     /// Too few filaments were simulated to tell what all do.
     Subsample {
-        /// Sides of the patches whose CV they do not tell [m].
+        /// Sides of the patches whose CV they do not give [m].
         sides: Vec<f64>,
         /// The strongest reason.
         why: SubsampleWarning,
@@ -32,7 +32,7 @@ pub enum Doubt {
         /// The strongest field [V/m].
         field: f64,
     },
-    /// The map is not as uneven as the CV that is told, because filaments between the simulated ones are not known
+    /// The map is not as uneven as the CV that is reported, because filaments between the simulated ones are not known
     /// well.
     FilledIn {
         /// Part of their variance that is not known.
@@ -185,7 +185,7 @@ fn too_uneven(sides: &[f64], apart: f64) -> String {
     )
 }
 
-/// Why a few filaments do not tell what all do.
+/// Why a few filaments do not give what all do.
 fn reason(why: SubsampleWarning, pitch: f64) -> String {
     match why {
         SubsampleWarning::Halves(patch, off) => format!(

@@ -66,7 +66,7 @@ pub(crate) const TRIED: [f64; 3] = [1.0, 2.0, 4.0];
 /// How many times as many filaments are advised at least.
 const MORE: f64 = 2.0;
 
-/// Why a few filaments do not tell the CV of all.
+/// Why a few filaments do not give the CV of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SubsampleWarning {
     /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m],
@@ -108,7 +108,7 @@ pub struct SubsampleEstimate {
     /// Correlation of the places where filaments at this distance and equal depth come down, in the direction
     /// in which it is smaller; not a number where it was not looked for.
     pub correlation: f64,
-    /// Part of the variance of a filament between them that they do not tell, in machine and in cross direction.
+    /// Part of the variance of a filament between them that they do not give, in machine and in cross direction.
     pub missing: [f64; 2],
     /// CV over patches of each size.
     pub cvs: Vec<SubsampleCv>,
@@ -139,7 +139,7 @@ impl SubsampleEstimate {
         Some(self.by_places.get(number).map_or(cv, |more| cv.with_square(cv.cv * cv.cv + more)))
     }
 
-    /// Why they do not tell the CV over patches of a side; None if they do.
+    /// Why they do not give the CV over patches of a side; None if they do.
     pub(crate) fn doubt_over(&self, patch: f64) -> Option<SubsampleWarning> {
         if self.correlation < TOGETHER {
             return Some(SubsampleWarning::Neighbours(self.correlation));
@@ -155,7 +155,7 @@ impl SubsampleEstimate {
         is_off.then_some(SubsampleWarning::Halves(patch, cv.of_halves))
     }
 
-    /// Why they do not tell the CV over patches of every side; None if they do. Of several reasons the strongest.
+    /// Why they do not give the CV over patches of every side; None if they do. Of several reasons the strongest.
     pub fn doubt(&self) -> Option<SubsampleWarning> {
         let off = |doubt: &SubsampleWarning| match doubt {
             SubsampleWarning::Halves(_, off) => off.abs(),

@@ -83,8 +83,8 @@ impl Findings {
 /// The CV over patches of one size, in several ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchFindings {
-    /// On the map; of filaments in shared turbulence of which a few were simulated, as these tell it
-    /// ([`PatchFindings::few`]), and on the map again, without an error, where they do not tell it
+    /// On the map; of filaments in shared turbulence of which a few were simulated, as these give it
+    /// ([`PatchFindings::few`]), and on the map again, without an error, where they do not give it
     /// ([`PatchFindings::doubt`]).
     pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
@@ -98,7 +98,7 @@ pub struct PatchFindings {
     /// What a few filaments in shared turbulence say of all; None if all were simulated, or if the patch is too large
     /// for the sheet that they laid.
     pub few: Option<SubsampleCv>,
-    /// Why a few filaments do not tell the CV of all: there is no number then. None if they do, or if all
+    /// Why a few filaments do not give the CV of all: there is no number then. None if they do, or if all
     /// were simulated.
     pub doubt: Option<SubsampleWarning>,
     /// CV of the map itself, in which filaments between few simulated ones are filled in.
@@ -106,7 +106,7 @@ pub struct PatchFindings {
 }
 
 impl PatchFindings {
-    /// The CV of the web; None if a few filaments were simulated and do not tell it.
+    /// The CV of the web; None if a few filaments were simulated and do not give it.
     pub fn reported(&self) -> Option<PatchCv> {
         self.doubt.is_none().then_some(self.map)
     }
@@ -147,7 +147,7 @@ impl PatchFindings {
     }
 
     /// The 95 % confidence interval of the CV of all such webs; none if the sheet is too small to say, or if
-    /// a few filaments do not tell it. Which filaments were simulated for all is chance too.
+    /// a few filaments do not give it. Which filaments were simulated for all is chance too.
     pub fn interval(&self) -> Option<[f64; 2]> {
         if self.evidence == Evidence::Known {
             return self.map.interval();
@@ -328,7 +328,7 @@ fn is_whole(web: &Web, laid: &LaidWeb) -> bool {
 pub struct ErrorBudget {
     /// By chance: another piece of the same web has another CV. None if the sheet is too small to say.
     pub chance: Option<f64>,
-    /// By the filaments that were simulated, which are few. None if nothing was simulated, or if they do not tell it.
+    /// By the filaments that were simulated, which are few. None if nothing was simulated, or if they do not give it.
     pub flight: Option<f64>,
 }
 
@@ -408,7 +408,7 @@ fn charged(laid: &LaidWeb) -> Vec<Doubt> {
     (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
 }
 
-/// Whether the few filaments that were simulated are enough for what is told of all.
+/// Whether the few filaments that were simulated are enough for what is reported of all.
 fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
     let few = || findings.laid.few();
     let too_few = few().filter_map(|few| {

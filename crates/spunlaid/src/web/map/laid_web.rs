@@ -149,7 +149,7 @@ pub struct FlownFibres {
     pub numbers: [Estimate; 3],
     /// How well the surrogate with the mean numbers fits; None without one.
     pub residual: Option<Residual>,
-    /// What a filament does to its air on its way, in the mean.
+    /// What a filament does to its air on its way, on average.
     pub way: Vec<WayPlace>,
 }
 

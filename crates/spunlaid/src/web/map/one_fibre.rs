@@ -325,7 +325,7 @@ mod tests {
         assert_eq!(one.finish(4.0, 1).at_places.values, [(10.0 - 0.5 * 5.0) / 4.0]);
     }
 
-    /// A filament whose patches hold 1, 2 and 1 m, on ten columns: 0.4 m in the mean.
+    /// A filament whose patches hold 1, 2 and 1 m, on ten columns: 0.4 m on average.
     #[test]
     fn analytic_the_mean_mass_across_a_sheet_is_that_of_the_profiles_side_by_side() {
         let fibres = SingleFibres {

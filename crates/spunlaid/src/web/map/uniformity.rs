@@ -166,7 +166,7 @@ pub fn cv_of_piece(map: &Map, side: usize) -> Option<f64> {
     (mean > 0.0).then(|| (squares / count / (mean * mean) - 1.0).max(0.0).sqrt())
 }
 
-/// Number of places of a patch on a map, across and along, and its quanta in the mean; None unless it is within the
+/// Number of places of a patch on a map, across and along, and its quanta on average; None unless it is within the
 /// map, and without any fibre.
 pub(crate) fn places_of_patches(map: &Map, side: usize) -> Option<([usize; 2], f64)> {
     let sizes = [map.columns, map.rows];

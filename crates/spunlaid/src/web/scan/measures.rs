@@ -3,7 +3,7 @@
 use super::streaks::WIDTH;
 use super::{Findings, PatchFindings, ScanPeriod, ScanStreak, StreakLimit};
 use crate::ground::{ErrorRole, Formula, Known as What, MILLIMETRES, Measure, PERCENT, RATIO, Unit};
-use Formula::{Count, Known, Number, Told};
+use Formula::{Count, Known, Number, Reported};
 
 type OfScan = Measure<Findings>;
 type OfPatch = Measure<PatchFindings>;
@@ -75,41 +75,51 @@ pub const SCANNED_PATCH_MEASURES: &[Measure<PatchFindings>] = &[
 
 /// The measures of a streak of a scan.
 pub const SCAN_STREAK_MEASURES: &[Measure<ScanStreak>] = &[
-    OfStreak::new("place_m", "Position", MILLIMETRES, Told(|streak| Some(What::Exact(streak.place))))
+    OfStreak::new("place_m", "Position", MILLIMETRES, Reported(|streak| Some(What::Exact(streak.place))))
         .meaning("middle of the streak, from the left edge of the web"),
-    OfStreak::new("amplitude", "Amplitude", PERCENT, Told(|streak| Some(streak.height())))
+    OfStreak::new("amplitude", "Amplitude", PERCENT, Reported(|streak| Some(streak.height())))
         .meaning("how much heavier the web is there than next to it; below zero where it is lighter"),
-    OfStreak::new("width_m", "Width", MILLIMETRES, Told(|streak| Some(What::Exact(WIDTH * streak.sigma))))
-        .meaning("width at half of the amplitude of the normal profile that fits best"),
+    OfStreak::new(
+        "width_m",
+        "Width",
+        MILLIMETRES,
+        Reported(|streak| Some(What::Exact(WIDTH * streak.sigma))),
+    )
+    .meaning("width at half of the amplitude of the normal profile that fits best"),
     OfStreak::new(
         "width_range_m",
         "95 % interval of the width",
         MILLIMETRES,
-        Told(|streak| Some(streak.widths())),
+        Reported(|streak| Some(streak.widths())),
     )
     .meaning("widths of normal profiles that fit hardly worse"),
-    OfStreak::new("chance", "p-value", PERCENT, Told(|streak| Some(What::AtMost(streak.chance))))
+    OfStreak::new("chance", "p-value", PERCENT, Reported(|streak| Some(What::AtMost(streak.chance))))
         .meaning("probability that clouds alone make a streak as clear, of any width at any position")
         .digits(2),
 ];
 
 /// The measures of a period of a scan across the machine direction.
 pub const SCAN_PERIOD_MEASURES: &[Measure<ScanPeriod>] = &[
-    OfPeriod::new("period_m", "Period", MILLIMETRES, Told(|wave| Some(What::Exact(wave.period))))
+    OfPeriod::new("period_m", "Period", MILLIMETRES, Reported(|wave| Some(What::Exact(wave.period))))
         .meaning("distance of streaks that repeat"),
-    OfPeriod::new("amplitude", "Amplitude", PERCENT, Told(|wave| Some(wave.height())))
+    OfPeriod::new("amplitude", "Amplitude", PERCENT, Reported(|wave| Some(wave.height())))
         .meaning("half of the way from the lightest to the heaviest part of the wave"),
-    OfPeriod::new("chance", "p-value", PERCENT, Told(|wave| Some(What::AtMost(wave.chance))))
+    OfPeriod::new("chance", "p-value", PERCENT, Reported(|wave| Some(What::AtMost(wave.chance))))
         .meaning("probability that clouds alone make a wave as strong, of any length")
         .digits(2),
 ];
 
 /// The least streaks that a scan can show.
 pub const STREAK_LIMIT_MEASURES: &[Measure<StreakLimit>] = &[
-    OfLimit::new("width_m", "Width", MILLIMETRES, Told(|limit| Some(What::Exact(WIDTH * limit.sigma))))
+    OfLimit::new("width_m", "Width", MILLIMETRES, Reported(|limit| Some(What::Exact(WIDTH * limit.sigma))))
         .meaning("width of a streak at half of its amplitude"),
-    OfLimit::new("amplitude", "Least amplitude", PERCENT, Told(|limit| Some(What::Exact(limit.amplitude))))
-        .meaning("amplitude from which on such a streak is significant at 95 %"),
+    OfLimit::new(
+        "amplitude",
+        "Least amplitude",
+        PERCENT,
+        Reported(|limit| Some(What::Exact(limit.amplitude))),
+    )
+    .meaning("amplitude from which on such a streak is significant at 95 %"),
 ];
 
 const SQUARE_MILLIMETRES: Unit = Unit { shown: "mm²", per_si: 1e6 };

@@ -84,7 +84,7 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     Figure::new(&chart, caption)
 }
 
-/// What is told below the figure of a web in shared turbulence.
+/// What is printed below the figure of a web in shared turbulence.
 ///
 /// * `of_few` – whether a few filaments were simulated for all
 fn shared_air(places: &str, of_few: bool) -> String {

@@ -1,4 +1,4 @@
-//! What is told of a fabric, for `summary.json`, the terminal and the report.
+//! What is reported of a fabric, for `summary.json`, the terminal and the report.
 
 use crate::files::measured::{joined, json, known};
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
@@ -87,7 +87,7 @@ fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String
 
 /// The number of a row in words, with its unit; none if it has none.
 pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
-    let Some(Value::Told(known)) = &row.value else { return None };
+    let Some(Value::Reported(known)) = &row.value else { return None };
     let unit = row.measure.unit.readable(known.value());
     Some(told(known.times(unit.per_si), unit.shown, row.measure.digits))
 }

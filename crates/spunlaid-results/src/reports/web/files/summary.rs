@@ -219,7 +219,7 @@ fn of_map(map: &Map, weight: f64, clouds: Option<&Clouds>, texture: Option<Estim
 
 /// The few filaments of a layer from which all others follow: their distance in a row, the correlation of the places
 /// where two at this distance and equal depth come down, the sheet that they laid, and the part of the variance of a
-/// filament between them that they do not tell. The areas are those that give
+/// filament between them that they do not give. The areas are those that give
 /// the CV: simulated as finely as the sheet, and in all.
 fn few_flown(few: &SubsampleEstimate) -> Json {
     json!({

@@ -108,7 +108,7 @@ fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String
     rows.into_iter().chain(cabin).collect()
 }
 
-/// By how much faster a belt is told of [%].
+/// By how much faster a belt is reported of [%].
 const FASTER: f64 = 10.0;
 
 /// What a buyer counts.

@@ -9,7 +9,7 @@ use spunlaid::web::{
     FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
 };
 
-/// Everything that is told of a fabric.
+/// Everything that is reported of a fabric.
 pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let columns = [("Number", Content::Words), ("Value", Content::Numbers), ("Meaning", Content::Sentences)];
     let rows = measure::measured(FABRIC_MEASURES, fabric).filter_map(|row| {

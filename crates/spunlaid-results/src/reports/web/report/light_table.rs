@@ -1,4 +1,4 @@
-//! The light table of a web's page: its picture, the single fibres of a window, and what is told of them.
+//! The light table of a web's page: its picture, the single fibres of a window, and what is reported of them.
 
 use crate::Failure;
 use crate::failure::undrawable;
@@ -151,7 +151,7 @@ pub(crate) struct Strands<'a> {
 }
 
 impl Strands<'_> {
-    /// What is told of them below the picture.
+    /// What is reported of them below the picture.
     pub(crate) fn words(&self) -> String {
         let (drawn, all) = (self.drawn().count(), self.strands.len());
         format!(
@@ -228,7 +228,7 @@ fn thousands(number: f64) -> String {
     groups.join(",")
 }
 
-/// What is told of a picture below it.
+/// What is reported of a picture below it.
 pub(crate) fn picture_note(Sheet { pixel, chance, .. }: &Sheet) -> String {
     let has_chance = !chance.is_empty();
     format!(

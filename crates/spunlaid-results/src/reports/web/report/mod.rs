@@ -38,7 +38,7 @@ use spunlaid_charts::Figure;
 /// A web.
 ///
 /// * `web` – what is said of it, the same as a file, and the web
-/// * `findings` – of the web, with what is told of its fabric
+/// * `findings` – of the web, with what is reported of its fabric
 /// * `tried` – what was tried with it
 /// * `layers` – with the spinlines from which their filaments come
 /// * `pictures` – of the web, with the fibres in its window
@@ -186,7 +186,7 @@ fn laid_weight(web: &Web, findings: &Findings) -> String {
 /// Relative difference of two basis weights up to which they are shown as one.
 const AS_HEAVY: f64 = 0.005;
 
-/// What is told of the web first. Where a few filaments do not tell how uneven it is, so many as would.
+/// What is reported of the web first. Where a few filaments do not give how uneven it is, so many as would.
 fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
     let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {

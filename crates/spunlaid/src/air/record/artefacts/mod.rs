@@ -21,7 +21,7 @@ const MOST_LEFT_OUT: f64 = 0.5;
 /// What is no velocity in a record.
 #[derive(Debug, Default)]
 pub(super) struct Artefacts {
-    /// What is told of it.
+    /// What is reported of it.
     pub(super) faults: Vec<Fault>,
     /// Whether a sample, of whatever component, is no velocity; empty if all are some.
     is_spoilt: Vec<bool>,

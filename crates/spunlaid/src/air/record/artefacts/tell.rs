@@ -1,4 +1,4 @@
-//! What is told of the samples of a component that are no velocities.
+//! What is reported of the samples of a component that are no velocities.
 
 use super::super::{hertz, number, time};
 use super::apart::Apart;

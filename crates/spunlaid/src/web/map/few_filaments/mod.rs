@@ -8,7 +8,7 @@
 //! Neighbours that hang a few millimetres apart come down almost alike, so the CV of a row hardly depends on
 //! its pitch. In a slot a filament is nearer to itself than to any other one at the same place across, and
 //! this own part falls with the number of filaments (theory.md, 83d). Where the filaments between them are filled in,
-//! the map with these tells the CV of a slot, unless the patches are smaller than the distance of the simulated ones.
+//! the map with these gives the CV of a slot, unless the patches are smaller than the distance of the simulated ones.
 
 mod products;
 #[cfg(test)]

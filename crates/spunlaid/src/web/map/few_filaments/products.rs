@@ -22,9 +22,9 @@ impl Products {
     /// squares of what a filament at another depth would change, told by neighbours.      theory.md (83e)
     ///
     /// What two filaments have in common by chance is in what either of them changes, so it would count twice. It
-    /// is what the even and the odd ones do not tell alike.
+    /// is what the even and the odd ones do not give alike.
     ///
-    /// A filament that comes down farther from the sheet in the mean has less fibre on it, and so has the mean of all.
+    /// A filament that comes down farther from the sheet on average has less fibre on it, and so has the mean of all.
     ///
     /// * `square` – CV² of all
     /// * `count`, `of_all` – number of the simulated filaments, and of those for which they stand

@@ -237,7 +237,7 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
     }
 }
 
-/// A row of filaments at random places of one field: an even row of a few tells the CV, with what the places do.
+/// A row of filaments at random places of one field: an even row of a few gives the CV, with what the places do.
 #[test]
 fn stat_an_even_row_tells_the_cv_of_random_places() {
     const WEBS: u64 = 12;
