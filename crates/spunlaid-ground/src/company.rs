@@ -142,7 +142,7 @@ macro_rules! shared {
     }) => {
         $(#[$about])*
         #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-        $visible struct $name { $($(#[$attribute])* $visible $field: $type,)* }
+        $visible struct $name { $($(#[$attribute])* $(#[doc = $words])? $visible $field: $type,)* }
 
         impl $crate::company::CompanyKey for $name {
             fn difference(&self, other: &Self) -> Option<&'static str> {

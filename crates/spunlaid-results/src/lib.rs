@@ -10,7 +10,7 @@
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// Each module imports only from the modules above it. The program's tests/rooms.rs checks this.
+// Each module imports only from the modules above it.
 pub mod command;
 mod failure;
 pub mod numbers;

@@ -57,18 +57,11 @@
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-// Each wing imports only from the wings above it, and so do the rooms of a wing. tests/rooms.rs checks this.
-#[macro_use]
 pub extern crate spunlaid_ground as ground;
 
-pub mod air;
-
-pub mod fibre;
-
-pub mod web;
-
-pub mod simulation;
-
-pub mod experiment;
-
-pub mod input;
+pub use spunlaid_air as air;
+pub use spunlaid_experiment as experiment;
+pub use spunlaid_fibre as fibre;
+pub use spunlaid_input as input;
+pub use spunlaid_simulation as simulation;
+pub use spunlaid_web as web;

@@ -19,6 +19,7 @@ mod keys;
 mod knobs;
 mod one_file;
 mod rejects;
+mod relations;
 mod removed;
 mod slips;
 mod web_files;

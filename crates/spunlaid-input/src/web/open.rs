@@ -1,0 +1,236 @@
+//! Makes the web of its file: layers, sheet and belt from what is written, then each filament, and all of it
+//! checked together.
+
+use super::super::Resources;
+use super::super::written_values::{WrittenValue, WrittenValues, sorted};
+use super::filament::Filament;
+use super::read::{CASE, WebParser, as_web};
+use super::{WrittenWeb, flies_none};
+use spunlaid_fibre::case::keys;
+use spunlaid_fibre::{Note, Remark};
+use spunlaid_ground::{Error, Fault};
+use spunlaid_simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
+use spunlaid_simulation::{LaydownSource, LayerSpec, WebSpec};
+use spunlaid_web::map::Filaments;
+
+/// The file of a web, read as far as it goes before its filaments are spun and simulated.
+pub(super) struct OpenWeb<'a> {
+    reading: WebParser<'a>,
+    web: WebSpec,
+    layers: Vec<Layer>,
+}
+
+/// Reads the layers, the sheet, and what is written of the filaments.
+pub(super) fn open(written: WrittenWeb, resources: &Resources) -> OpenWeb<'_> {
+    let WrittenWeb { values: key_values, path, named } = written;
+    let (notes, basis_weight_key, prefixes) = (Vec::new(), String::new(), prefixes(&key_values));
+    let mut reading =
+        WebParser { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
+    let mut web = WebSpec::unknown();
+    let mut layers: Vec<Layer> = prefixes.iter().map(|prefix| reading.layer(prefix)).collect();
+    reading.fill(&mut web, "web", "web.", false);
+    reading.fill(&mut web, "fabric", "fabric.", false);
+    reading.lay_weight(&mut web, &mut layers);
+    OpenWeb { reading, web, layers }
+}
+
+/// What comes before the names of each layer's keys.
+pub(super) fn prefixes(key_values: &WrittenValues) -> Vec<String> {
+    match key_values.get("layer") {
+        None => vec![String::new()],
+        Some(_) => {
+            let layers = key_values.number("layer").unwrap_or(0.0) as usize;
+            (1..=layers).map(|number| format!("layer.{number}.")).collect()
+        }
+    }
+}
+
+impl OpenWeb<'_> {
+    /// What is written of the filament of each layer; none of one that flies none.
+    pub(super) fn filaments(&self) -> Vec<Option<WrittenValues>> {
+        let values = |filament: &Filament| filament.values.clone();
+        self.layers.iter().map(|layer| layer.filament.as_ref().map(values)).collect()
+    }
+
+    /// The web, and notes about its cases.
+    ///
+    /// # Errors
+    /// Every problem with any key.
+    pub(super) fn spec(self) -> Result<(WebSpec, Vec<Note>), Error> {
+        let Self { mut reading, mut web, layers } = self;
+        let prefixes = reading.prefixes.clone();
+        for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
+            if let Some(filament) = filament {
+                match reading.fly(prefix, filament)? {
+                    Some(source) => layer.source = source,
+                    None => reading.excuse_numbers_of_case(prefix),
+                }
+            }
+            layer.take_flown();
+            web.layers.push(layer);
+        }
+        reading.check_names(&prefixes);
+        reading.complete_sheet(&mut web);
+        reading.check_sources(&prefixes, &web);
+        reading.check_assumed(&web);
+        reading.check_turnable(&web);
+        reading.settle_belt(&mut web);
+        for (number, (prefix, layer)) in prefixes.iter().zip(&web.layers).enumerate() {
+            reading.check_charge(prefix, &web, layer);
+            reading.check_layer(prefix, &web.alone(number));
+        }
+        let unusual = reading.unusual();
+        reading.note(unusual.clone());
+        if reading.key_values.problems.is_empty() {
+            reading.doubt_numbers(&web);
+        }
+        let WebParser { mut key_values, notes, .. } = reading;
+        if key_values.problems.is_empty() {
+            let Some(problem) = web.air_beyond_memory() else { return Ok((web, sorted(notes))) };
+            key_values.problems.push(key_values.placed(problem));
+        }
+        // Unusual values may be why the web cannot be laid.
+        let absurd = notes.into_iter().filter(|note| note.what.is_absurd());
+        for note in absurd.chain(unusual) {
+            if !key_values.problems.iter().any(|problem| problem.key == note.key) {
+                key_values.problems.push(Remark::problem(note));
+            }
+        }
+        Err(sorted(key_values.problems).into())
+    }
+
+    /// What is written of its filament; none if it flies none.
+    ///
+    /// # Errors
+    /// Every problem with the file, and if several layers have different filaments.
+    pub(super) fn filament(self) -> Result<Option<WrittenValues>, Error> {
+        let Self { mut reading, layers, .. } = self;
+        let filaments: Vec<Filament> = layers.into_iter().filter_map(|layer| layer.filament).collect();
+        if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
+            let fault = Fault::new(
+                format!(
+                    "have different filaments, and only one can be simulated (the first and the {}. of \
+                     the simulated ones)",
+                    number + 1
+                ),
+                "write the filament of one layer in a file of its own, without [[layer]], [line] and [web]",
+            );
+            reading.key_values.reject("layer", fault);
+        }
+        if !reading.key_values.problems.is_empty() {
+            return Err(sorted(reading.key_values.problems).into());
+        }
+        Ok(filaments.into_iter().next().map(|filament| filament.values))
+    }
+}
+
+impl WebParser<'_> {
+    /// A layer. Its values are NaN where there is a problem with them, which is noted.
+    fn layer(&mut self, prefix: &str) -> Layer {
+        let way = self.way(prefix);
+        let by_case = way == Way::Fly;
+        let filament = if by_case { self.filament(prefix) } else { None };
+        if by_case && filament.is_none()
+            || way == Way::Unknown && self.key_values.is_excused(&format!("{prefix}laydown."))
+        {
+            self.excuse_numbers_of_case(prefix);
+        }
+        let mut spec = LayerSpec::unknown(LaydownSource::UNKNOWN);
+        as_web(&mut spec, |web| {
+            self.fill(web, "layer", prefix, by_case);
+            for table in ["fibre", "laydown", "line"]
+                .iter()
+                .filter(|table| **table != "laydown" || way == Way::Numbers)
+            {
+                self.fill(web, table, &format!("{prefix}{table}."), by_case);
+            }
+        });
+        let rows = self.rows(&format!("{prefix}line."));
+        if !rows.is_empty() {
+            spec.filaments = Filaments::Rows(rows);
+        }
+        spec.defects = self.defects(&format!("{prefix}line."));
+        let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
+        Layer { spec, filament, spun }
+    }
+
+    /// Excuses that the numbers are missing which a case would give.
+    fn excuse_numbers_of_case(&mut self, prefix: &str) {
+        for key in WEB.rows.iter().filter(|key| key.key_of_case().is_some()) {
+            self.key_values.suppress_missing(format!("{prefix}{}", key.name));
+        }
+    }
+}
+
+/// What tells how the filaments of a layer lie.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// A filament is simulated.
+    Fly,
+    /// The numbers of a surrogate.
+    Numbers,
+    /// It is not known, because of a problem that is noted.
+    Unknown,
+}
+
+/// A layer before its filament is spun and simulated.
+pub(super) struct Layer {
+    pub(super) spec: LayerSpec,
+    /// Its filament, if it has to be simulated.
+    pub(super) filament: Option<Filament>,
+    /// The throughput of its holes, if the filament comes from a die [kg/s].
+    pub(super) spun: Option<f64>,
+}
+
+impl WebParser<'_> {
+    /// What tells how the filaments of a layer lie.
+    fn way(&mut self, prefix: &str) -> Way {
+        let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
+        let numbers = NUMBERS.iter().find(is_written);
+        let ways: Vec<&'static str> =
+            [&CASE].into_iter().chain(numbers).filter(is_written).copied().collect();
+        let own = self.first_of_flights(prefix);
+        let (way, other) = match ways[..] {
+            [] if own.is_some() || self.first_of_flights("").is_some() => return Way::Fly,
+            [CASE] => return Way::Fly,
+            [] if self.key_values.is_excused(&format!("{prefix}laydown.")) => return Way::Unknown,
+            [] => {
+                let fault = Fault::new(
+                    "does not say how the fibres lie",
+                    "write [feed], [belt], [air] and [run] for a filament to be simulated, or in [laydown] case = \
+                    \"spunbond.toml\" (it is in that file), or sigma_md, sigma_cd and noise",
+                );
+                self.key_values.reject(&format!("{prefix}laydown"), fault);
+                return Way::Unknown;
+            }
+            // They are still to be set.
+            [number] => (Way::Numbers, number),
+            [other, ref more @ ..] => {
+                for way in more {
+                    self.key_values.reject(&format!("{prefix}{way}"), Fault::excludes(other, ONE_SOURCE));
+                }
+                return Way::Unknown;
+            }
+        };
+        if let Some((key, written_value)) = own {
+            let fault = match written_value.is_set() {
+                true => Fault::new(flies_none(), "leave it out"),
+                false => Fault::excludes(&format!("{prefix}{other}"), ONE_SOURCE),
+            };
+            self.key_values.reject(&key, fault);
+        }
+        way
+    }
+
+    /// The first written key of a table that only a filament has which flies: not that of its size.
+    fn first_of_flights(&self, prefix: &str) -> Option<(String, WrittenValue)> {
+        let is_of_flight = |full: &str| {
+            let name = full.strip_prefix(prefix).filter(|name| keys::find(name).is_some())?;
+            let table = name.split('.').next()?;
+            (OF_FILAMENT.contains(&table) && table != "fibre").then_some(())
+        };
+        let found = self.key_values.all().filter(|(full, _)| is_of_flight(full).is_some());
+        let first = found.min_by(|a, b| a.1.place.cmp(&b.1.place))?;
+        Some((first.0.to_owned(), first.1.clone()))
+    }
+}

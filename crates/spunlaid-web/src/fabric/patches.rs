@@ -1,0 +1,267 @@
+//! Thin and thick places: how often a patch of the web is much lighter or heavier than the mean.
+
+use super::{Deviations, MapUncertainty};
+use crate::map::Map;
+use crate::map::lattice::Lattice;
+use crate::map::uniformity::{boxes, places_of_patches};
+use spunlaid_ground::Known;
+use spunlaid_ground::statistics::dot;
+
+/// Patches are counted that are lighter than these shares of the mean, and heavier than this one.
+pub(crate) const LIGHTER: [f64; 3] = [0.5, 0.7, 0.8];
+/// See [`LIGHTER`].
+pub(crate) const HEAVIER: f64 = 1.3;
+/// Shares of the patches that are lighter than a quantile.
+pub(crate) const QUANTILES: [f64; 5] = [0.01, 0.05, 0.5, 0.95, 0.99];
+
+/// Classes of the weight of a patch over the mean, and their number; heavier ones fall into the last one.
+const CLASSES_PER_MEAN: f64 = 100.0;
+const CLASSES: usize = 600;
+/// Classes to either side over which the density at a quantile is found.
+const NEAR: f64 = 2.0;
+/// Most blocks of the sheet each way, and the shortest block in patches.
+const MOST_BLOCKS: usize = 24;
+const BLOCK: usize = 2;
+/// So many powers of the correlation of a normal field, from the second on, make the error of a share.
+const POWERS: usize = 12;
+/// Upper 95 % bound of the mean of a Poisson number that has come out zero.
+pub const NONE_FOUND: f64 = 3.0;
+
+/// The weights of the patches of one size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThinPlaces {
+    /// Side of the square patches [m].
+    pub patch: f64,
+    /// Patches per area that are lighter than the shares `LIGHTER` of the mean [1/m²].
+    pub lighter: [Known; LIGHTER.len()],
+    /// Patches per area that are heavier than `HEAVIER` of the mean [1/m²].
+    pub heavier: Known,
+    /// The weights, over the mean, of which the shares `QUANTILES` of the patches are lighter.
+    pub quantiles: [Known; QUANTILES.len()],
+}
+
+/// The weights of all patches of one side, at every place of the patch on the lattice of cells.
+///                                                                                            theory.md (103)
+///
+/// * `side` – of a patch [cells]; None unless two fit on the map each way, and without any fibre
+/// * `of` – what is known of the map
+pub fn thin_places(map: &Map, side: usize, of: MapUncertainty) -> Option<ThinPlaces> {
+    let (places, mean) = places_of_patches(map, side).filter(|_| 2 * side <= map.columns.min(map.rows))?;
+    let blocks = places.map(|places| (places / (BLOCK * side)).clamp(1, MOST_BLOCKS));
+    let mut classes = vec![vec![0u32; CLASSES]; blocks[0] * blocks[1]];
+    let per_mean = CLASSES_PER_MEAN / mean;
+    boxes(map, side, places, |row, boxes| {
+        let row = row * blocks[1] / places[1];
+        for (column, classes) in classes[row * blocks[0]..][..blocks[0]].iter_mut().enumerate() {
+            let [from, to] = [column, column + 1].map(|column| column * places[0] / blocks[0]);
+            for weight in &boxes[from..to] {
+                classes[((*weight as f64 * per_mean) as usize).min(CLASSES - 1)] += 1;
+            }
+        }
+    });
+    let weights = Weights::new(classes, Lattice { sides: blocks, chance: of.chance }, of.deviations);
+    let patch = side as f64 * map.cell;
+    let (area, whole) = (patch * patch, (map.columns * map.rows) as f64 * map.cell * map.cell);
+    let per_area = |share: Known| match share {
+        // Where the map may be too even, there are as many as if it were not.
+        Known::Value(0.0, error) if of.deviations.is_some() => {
+            Known::AtMost(NONE_FOUND / whole + error.unwrap_or(0.0) / area)
+        }
+        // Less than one on the sheet is chance, as large as that of so small a count.
+        Known::Value(share, error) if share * whole < area => {
+            let least = (share * area / whole).sqrt();
+            Known::Value(share, error.map(|error| error.max(least))).times(1.0 / area)
+        }
+        share => share.times(1.0 / area),
+    };
+    Some(ThinPlaces {
+        patch,
+        lighter: LIGHTER.map(|share| per_area(weights.share(share * CLASSES_PER_MEAN, false))),
+        heavier: per_area(weights.share(HEAVIER * CLASSES_PER_MEAN, true)),
+        quantiles: QUANTILES.map(|share| weights.quantile(share)),
+    })
+}
+
+/// The lightest patches of one side at any place of the lattice of cells, with at least half a side between
+/// them, the lightest first: their first column and row, and their weight over the mean.
+///
+/// * `side` – of a patch [cells], within the map
+pub(super) fn lightest(map: &Map, side: usize, most: usize) -> Vec<([usize; 2], f64)> {
+    let mean = map.total() as f64 / map.cells.len() as f64 * (side * side) as f64;
+    let places = [map.columns, map.rows].map(|cells| cells - side + 1);
+    let mut found: Vec<([usize; 2], u64)> = Vec::new();
+    while found.len() < most {
+        let mut next: Option<([usize; 2], u64)> = None;
+        boxes(map, side, places, |row, boxes| {
+            for (column, weight) in boxes.iter().enumerate() {
+                let is_far = |(at, _): &([usize; 2], u64)| {
+                    2 * at[0].abs_diff(column).max(at[1].abs_diff(row)) > 3 * side
+                };
+                if next.is_none_or(|(_, least)| *weight < least) && found.iter().all(is_far) {
+                    next = Some(([column, row], *weight));
+                }
+            }
+        });
+        let Some(next) = next.filter(|_| mean > 0.0) else { break };
+        found.push(next);
+    }
+    found.into_iter().map(|(at, weight)| (at, weight as f64 / mean)).collect()
+}
+
+/// Patches side by side whose side is about this, the nearest whole number of cells: how many there are across and
+/// along, and their weights over the mean.
+pub(super) fn weights(map: &Map, patch: f64) -> ([usize; 2], Vec<f64>) {
+    let side = ((patch / map.cell).round().max(1.0) as usize).min(map.columns.min(map.rows));
+    let (sides, sums) = map.squares(side);
+    let mean = sums.iter().sum::<u64>() as f64 / sums.len() as f64;
+    (sides, sums.into_iter().map(|sum| sum as f64 / mean).collect())
+}
+
+/// Sums of the classes of each block up to the edge before a class, as shares of the patches of the block,
+/// and those of all patches.
+struct Weights {
+    blocks: Vec<Vec<f64>>,
+    all: Vec<f64>,
+    /// Deviation of the mean weight of each block from that of all, over it.
+    means: Vec<f64>,
+    lattice: Lattice,
+    /// Sampling error of the CV, as a fraction of it, and what the map is off.
+    by_chance: f64,
+    deviations: Option<Deviations>,
+    /// Of the correlation.
+    powers: [f64; POWERS],
+}
+
+impl Weights {
+    fn new(classes: Vec<Vec<u32>>, lattice: Lattice, deviations: Option<Deviations>) -> Self {
+        let sums = |classes: &[u64]| {
+            let whole = classes.iter().sum::<u64>().max(1) as f64;
+            let mut sum = 0;
+            let mut below = vec![0.0];
+            below.extend(classes.iter().map(|count| {
+                sum += count;
+                sum as f64 / whole
+            }));
+            below
+        };
+        let wide = |classes: &Vec<u32>| classes.iter().map(|count| u64::from(*count)).collect::<Vec<_>>();
+        let all: Vec<u64> =
+            (0..CLASSES).map(|i| classes.iter().map(|block| u64::from(block[i])).sum()).collect();
+        let (blocks, all): (Vec<Vec<f64>>, _) =
+            (classes.iter().map(|block| sums(&wide(block))).collect(), sums(&all));
+        // The mean of a distribution is the sum of what lies above.
+        let mean = |below: &Vec<f64>| below.iter().map(|below| 1.0 - below).sum::<f64>();
+        let means = blocks.iter().map(|block| mean(block) / mean(&all) - 1.0).collect();
+        let by_chance = deviations.map_or(0.0, |of| of.by_chance);
+        let deviations = deviations.map(|of| Deviations { by_chance: 0.0, ..of });
+        let powers = [0.0; POWERS];
+        let mut weights = Self { blocks, all, means, lattice, by_chance, deviations, powers };
+        weights.find_powers();
+        weights
+    }
+
+    /// The share below an edge of the classes, which may lie between two.
+    fn at(below: &[f64], edge: f64) -> f64 {
+        // Edges at whole numbers are met exactly, whatever rounding does to them.
+        let near = edge.round();
+        let edge = if (edge - near).abs() < 1e-6 { near } else { edge }.clamp(0.0, CLASSES as f64);
+        let number = (edge as usize).min(CLASSES - 1);
+        below[number] + (edge - number as f64) * (below[number + 1] - below[number])
+    }
+
+    /// The density of the weights at an edge, in the share of a class.
+    fn density(&self, edge: f64) -> f64 {
+        (Self::at(&self.all, edge + NEAR) - Self::at(&self.all, edge - NEAR)) / (2.0 * NEAR)
+    }
+
+    /// Sampling error of the fraction below an edge: by the blocks, and as of a normal field, which is the
+    /// larger one in the tails, of which a map holds few clouds.
+    fn error(&self, edge: f64) -> Option<f64> {
+        let share = Self::at(&self.all, edge);
+        // Of a rare share it is no more than the share: rare patches of one map say little of the density there.
+        let of_normal = (self.of_normal(edge) * self.density(edge)).min(share.min(1.0 - share));
+        Some(self.by_blocks(edge)?.max(of_normal))
+    }
+
+    /// The first of these errors. Where all is heavier, so are the edges, which follow the mean.
+    fn by_blocks(&self, edge: f64) -> Option<f64> {
+        let share = Self::at(&self.all, edge);
+        let per_mean = edge * self.density(edge);
+        let off = |(block, mean): (&Vec<f64>, &f64)| Self::at(block, edge) - share + per_mean * mean;
+        let influence: Vec<f64> = self.blocks.iter().zip(&self.means).map(off).collect();
+        self.lattice.error_of_mean(&influence, &self.means)
+    }
+
+    /// Standard error of the weight below which a normal field has a fixed share [classes]. The share is a sum over
+    /// Hermite polynomials of the field, and the variance of the n-th one is the mean of the n-th power of the
+    /// correlation. The first one is the mean, the second one that of the CV, whose error is known. (103c)
+    fn of_normal(&self, edge: f64) -> f64 {
+        let deviation = self.deviation();
+        let z = (edge - CLASSES_PER_MEAN) / deviation;
+        let (mut before, mut hermite, mut factorial, mut sum) = (1.0, z, 1.0, 0.0);
+        for (n, power) in (2..).map(f64::from).zip(&self.powers) {
+            factorial *= n;
+            sum += hermite * hermite / factorial * power;
+            (before, hermite) = (hermite, z * hermite - (n - 1.0) * before);
+        }
+        let of_cv = self.powers[0];
+        if of_cv > 0.0 { deviation * self.by_chance * (2.0 * sum.max(0.0) / of_cv).sqrt() } else { 0.0 }
+    }
+
+    /// Means of the second, third and further powers of the correlation of the blocks over all their distances.
+    fn find_powers(&mut self) {
+        let [columns, rows] = self.lattice.sides;
+        let variance = (self.deviation() / CLASSES_PER_MEAN).powi(2);
+        let at = |row: usize| &self.means[row % rows * columns..][..columns];
+        let mut powers = [0.0; POWERS];
+        for (along, across) in (0..rows).flat_map(|along| (0..columns).map(move |across| (along, across))) {
+            let product: f64 = (0..rows)
+                .map(|row| {
+                    let (one, [end, begin]) =
+                        (at(row), [&at(row + along)[..across], &at(row + along)[across..]]);
+                    dot(&one[..columns - across], begin) + dot(&one[columns - across..], end)
+                })
+                .sum();
+            let correlation = product / (columns * rows) as f64 / variance;
+            let mut power = correlation;
+            for sum in &mut powers {
+                power *= correlation;
+                *sum += power / (columns * rows) as f64;
+            }
+        }
+        self.powers = powers;
+    }
+
+    /// Standard deviation of the weights [classes].
+    fn deviation(&self) -> f64 {
+        let shares = self.all.windows(2).enumerate();
+        let squares =
+            shares.map(|(class, of)| (of[1] - of[0]) * (class as f64 + 0.5 - CLASSES_PER_MEAN).powi(2));
+        squares.sum::<f64>().sqrt().max(0.5)
+    }
+
+    /// The share below or above an edge.
+    fn share(&self, edge: f64, is_above: bool) -> Known {
+        let share = |edge: f64| match Self::at(&self.all, edge) {
+            below if is_above => 1.0 - below,
+            below => below,
+        };
+        let change = |by: f64| share(CLASSES_PER_MEAN + (edge - CLASSES_PER_MEAN) / (1.0 + by)) - share(edge);
+        // None found has its own bound of chance.
+        let by_chance = if share(edge) > 0.0 { self.error(edge) } else { Some(0.0) };
+        Deviations::add(self.deviations, Known::Value(share(edge), by_chance), change)
+    }
+
+    /// The weight over the mean of which a share is lighter. Its error is that of the share over the density of the
+    /// weights there, and that of a normal field.
+    fn quantile(&self, share: f64) -> Known {
+        let number = self.all.partition_point(|below| *below < share).clamp(1, CLASSES) - 1;
+        let [low, high] = [self.all[number], self.all[number + 1]];
+        let edge = number as f64 + if high > low { (share - low) / (high - low) } else { 0.0 };
+        let density = self.density(edge);
+        let by_blocks = self.by_blocks(edge).filter(|_| density > 0.0);
+        let error = by_blocks.map(|error| (error / density).max(self.of_normal(edge)));
+        let change = |by: f64| (edge - CLASSES_PER_MEAN) * by;
+        Deviations::add(self.deviations, Known::Value(edge, error), change).times(1.0 / CLASSES_PER_MEAN)
+    }
+}

@@ -1,0 +1,104 @@
+//! What the patches of filaments have in common with those of their neighbours.
+
+use super::NEIGHBOURS;
+use crate::map::Map;
+
+/// Products of one filament with itself, its [`NEIGHBOURS`], the even and the odd ones, and with as much fibre
+/// everywhere.
+pub(super) type Known = [Option<f64>; NEIGHBOURS.len() + 3];
+
+/// What the patches of one side of filaments have in common, over the squared mean patch of a filament.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Products {
+    /// Mean product of a filament and each of its [`NEIGHBOURS`].
+    pub(super) means: [f64; NEIGHBOURS.len()],
+    /// Of each of some pairs of neighbours, for both: the product with itself, with the next one, with the
+    /// next but one, with those of its half, and with those of the other half; and its mass.
+    pub(super) pairs: Vec<[[f64; 6]; 2]>,
+}
+
+impl Products {
+    /// The variance of what they tell of CV², because each filament hangs at a depth of its own: the sum of
+    /// squares of what a filament at another depth would change, told by neighbours.      theory.md (83e)
+    ///
+    /// What two filaments have in common by chance is in what either of them changes, so it would count twice. It
+    /// is what the even and the odd ones do not give alike.
+    ///
+    /// A filament that comes down farther from the sheet on average has less fibre on it, and so has the mean of all.
+    ///
+    /// * `square` – CV² of all
+    /// * `count`, `of_all` – number of the simulated filaments, and of those for which they stand
+    pub(super) fn variance(&self, square: f64, count: f64, of_all: f64) -> f64 {
+        let alone = |[itself, next, second, _, _, mass]: [f64; 6]| {
+            let own = itself - 2.0 * (4.0 * next - second) / 3.0;
+            (itself - (1.0 - count / of_all) * own) / (count * count) - 2.0 * (1.0 + square) * mass / count
+        };
+        let by_halves = |pair: &[[f64; 6]; 2]| {
+            let [[itself, next, _, own, other, _], [its_self, _, _, its_own, its_other, _]] = *pair;
+            let alone = 0.5 * (alone(pair[0]) - alone(pair[1]));
+            let half = |one: f64, neighbour: f64| alone + 2.0 * (one - neighbour) / (count * count);
+            [half(own - itself, its_other - next), half(other - next, its_own - its_self)]
+        };
+        let sums = self.pairs.iter().map(by_halves).fold([0.0; 2], |[whole, alike], [even, odd]| {
+            [whole + (even + odd).powi(2), alike + 4.0 * even * odd]
+        });
+        let [whole, alike] = sums.map(|sum| 0.5 * count * sum / self.pairs.len() as f64);
+        0.5 * (whole + alike.max(0.0))
+    }
+}
+
+/// Sums of a map over all cells before a corner.
+pub(super) struct CornerSums {
+    pub(super) columns: usize,
+    rows: usize,
+    sums: Vec<u64>,
+}
+
+impl CornerSums {
+    pub(super) fn over(map: &Map) -> Self {
+        Self::around(map, 0, map.columns)
+    }
+
+    /// Over some columns of a map that goes on at its edges across, from a first one on.
+    pub(super) fn around(map: &Map, first: i64, columns: usize) -> Self {
+        let width = columns + 1;
+        let first = first.rem_euclid(map.columns as i64) as usize;
+        let mut sums = vec![0; width * (map.rows + 1)];
+        for row in 0..map.rows {
+            let mut of_row = 0;
+            let cells = map.row(row).iter().cycle().skip(first).take(columns);
+            for (column, cell) in cells.enumerate() {
+                of_row += u64::from(*cell);
+                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + of_row;
+            }
+        }
+        Self { columns, rows: map.rows, sums }
+    }
+
+    /// One in each cell.
+    pub(super) fn even(columns: usize, rows: usize) -> Self {
+        let corner = |i: usize| (i / (columns + 1) * (i % (columns + 1))) as u64;
+        Self { columns, rows, sums: (0..(columns + 1) * (rows + 1)).map(corner).collect() }
+    }
+
+    /// Sum over the places of a patch of its products on this map and on another one of the same size.
+    ///
+    /// * `side` – of the patch [cells]; places are half of it apart
+    pub(super) fn product(&self, other: &Self, side: usize) -> f64 {
+        let (width, step) = (self.columns + 1, (side / 2).max(1));
+        let mut sum = 0.0;
+        for row in (0..=self.rows - side).step_by(step) {
+            let [above, below] = [row, row + side].map(|row| row * width);
+            for column in (0..=self.columns - side).step_by(step) {
+                let patch = |sums: &[u64]| {
+                    let [left, right] = [column, column + side];
+                    (sums[below + right] + sums[above + left] - sums[below + left] - sums[above + right])
+                        as f64
+                };
+                sum += patch(&self.sums) * patch(&other.sums);
+            }
+        }
+        let [rows, taken] = [self.rows - side + 1, (self.rows - side) / step + 1];
+        sum * step as f64 * rows as f64 / taken as f64
+    }
+}

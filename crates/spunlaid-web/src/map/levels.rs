@@ -1,0 +1,482 @@
+//! The CV of a web from two levels: coarse flights over a large area, and fine ones in the air of a part of it.
+//!
+//! ```text
+//! CV²(fine) = CV²(coarse, all) + [CV²(fine) − CV²(coarse)](common part)
+//! ```
+//!
+//! Most of the error of a CV is that the simulated sheet holds few clouds, and a coarse flight has nearly the same
+//! clouds as a fine one in the same air. So the area is simulated coarsely, and the common part gives the error of
+//! the coarse mesh: two levels of multilevel Monte Carlo (M. B. Giles, Operations Research 56 (2008) 607), with the
+//! coefficient of a control variate.                                                                           
+//! theory.md (83m), (83o)
+
+use super::few_filaments::{SMALL, small_patch};
+use super::few_findings::{SubsampleCv, SubsampleEstimate};
+use super::uniformity::nearest_to_seen;
+
+/// Results of a layer on sheets that were simulated finely, coarsely, or both ways in the same air.
+#[derive(Clone, Debug, Default)]
+pub struct Levels {
+    /// Sheets that were simulated both ways.
+    pub pairs: Vec<Pair>,
+    /// Coarse sheets in other airs.
+    pub coarse: Vec<SubsampleEstimate>,
+}
+
+/// One sheet in one air, simulated both ways.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Flown finely.
+    pub fine: SubsampleEstimate,
+    /// Flown coarsely.
+    pub coarse: SubsampleEstimate,
+}
+
+/// Parts of the variance of a CV, as parts of its square.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Variances {
+    /// Because the area that was simulated finely is small.
+    pub by_pairs: f64,
+    /// Because the whole area is small.
+    pub by_area: f64,
+    /// Because few filaments were simulated.
+    pub by_pitch: f64,
+}
+
+impl Variances {
+    /// Their sum.
+    pub fn whole(&self) -> f64 {
+        self.by_pairs + self.by_area + self.by_pitch
+    }
+}
+
+/// The result of all sheets over patches of one side.
+struct OfPatch {
+    cv: f64,
+    variances: Variances,
+    /// How far every second filament is off, as a fraction of the CV.
+    of_halves: f64,
+}
+
+/// A sheet as one of many.
+#[derive(Clone, Copy)]
+struct Sheet<'a> {
+    few: &'a SubsampleEstimate,
+    /// Its fraction of the area of all.
+    fraction: f64,
+}
+
+impl Levels {
+    /// Combines the sheets: the first fine sheet with the CV of all. None without a pair.
+    pub fn combine(&self) -> Option<SubsampleEstimate> {
+        let first = &self.pairs.first()?.fine;
+        let mut combined = first.clone();
+        for (number, cv) in combined.cvs.iter_mut().enumerate() {
+            let Some(OfPatch { cv: of_all, variances, of_halves }) = self.combine_over(number) else {
+                continue;
+            };
+            let error = |variance: f64| of_all * variance.sqrt();
+            *cv = SubsampleCv {
+                by_chance: Some(error(variances.by_pairs + variances.by_area)),
+                by_pitch: error(variances.by_pitch),
+                of_halves,
+                beyond_sheet: of_all * of_all - cv.cv * cv.cv,
+                ..cv.with_square(of_all * of_all)
+            };
+        }
+        combined.area = self.coarse().map(|sheet| area(sheet.few)).sum();
+        combined.fine_area = self.pairs.iter().map(|pair| area(&pair.fine)).sum();
+        let fine = self.pairs.iter().skip(1).map(|pair| &pair.fine);
+        for sheet in fine.chain(self.coarse().map(|sheet| sheet.few)) {
+            combined.on_other_sheets += sheet.filaments;
+            combined.lost_on_other_sheets += sheet.lost;
+        }
+        Some(combined)
+    }
+
+    /// The parts of the error of the CV over the patches that the eye judges first.
+    pub fn variances(&self) -> Option<Variances> {
+        let first = &self.pairs.first()?.fine;
+        let number = nearest_to_seen(first.cvs.iter().map(|cv| cv.patch))?;
+        Some(self.combine_over(number)?.variances)
+    }
+
+    /// All coarse sheets.
+    fn coarse(&self) -> impl Iterator<Item = Sheet<'_>> {
+        let all = || self.pairs.iter().map(|pair| &pair.coarse).chain(&self.coarse);
+        let whole: f64 = all().map(area).sum();
+        all().map(move |few| Sheet { few, fraction: area(few) / whole })
+    }
+
+    /// The CV over patches of one side, and its error.
+    ///
+    /// * `number` – of the patches of the first fine sheet
+    fn combine_over(&self, number: usize) -> Option<OfPatch> {
+        let patch = self.pairs.first()?.fine.cvs[number].patch;
+        let at =
+            |few: &SubsampleEstimate| few.cvs.iter().position(|cv| (cv.patch / patch - 1.0).abs() < 1e-6);
+        let square = |few: &SubsampleEstimate| Some(few.cvs[at(few)?].cv.powi(2));
+        let blocks = |few: &SubsampleEstimate| Some(few.blocks[at(few)?].clone());
+        let whole: f64 = self.pairs.iter().map(|pair| area(&pair.fine)).sum();
+        let (mut fine, mut common) = (0.0, 0.0);
+        let (mut fine_blocks, mut common_blocks) = (Vec::new(), Vec::new());
+        for pair in &self.pairs {
+            let fraction = area(&pair.fine) / whole;
+            fine += fraction * square(&pair.fine)?;
+            common += fraction * square(&pair.coarse)?;
+            fine_blocks.extend(blocks(&pair.fine)?);
+            common_blocks.extend(blocks(&pair.coarse)?);
+        }
+        let (mut all, mut sheets) = (0.0, Vec::new());
+        for Sheet { few, fraction } in self.coarse() {
+            all += fraction * square(few)?;
+            sheets.push((few.blocks_across, blocks(few)?));
+        }
+        let coarse = CoarseBlocks::of(sheets)?;
+        let regression = Regression::of(fine_blocks, common_blocks, coarse.reach)?;
+        let coefficient = regression.coefficient;
+        let square = fine + coefficient * (all - common);
+        // The coefficient itself is known only as well as the common part is large.
+        let of_common = coarse.variance * regression.of_coefficient;
+        let of_coefficient = if of_common > 0.0 { (all - common).powi(2) / of_common } else { 0.0 };
+        let (of_halves, by_pitch) = self.by_pitch(patch, at)?;
+        let variance = |of_square: f64| of_square / (4.0 * square * square);
+        let variances = Variances {
+            by_pairs: variance(regression.left * (1.0 + of_coefficient)),
+            by_area: variance(coefficient * coefficient * coarse.of_mean()),
+            by_pitch,
+        };
+        (square > 0.0).then(|| OfPatch { cv: square.sqrt(), variances, of_halves })
+    }
+
+    /// The relative difference of the CV from every second filament, and the variance that few filaments leave open.
+    ///
+    /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
+    /// distance is the same on all of them.
+    fn by_pitch(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<(f64, f64)> {
+        let (mut squares, mut off, mut fractions) = (0.0, 0.0, 0.0);
+        for Sheet { few, fraction } in self.coarse() {
+            let of_halves = few.cvs[at(few)?].of_halves;
+            squares += fraction * of_halves * of_halves;
+            off += fraction * of_halves;
+            fractions += fraction * fraction;
+        }
+        let first = &self.pairs.first()?.fine;
+        let small = if patch < small_patch(first.pitch) { SMALL } else { 0.0 };
+        // The error falls faster than the pitch.
+        Some((off, (0.25 * off * off).max(squares * fractions) + small * small))
+    }
+}
+
+/// What [`Levels`] take of a sheet that is not the first one, as numbers from which [`sheet_of`] makes it again.
+pub fn numbers_of(few: &SubsampleEstimate) -> Vec<f64> {
+    let [width, length] = few.sheet;
+    let counts = [few.filaments, few.lost, few.blocks_across as u64, few.cvs.len() as u64];
+    let mut numbers = vec![width, length];
+    numbers.extend(counts.map(|count| count as f64));
+    for (cv, blocks) in few.cvs.iter().zip(&few.blocks) {
+        numbers.extend([cv.patch, cv.cv, cv.of_halves, blocks.len() as f64]);
+        numbers.extend(blocks);
+    }
+    numbers
+}
+
+/// Takes a sheet from the beginning of some numbers; None if they are of another kind.
+pub fn sheet_of(numbers: &mut &[f64]) -> Option<SubsampleEstimate> {
+    let [width, length, filaments, lost, across, patches] = *taken(numbers, 6)?.first_chunk()?;
+    let mut few =
+        SubsampleEstimate { sheet: [width, length], area: width * length, ..SubsampleEstimate::default() };
+    (few.filaments, few.lost, few.blocks_across) = (filaments as u64, lost as u64, across as usize);
+    for _ in 0..patches as u64 {
+        let [patch, cv, of_halves, blocks] = *taken(numbers, 4)?.first_chunk()?;
+        few.cvs.push(SubsampleCv { patch, cv, of_halves, ..SubsampleCv::UNKNOWN });
+        few.blocks.push(taken(numbers, blocks as usize)?.to_vec());
+    }
+    Some(few)
+}
+
+fn taken<'a>(numbers: &mut &'a [f64], count: usize) -> Option<&'a [f64]> {
+    let (first, rest) = numbers.split_at_checked(count)?;
+    *numbers = rest;
+    Some(first)
+}
+
+/// Largest coefficient: a level that scatters so much less than the other one says little about it.
+const MOST: f64 = 2.0;
+
+fn area(few: &SubsampleEstimate) -> f64 {
+    few.sheet[0] * few.sheet[1]
+}
+
+/// Takes the mean of numbers away; None if there are fewer than two.
+fn deviations(mut blocks: Vec<f64>) -> Option<Vec<f64>> {
+    let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+    blocks.iter_mut().for_each(|block| *block -= mean);
+    (blocks.len() > 1).then_some(blocks)
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// How much the blocks of all coarse sheets vary.
+struct CoarseBlocks {
+    count: f64,
+    /// Variance of one block.
+    variance: f64,
+    /// How many times as large the variance of a mean is as that of blocks which know nothing of each other.
+    reach: f64,
+}
+
+/// Blocks along the belt, as far as one still knows of another.
+const ALONG: usize = 3;
+/// Smallest reach: the waves of the air have fixed strengths, so blocks beside each other may vary against each other.
+const LEAST: f64 = 0.5;
+
+impl CoarseBlocks {
+    /// * `sheets` – the number of blocks across, and the blocks
+    fn of(sheets: Vec<(usize, Vec<f64>)>) -> Option<Self> {
+        let all = deviations(sheets.iter().flat_map(|(_, blocks)| blocks.iter().copied()).collect())?;
+        let (mut near, mut weights, mut rest) = (0.0, 0.0, &all[..]);
+        for (across, blocks) in &sheets {
+            let (own, behind) = rest.split_at(blocks.len());
+            rest = behind;
+            let rows: Vec<f64> = own.chunks((*across).max(1)).map(|row| row.iter().sum()).collect();
+            for steps in 0..ALONG.min(rows.len()) {
+                // Weights that fall with the distance would leave out a third of the variance.
+                let weight = if steps == 0 { 1.0 } else { 2.0 };
+                near += weight * product(&rows, &rows[steps..]);
+                weights += weight * ((rows.len() - steps) * across * across) as f64;
+            }
+        }
+        let (count, squares) = (all.len() as f64, product(&all, &all));
+        // The mean of all takes a part of both away.
+        let near = near / squares / (1.0 - weights / (count * count));
+        let reach = near / (1.0 + near / count);
+        let reach = if reach.is_finite() { reach.max(LEAST) } else { 1.0 };
+        Some(Self { count, variance: squares / (count - reach).max(1.0), reach })
+    }
+
+    /// Variance of the mean of all.
+    fn of_mean(&self) -> f64 {
+        self.reach * self.variance / self.count
+    }
+}
+
+/// The fine blocks of the common part by its coarse ones.
+///
+/// What the two levels do not have in common reaches as far as the clouds do, so only the blocks themselves are
+/// compared: they are many more than what is independent of them.
+struct Regression {
+    coefficient: f64,
+    /// Variance of the mean that is left.
+    left: f64,
+    /// Variance of the mean that is left over that of the coefficient, of coarse blocks of variance one.
+    of_coefficient: f64,
+}
+
+impl Regression {
+    fn of(fine: Vec<f64>, coarse: Vec<f64>, reach: f64) -> Option<Self> {
+        let (fine, coarse) = (deviations(fine)?, deviations(coarse)?);
+        if fine.len() != coarse.len() {
+            return None;
+        }
+        let (of_fine, of_coarse) = (product(&fine, &fine), product(&coarse, &coarse));
+        let of_both = product(&fine, &coarse);
+        let coefficient = if of_coarse > 0.0 { (of_both / of_coarse).clamp(0.0, MOST) } else { 0.0 };
+        let squares = of_fine - 2.0 * coefficient * of_both + coefficient * coefficient * of_coarse;
+        let count = fine.len() as f64;
+        // The mean is found from the same blocks, and the coefficient from products of two, which reach over half of
+        // the area: that of the square of a normal curve.
+        let degrees = (count / reach - 1.5).max(1.0);
+        let left = squares.max(0.0) / count / degrees;
+        Some(Self { coefficient, left, of_coefficient: 2.0 * degrees * reach / count })
+    }
+}
+
+/// The variance of the mean of few blocks, of which a cloud may reach into the next.
+#[derive(Clone, Copy, Debug)]
+pub struct OfMean {
+    /// The variance, in units of the squared values.
+    pub variance: f64,
+    /// Degrees of freedom.
+    pub degrees: f64,
+}
+
+/// Blocks across the belt, as far as one still knows of another.
+const ACROSS: usize = 2;
+
+impl OfMean {
+    /// * `blocks` – deviations from their mean, block after block across
+    /// * `across` – number of blocks across; the web goes on at its edges
+    pub fn of(blocks: &[f64], across: usize) -> Self {
+        let (count, across) = (blocks.len() as f64, across.max(1));
+        let along = blocks.len() / across;
+        // Weights fall with the distance as those of moving sums of blocks do, so that no variance is negative.
+        let falling = |steps: usize, reach: usize| 1.0 - steps as f64 / reach as f64;
+        let (mut products, mut weights, mut squares) = (0.0, 0.0, 0.0);
+        for (number, block) in blocks.iter().enumerate() {
+            let [row, column] = [number / across, number % across];
+            for other_row in row.saturating_sub(ALONG - 1)..along.min(row + ALONG) {
+                for other_column in 0..across {
+                    let steps = other_column.abs_diff(column);
+                    let steps = [other_row.abs_diff(row), steps.min(across - steps)];
+                    if steps[1] < ACROSS {
+                        let weight = falling(steps[0], ALONG) * falling(steps[1], ACROSS);
+                        products += weight * block * blocks[other_row * across + other_column];
+                        weights += weight / count;
+                        squares += weight * weight / count;
+                    }
+                }
+            }
+        }
+        // The mean of all takes a part of the variance away.
+        let left = (1.0 - weights / count).max(0.0);
+        Self { variance: products / (count * count) / left, degrees: left * count / squares }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use rand_xoshiro::SplitMix64;
+    use rand_xoshiro::rand_core::{Rng, SeedableRng};
+
+    const ACROSS: usize = 4;
+    /// CV² of a fine sheet, and of a coarse one.
+    const SQUARES: [f64; 2] = [0.0225, 0.0256];
+
+    /// Nearly normal numbers of variance one.
+    struct Normal(SplitMix64);
+
+    impl Normal {
+        fn next(&mut self) -> f64 {
+            (0..12).map(|_| self.0.next_u64() as f64 / u64::MAX as f64).sum::<f64>() - 6.0
+        }
+    }
+
+    /// A sheet of such blocks, whose few filaments leave nothing open.
+    fn sheet(blocks: Vec<f64>) -> SubsampleEstimate {
+        let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+        let cv = SubsampleCv { patch: 0.01, cv: mean.sqrt(), ..SubsampleCv::UNKNOWN };
+        let sheet = [0.2, 0.05 * (blocks.len() / ACROSS) as f64];
+        SubsampleEstimate {
+            sheet,
+            area: sheet[0] * sheet[1],
+            cvs: vec![cv],
+            blocks: vec![blocks],
+            blocks_across: ACROSS,
+            ..SubsampleEstimate::default()
+        }
+    }
+
+    /// Normal numbers of variance one for the blocks of a sheet, each with a part of those around it along and across.
+    fn blocks(random: &mut Normal, rows: usize, reaching: bool) -> Vec<f64> {
+        let [along, beside] =
+            if reaching { [&[1.0, 0.5, 0.2][..], &[1.0, 0.3]] } else { [&[1.0][..], &[1.0]] };
+        let clouds: Vec<f64> = (0..(rows + along.len()) * ACROSS).map(|_| random.next()).collect();
+        let norm = (product(along, along) * product(beside, beside)).sqrt();
+        let block = |number: usize| {
+            let [row, column] = [number / ACROSS, number % ACROSS];
+            let of = |(steps, part): (usize, &f64)| {
+                let cloud = |(aside, other): (usize, &f64)| {
+                    part * other * clouds[(row + steps) * ACROSS + (column + aside) % ACROSS]
+                };
+                beside.iter().enumerate().map(cloud).sum::<f64>()
+            };
+            along.iter().enumerate().map(of).sum::<f64>() / norm
+        };
+        (0..rows * ACROSS).map(block).collect()
+    }
+
+    /// Sheets of which the pair has a part of its clouds in common.
+    fn levels(random: &mut Normal, in_common: f64, reaching: bool) -> Levels {
+        let mut both = |rows: usize| -> [SubsampleEstimate; 2] {
+            let [a, b] = [0, 1].map(|_| blocks(random, rows, reaching));
+            let other = |(a, b): (&f64, &f64)| in_common * a + (1.0 - in_common * in_common).sqrt() * b;
+            let coarse: Vec<f64> = a.iter().zip(&b).map(other).collect();
+            let of = |square: f64, block: &f64| square * (1.0 + 0.3 * block);
+            [0, 1].map(|level| sheet([&a, &coarse][level].iter().map(|x| of(SQUARES[level], x)).collect()))
+        };
+        let [fine, coarse] = both(10);
+        let others = (0..4).map(|_| both(20)[1].clone()).collect();
+        Levels { pairs: vec![Pair { fine, coarse }], coarse: others }
+    }
+
+    /// The bias of the coarse mesh cancels, and the error that is reported is that of many trials, whether the two
+    /// levels have their clouds in common or nothing, and whether a cloud fills one block or reaches over several.
+    #[test]
+    fn stat_two_levels_are_unbiased_and_know_their_error() {
+        const TRIALS: usize = 1500;
+        let mut random = Normal(SplitMix64::seed_from_u64(3));
+        for (in_common, reaching) in [0.98, 0.7, 0.0].into_iter().flat_map(|x| [(x, false), (x, true)]) {
+            let (mut sum, mut squares, mut reported, mut alone) = (0.0, 0.0, 0.0, 0.0);
+            for _ in 0..TRIALS {
+                let levels = levels(&mut random, in_common, reaching);
+                let square = |few: &SubsampleEstimate| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
+                let combined = levels.combine().unwrap();
+                sum += square(&combined);
+                squares += square(&combined).powi(2);
+                alone += square(&levels.pairs[0].fine).powi(2);
+                reported += 4.0 * levels.variances().unwrap().whole();
+            }
+            let trials = TRIALS as f64;
+            let [mean, variance, reported, alone] = [sum, squares, reported, alone].map(|sum| sum / trials);
+            println!("{in_common} {reaching}: {mean} {variance} {reported} {alone}");
+            assert!(mean.abs() < 4.0 * (variance / trials).sqrt() + 2e-3, "{in_common}: {mean}");
+            assert!((reported / variance - 1.0).abs() < 0.2, "{in_common} {reaching}: {reported} {variance}");
+            // A ninth of the area leaves nine times the variance, and only what is in common falls.
+            assert!(variance < alone * (1.1 - 0.8 * in_common * in_common), "{variance} {alone}");
+        }
+    }
+
+    /// Of clouds that reach over several blocks, and of such that fill one.
+    #[test]
+    fn stat_the_variance_of_the_mean_of_all_sheets_counts_how_far_a_cloud_reaches() {
+        const TRIALS: usize = 1000;
+        const SHEETS: usize = 5;
+        let mut random = Normal(SplitMix64::seed_from_u64(7));
+        for (reaching, expected) in [(false, 1.0), (true, 3.35)] {
+            let (mut reported, mut found, mut reach) = (0.0, 0.0, 0.0);
+            for _ in 0..TRIALS {
+                let sheets: Vec<Vec<f64>> = (0..SHEETS).map(|_| blocks(&mut random, 20, reaching)).collect();
+                let count = sheets.iter().map(Vec::len).sum::<usize>() as f64;
+                found += (sheets.iter().flatten().sum::<f64>() / count).powi(2);
+                let all =
+                    CoarseBlocks::of(sheets.into_iter().map(|blocks| (ACROSS, blocks)).collect()).unwrap();
+                reported += all.of_mean();
+                reach += all.reach / TRIALS as f64;
+            }
+            println!("{reaching}: {reported} {found} {reach}");
+            // As many as the products of neighbours along and across, less what the ends of a sheet lack. The squares
+            // of 1000 means are known to 4.5 %.
+            assert!((reach - expected).abs() < 0.15, "{reach}");
+            assert!((reported / found / (reach / expected) - 1.0).abs() < 0.15, "{reported} {found}");
+        }
+    }
+
+    /// On a sheet of 24 blocks, as of a change in advice, and on one of 64: blocks that have nothing in common, and
+    /// clouds that reach over several. Of these the falling weights leave out two fifths of the variance. Weights
+    /// that do not fall would leave 24 blocks one degree of freedom.
+    #[test]
+    fn stat_the_variance_of_the_mean_of_blocks_leaves_out_what_reaches_far() {
+        const TRIALS: usize = 4000;
+        let mut random = Normal(SplitMix64::seed_from_u64(1));
+        for (rows, reaching, expected) in
+            [(6, false, 1.0), (6, true, 0.57), (16, false, 1.0), (16, true, 0.60)]
+        {
+            let (mut reported, mut found) = (0.0, 0.0);
+            for _ in 0..TRIALS {
+                let blocks = blocks(&mut random, rows, reaching);
+                let mean = blocks.iter().sum::<f64>() / blocks.len() as f64;
+                let OfMean { variance, degrees } = OfMean::of(&deviations(blocks).unwrap(), ACROSS);
+                assert!((1.1..1.3).contains(&(degrees / rows as f64)), "{degrees}");
+                reported += variance;
+                found += mean * mean;
+            }
+            println!("{rows} {reaching}: {}", reported / found);
+            assert!((reported / found / expected - 1.0).abs() < 0.1, "{rows} {reaching}: {reported} {found}");
+        }
+    }
+}
