@@ -4,7 +4,7 @@
 //! claim, plausible, plant → study (points of a design) → advice (what makes a web more even), fit (from a scan back)
 //! ```
 //!
-//! It is a room of the crate `spunlaid`, which is the one to depend on: the interface here may change with any version.
+//! It is a part of `spunlaid`, which is the crate to depend on: the interface here may change with any version.
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -3,7 +3,7 @@
 //! A quantity is written with its unit, `diameter = "50 µm"`. All problems of a file are reported at once, each
 //! with line, key, value, what is allowed and how to correct it.
 //!
-//! It is a room of the crate `spunlaid`, which is the one to depend on: the interface here may change with any version.
+//! It is a part of `spunlaid`, which is the crate to depend on: the interface here may change with any version.
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -5,7 +5,7 @@
 //!                            layers (the webs of a line) → one_air (their filaments, in one air)
 //! ```
 //!
-//! It is a room of the crate `spunlaid`, which is the one to depend on: the interface here may change with any version.
+//! It is a part of `spunlaid`, which is the crate to depend on: the interface here may change with any version.
 
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]

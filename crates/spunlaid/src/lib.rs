@@ -1,10 +1,10 @@
 //! Simulator of fibres in turbulent air, for the spunbonding of nonwovens.
 //!
-//! The library has seven wings. Each imports only from those above it:
+//! The library is made of crates, which are its modules. Each depends only on those above it:
 //!
-//! | wing | what it is for |
+//! | module | contents |
 //! |---|---|
-//! | [`ground`] | the crate `spunlaid-ground`: numbers in lanes, units, errors, tables, statistics, measures |
+//! | [`ground`] | numbers in lanes, units, errors, tables, statistics, measures |
 //! | [`air`] | CFD fields (the crate [`spunlaid-field`](spunlaid_field)), hot-wire records, turbulence |
 //! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
 //! | [`web`] | curves on the belt, the map of a web, the fabric, scans |
@@ -12,7 +12,10 @@
 //! | [`experiment`] | studies, advice, the fit of settings to a scan |
 //! | [`input`] | files of cases, webs and studies |
 //!
-//! This crate does everything from the case file to the statistics; the program `spunlaid` writes the files. In
+//! The crate of a module is called `spunlaid-` and its name. Depend on `spunlaid`: the interfaces of those crates may
+//! change with any version.
+//!
+//! The library does everything from the case file to the statistics; the program `spunlaid` writes the files. In
 //! short, the program does this:
 //!
 //! ```
@@ -40,6 +43,24 @@
 //! let amplitude = results.estimate("amplitude_y");
 //! println!("{:.2} ± {:.2} mm", amplitude.mean * 1e3, amplitude.standard_error.unwrap_or(0.0) * 1e3);
 //! # assert!(amplitude.mean > 1e-3 && amplitude.mean < 2e-2);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A program of its own may advance a flight of up to eight fibres and look at it whenever it likes:
+//!
+//! ```
+//! use spunlaid::fibre::flight::{Flight, Job};
+//! use spunlaid::input::{read_case, starter_case};
+//! use spunlaid::ground::lanes::Isa;
+//!
+//! # fn main() -> Result<(), spunlaid::ground::error::Error> {
+//! let (case, _notes) = read_case((starter_case(), "starter.toml"), &[])?;
+//! let jobs = [0, 1, 2].map(|replicate| Job::new(&case, replicate));
+//! let mut flight = Flight::new(&jobs, Isa::detect())?;
+//! flight.step_to(0.01)?;
+//! let end = flight.snapshot().position.last().map(|end| end.lane(2));
+//! # assert!(end.is_some_and(|end| end.norm().is_finite()));
 //! # Ok(())
 //! # }
 //! ```

@@ -1,21 +1,5 @@
 //! A flight: up to eight fibres side by side, advanced by its owner.
 //!
-//! ```
-//! use spunlaid_fibre::flight::{Flight, Job};
-//! use spunlaid_input::{read_case, starter_case};
-//! use spunlaid_ground::lanes::Isa;
-//!
-//! # fn main() -> Result<(), spunlaid_ground::error::Error> {
-//! let (case, _notes) = read_case((starter_case(), "starter.toml"), &[])?;
-//! let jobs = [0, 1, 2].map(|replicate| Job::new(&case, replicate));
-//! let mut flight = Flight::new(&jobs, Isa::detect())?;
-//! flight.step_to(0.01)?;
-//! let end = flight.snapshot().position.last().map(|end| end.lane(2));
-//! # assert!(end.is_some_and(|end| end.norm().is_finite()));
-//! # Ok(())
-//! # }
-//! ```
-//!
 //! ```text
 //! charge   the electric field of charged fibres, and where their charge is
 //! guard    which fibres are lost
