@@ -9,7 +9,7 @@ use spunlaid_experiment::{
 };
 use spunlaid_fibre::case::keys::{Kind, Relative, Value, VariedKey};
 use spunlaid_ground::error::nearest_word;
-use spunlaid_ground::{Fault, Finding};
+use spunlaid_ground::{Diagnostic, Fault};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
             Ok(key) if others.contains(&&*key.name) => {
                 let (place, value) = (entry.place.clone(), None);
                 let what = Fault::duplicate(name);
-                self.key_values.problems.push(Finding { place, key: String::new(), value, what });
+                self.key_values.problems.push(Diagnostic { place, value, ..what.into() });
                 None
             }
             key => key.map_err(|advice| self.reject(name, entry, not_varied(advice))).ok(),
@@ -236,7 +236,7 @@ impl<'a> Reader<'a> {
             for ((key, which), _) in missing.filter(|(_, end)| end.is_none()) {
                 let what = Fault::missing("", &format!("{key} = with the {which} value"));
                 let (place, key) = (whole.place.clone(), name(key));
-                self.key_values.problems.push(Finding { place, key, value: None, what });
+                self.key_values.problems.push(Diagnostic { place, key, ..what.into() });
             }
             return None;
         };

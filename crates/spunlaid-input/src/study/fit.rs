@@ -7,7 +7,7 @@ use super::web::WebBase;
 use spunlaid_experiment::{Parameter, USUAL_FACTOR};
 use spunlaid_fibre::case::keys::{Kind, Relative, Sign, VariedKey};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Error, Fault, FileKind, Finding, Problem};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind};
 
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
@@ -40,15 +40,15 @@ pub fn read_fit<'a>(
     let base = source.into().open(FileKind::Web, set, |text, name, resources| {
         WebBase::new(text, name.to_owned(), &[set], resources)
     })?;
-    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Problem>::new());
+    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Diagnostic>::new());
     for item in vary {
         let (key, range) =
             item.split_once('=').map_or((item.trim(), None), |(key, range)| (key.trim(), Some(range.trim())));
-        let problem = |value: Option<&str>, what: Fault| Finding {
+        let problem = |value: Option<&str>, what: Fault| Diagnostic {
             place: Place::Override(word.to_owned()),
             key: key.to_owned(),
             value: value.map(ToOwned::to_owned),
-            what,
+            ..what.into()
         };
         let found = base.varied(key).map_err(|remedy| Fault::new("cannot be sought", remedy));
         let found = found.and_then(|found| {

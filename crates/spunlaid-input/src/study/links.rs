@@ -6,7 +6,7 @@ use super::{Base, Reader, not_written};
 use spunlaid_experiment::{Factor, Link};
 use spunlaid_fibre::case::keys::VariedKey;
 use spunlaid_ground::units::unknown_name;
-use spunlaid_ground::{Expression, Fault, Finding, Powers};
+use spunlaid_ground::{Diagnostic, Expression, Fault, Powers};
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
@@ -43,7 +43,7 @@ impl Reader<'_> {
             if let Some(name) = unwritten(link, &keys, base) {
                 let (place, key) = (entry.place.clone(), name.to_owned());
                 let what = not_written("use it in a formula");
-                self.key_values.problems.push(Finding { place, key, value: None, what });
+                self.key_values.problems.push(Diagnostic { place, key, ..what.into() });
             }
         }
         if let Err((link, fault)) = order(&links) {

@@ -24,9 +24,8 @@ use super::{Overrides, Resources, file};
 use plan::Plan;
 use spunlaid_experiment::{Experiment, Quantity, Replicates, STUDY, Study};
 use spunlaid_fibre::case::keys::{self, VariedKey};
-use spunlaid_fibre::{Note, Remark};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Error, Fault, FileKind, Finding, Position, Problem, Removed};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind, Position, Removed};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -148,11 +147,11 @@ pub fn parse_study<'a>(
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
         let place = Place::in_file(name, Position::Whole);
         let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
-        let what = Remark::warning(
+        let what = Diagnostic::warning(
             "is too few to trust a standard error, so the study often stops before its results are as exact as \
             asked; write 6 or more",
         );
-        let note = Finding { place, key, value, what };
+        let note = Diagnostic { place, key, value, ..what };
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
@@ -226,19 +225,21 @@ trait Base {
 /// # Errors
 /// Those that their keys do not take.
 fn written_at(values: &[(VariedKey, f64)], at: &Place) -> Result<Vec<(String, WrittenValue)>, Error> {
-    let (mut written, mut problems) = (Vec::new(), Vec::<Problem>::new());
+    let (mut written, mut problems) = (Vec::new(), Vec::<Diagnostic>::new());
     for (key, value) in values {
         let (name, shown) = (key.name.clone(), Some(key.shown(*value)));
         match key.value(*value) {
             Ok(value) => written.push((name, WrittenValue::new(at, shown, value))),
-            Err(what) => problems.push(Finding { place: at.clone(), key: name, value: shown, what }),
+            Err(what) => {
+                problems.push(Diagnostic { place: at.clone(), key: name, value: shown, ..what.into() })
+            }
         }
     }
     if problems.is_empty() { Ok(written) } else { Err(problems.into()) }
 }
 
 /// An experiment, and the remarks on it.
-type ExperimentWithNotes = Result<(Experiment, Vec<Note>), Error>;
+type ExperimentWithNotes = Result<(Experiment, Vec<Diagnostic>), Error>;
 
 /// A study file, and the problems found in it so far.
 type Reader<'a> = Document<'a, Study>;

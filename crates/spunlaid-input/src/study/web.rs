@@ -8,7 +8,7 @@ use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, written_at};
 use spunlaid_experiment::{Experiment, Point, Quantity, Study};
 use spunlaid_fibre::case::keys::{self, Value, VariedKey};
 use spunlaid_ground::error::{Place, nearest_word};
-use spunlaid_ground::{Error, Problem};
+use spunlaid_ground::{Diagnostic, Error};
 use spunlaid_simulation::layers::full_names::{full_name, replaced_by, value, web_key, without_numbers};
 use spunlaid_simulation::{SAME, WEB_KEYS, WebSpec};
 
@@ -52,7 +52,12 @@ impl WebBase {
         changes.iter_mut().for_each(|(name, _)| *name = self.short_name(name).to_owned());
         let no_layer = |(name, value): &(String, WrittenValue)| {
             let what = self.written.no_layer(name)?;
-            Some(Problem { place: at.clone(), key: name.clone(), value: value.shown.clone(), what })
+            Some(Diagnostic {
+                place: at.clone(),
+                key: name.clone(),
+                value: value.shown.clone(),
+                ..what.into()
+            })
         };
         match changes.iter().find_map(no_layer) {
             Some(problem) => Err(vec![problem].into()),

@@ -36,7 +36,7 @@ impl Laid {
         let sheet = &web.web.sheet;
         Self {
             patches: findings.patches.iter().map(patch).collect(),
-            notes: web.doubts(findings).iter().map(ToString::to_string).collect(),
+            notes: web.warnings(findings).iter().map(ToString::to_string).collect(),
             map: Arc::new(MapBody::new(&findings.laid.map)),
             area: sheet.width * sheet.length,
         }

@@ -45,7 +45,7 @@ pub use canvas::{CanvasPart, DepositionGrid, NO_CORNERS, widen};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
 pub use defects::{Depositor, Titres, holes, inlets};
-pub use doubt::Doubt;
+pub use doubt::WebWarning;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub use few_filaments::{
     Arrangement, FEWEST as FEWEST_OF_FEW, FilledMaps, Subsample, blocks_on, small_patch,

@@ -1,6 +1,6 @@
 //! What a reader of the results must know about the picture.
 
-use super::Doubt;
+use super::ScanWarning;
 use super::findings::{PatchFindings, Settings};
 use super::levels::per_cent;
 use super::picture::Picture;
@@ -111,7 +111,7 @@ pub(super) fn notes(
             },
         ));
     }
-    if let Some(few) = patches.iter().find(|patch| patch.interval == Err(Doubt::Few)) {
+    if let Some(few) = patches.iter().find(|patch| patch.interval == Err(ScanWarning::Few)) {
         let side = Dimension::Length.pretty(few.patch_cv.patch);
         let message =
             format!("this sheet holds too few patches of {side} or more, so no interval is given there");
