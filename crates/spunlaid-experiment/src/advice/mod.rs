@@ -23,7 +23,7 @@ use spunlaid_ground::{
     Dimension, Effect, Error, Fault, Log, Outcome, RACING, RunContext, Sensitivity, effects,
 };
 use spunlaid_simulation::layers::kept_under;
-use spunlaid_simulation::one_air::{fits_memory, steps_in_same_air};
+use spunlaid_simulation::shared_turbulence::{fits_memory, steps_in_same_air};
 use spunlaid_simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use spunlaid_web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
 use spunlaid_web::{ExpectedCv, Web};

@@ -2,8 +2,8 @@
 
 use super::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use spunlaid_ground::{Effect, Error, RunContext};
-pub use spunlaid_simulation::one_air::LaidStretch;
-use spunlaid_simulation::one_air::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
+pub use spunlaid_simulation::shared_turbulence::LaidStretch;
+use spunlaid_simulation::shared_turbulence::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
 use spunlaid_simulation::{Compared, Flyer, WebSpec};
 use spunlaid_web::SubsampleEstimate;
 
