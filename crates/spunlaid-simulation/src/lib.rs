@@ -35,4 +35,6 @@ pub use layers::{
 };
 pub use observe::{DECLARED, FibreMeasure, LAYDOWN, MEASURES, Observation, Observer, SURROGATE};
 pub use shared_turbulence::FewOfWeb;
-pub use shared_turbulence::{Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight};
+pub use shared_turbulence::{
+    Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight,
+};

@@ -2,7 +2,6 @@
 
 use super::basis_weight::Map;
 use super::clouds::{Clouds, autocorrelation};
-use super::doubt::WebWarning;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{SubsampleCv, SubsampleEstimate, SubsampleWarning};
 use super::laid_web::{Evidence, LaidWeb, LayerFlown};
@@ -10,6 +9,7 @@ use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::uniformity::{PatchCv, nearest_to_seen, unevenness_at, variance_of_mean};
+use super::warning::WebWarning;
 use super::waves::Places;
 use super::{Layer, Web};
 use crate::surrogate::Surrogate;
