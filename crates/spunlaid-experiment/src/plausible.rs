@@ -1,6 +1,7 @@
 //! Whether the numbers of a line are such as spunbond lines have.
 
 use spunlaid_ground::Diagnostic;
+use spunlaid_ground::units::rounded;
 use spunlaid_simulation::layers::full_names::web_key;
 use spunlaid_simulation::{LayerSpec, WebSpec};
 use std::fmt;
@@ -140,7 +141,7 @@ impl fmt::Display for Implausible {
 
 /// A number with three digits.
 fn shown(number: f64) -> String {
-    format!("{number:.2e}").parse::<f64>().unwrap_or(number).to_string()
+    rounded(number, 2).to_string()
 }
 
 /// The numbers of a web that are outside the ranges of spunbond lines, each once: its layers share some.

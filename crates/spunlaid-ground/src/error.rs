@@ -10,7 +10,7 @@ pub use fault::Fault;
 pub use file::FileKind;
 pub use words::{
     IS, WAS, by_count, by_similarity, counted, excerpt, is_invisible, listed, memory, nearest_word, one_of,
-    shortest,
+    rounded, shortest,
 };
 
 use std::borrow::Cow;

@@ -6,7 +6,7 @@ use super::levels::per_cent;
 use super::picture::Picture;
 use super::spots::ForeignParts;
 use super::weigh::{Light, WeighedPicture};
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 use spunlaid_ground::{Dimension, Fault};
 
 /// A larger difference between two sides of a pixel is not one of rounding.
@@ -264,6 +264,5 @@ fn odd_pixels(picture: &Picture, weighed: &WeighedPicture) -> Vec<Fault> {
 
 /// `12 mm²`.
 fn square(area: f64) -> String {
-    let digits: f64 = format!("{:.2e}", 1e6 * area).parse().unwrap_or(f64::NAN);
-    format!("{} mm²", shortest(digits))
+    format!("{} mm²", shortest(rounded(1e6 * area, 2)))
 }
