@@ -169,9 +169,7 @@ fn placed(key_values: &WrittenValues, failure: Failure) -> Diagnostic {
     let Failure { key, value, fault } = failure;
     match value {
         Some(value) => key_values.placed(keys::diagnostic(key, value, fault)),
-        None => {
-            Diagnostic { key: key.to_owned(), ..key_values.placed(keys::diagnostic(key, f64::NAN, fault)) }
-        }
+        None => key_values.placed(Diagnostic::from(fault).with_key(key, None)),
     }
 }
 
@@ -186,8 +184,7 @@ impl OpenCase {
         let solved = spinline.solve(self.case.drag.along);
         let filament = solved.map_err(|failure| rejected(&self.key_values, &self.case, failure))?;
         if let Some(beyond) = filament.beyond_table(self.case.drag.along) {
-            let note = keys::diagnostic("drag.along", f64::NAN, Diagnostic::warning(beyond));
-            self.notes.push(self.key_values.placed(note));
+            self.notes.push(self.key_values.placed(Diagnostic::warning(beyond).with_key("drag.along", None)));
         }
         self.case.take_filament(&filament);
         Ok(())
@@ -242,8 +239,8 @@ impl OpenCase {
                         everywhere, from spinline.temperature",
                         Dimension::Temperature.pretty(temperature)
                     ));
-                    let note = keys::diagnostic("spinline.field", f64::NAN, what);
-                    notes.push(key_values.placed(Diagnostic { value: None, ..note }));
+                    let note = key_values.placed(what.with_key("spinline.field", None));
+                    notes.push(Diagnostic { value: None, ..note });
                     if let Some(line) = &mut case.spinline {
                         line.air = Surroundings::Field { temperature, table };
                     }

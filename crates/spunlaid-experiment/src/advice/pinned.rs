@@ -26,8 +26,8 @@ pub struct CvSoFar {
     pub patch: f64,
     /// The CV.
     pub cv: f64,
-    /// Its standard error.
-    pub standard_error: f64,
+    /// Its standard error; None where it is not known.
+    pub standard_error: Option<f64>,
 }
 
 /// What the sheet of a coarse flight says so far.

@@ -54,15 +54,14 @@ impl Base for CaseBase {
         Ok(VariedKey::new(name, key.kind))
     }
 
-    fn value(&self, key: &VariedKey) -> f64 {
-        let value = keys::find(&key.name).and_then(|found| {
+    fn value(&self, key: &VariedKey) -> Option<f64> {
+        keys::find(&key.name).and_then(|found| {
             if key.words().is_empty() {
                 self.open.number(found)
             } else {
                 key.number(&found.get(&self.open.case)?)
             }
-        });
-        value.unwrap_or(f64::NAN)
+        })
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {

@@ -117,7 +117,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
 /// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
 pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &dyn Base) -> Option<&'a str> {
     let has_value =
-        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| !base.value(&key).is_nan());
+        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| base.value(&key).is_some());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 

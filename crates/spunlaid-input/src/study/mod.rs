@@ -22,7 +22,7 @@ use super::document::{self, Document};
 use super::written_values::{WrittenValue, sorted};
 use super::{Overrides, Resources, file};
 use plan::Plan;
-use spunlaid_experiment::{Experiment, Quantity, Replicates, STUDY, Study};
+use spunlaid_experiment::{Experiment, Factor, Quantity, Replicates, STUDY, Study};
 use spunlaid_fibre::case::keys::{self, VariedKey};
 use spunlaid_ground::error::Place;
 use spunlaid_ground::{Diagnostic, Error, Fault, FileKind, Position, Removed};
@@ -189,8 +189,8 @@ trait Base {
         if is_number(&key) { Ok(key) } else { Err("a formula needs keys whose value is a number".to_owned()) }
     }
 
-    /// The value of a key before anything varies: a number, or the place of a word. NaN if it has none.
-    fn value(&self, key: &VariedKey) -> f64;
+    /// The value of a key before anything varies: a number, or the index of a word. None if it has none.
+    fn value(&self, key: &VariedKey) -> Option<f64>;
 
     /// The master seed, and the number of replicates, if the study does not say them.
     fn seed_and_replicates(&self) -> (u64, u64);
@@ -218,6 +218,11 @@ trait Base {
 
     /// The file of what is varied, and what it does not have of the keys that are the same at all points.
     fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>);
+}
+
+/// The values of the factors before they vary; NaN where a factor has none.
+fn values_before(base: &dyn Base, factors: &[Factor]) -> Vec<f64> {
+    factors.iter().map(|factor| base.value(&factor.key).unwrap_or(f64::NAN)).collect()
 }
 
 /// Values of keys as if they were written at a place.

@@ -5,7 +5,7 @@ use super::super::document::Named;
 use super::super::entry::Entry;
 use super::super::overrides::AUTO;
 use super::super::write::quoted;
-use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice};
+use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice, values_before};
 use spunlaid_experiment::{
     Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim,
 };
@@ -137,7 +137,7 @@ impl Reader<'_> {
             return None;
         }
         let order = links::order(&links).ok()?;
-        let values: Vec<f64> = factors.iter().map(|factor| base.value(&factor.key)).collect();
+        let values = values_before(base, &factors);
         self.combination(design, &factors, &values);
         if self.problems() == 0 {
             self.size(design.count(&factors, &values), changes.points, replicates.at_most);

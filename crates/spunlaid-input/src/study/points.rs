@@ -2,7 +2,7 @@
 
 use super::super::Resources;
 use super::plan::Plan;
-use super::{Base, links};
+use super::{Base, links, values_before};
 use spunlaid_experiment::Point;
 use spunlaid_experiment::study::seed_of_point;
 use spunlaid_fibre::case::keys::VariedKey;
@@ -52,7 +52,7 @@ impl Resolver<'_> {
     /// All points, or the problems of all of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
-        let base: Vec<f64> = factors.iter().map(|factor| self.base.value(&factor.key)).collect();
+        let base = values_before(self.base, factors);
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
         let (mut points, mut problems, mut notes) =
@@ -74,7 +74,7 @@ impl Resolver<'_> {
         let Plan { factors, links, order, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key.name == name) {
             Some(i) => values.get(i).copied(),
-            None => Some(self.base.value(&self.base.numeric(name).ok()?)),
+            None => self.base.value(&self.base.numeric(name).ok()?),
         };
         let linked = links::values(self.base, links, order, &known);
         values.extend(linked);

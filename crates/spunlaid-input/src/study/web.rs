@@ -141,13 +141,13 @@ impl Base for WebBase {
         }
     }
 
-    fn value(&self, key: &VariedKey) -> f64 {
+    fn value(&self, key: &VariedKey) -> Option<f64> {
         let found = if is_of_case(&key.name, self.spec().flies()) {
             self.case_value(&key.name)
         } else {
             value(self.spec(), &key.name)
         };
-        found.and_then(|value| key.number(&value)).unwrap_or(f64::NAN)
+        found.and_then(|value| key.number(&value)).filter(|value| !value.is_nan())
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {

@@ -89,7 +89,7 @@ pub struct PatchFindings {
     pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
     /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
-    pub single_fibres: Option<(f64, f64)>,
+    pub single_fibres: Option<(f64, Option<f64>)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
     /// From what it is known. In independent turbulence, filaments in shared turbulence would give
