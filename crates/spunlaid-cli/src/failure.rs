@@ -99,7 +99,7 @@ impl fmt::Display for Failure {
 mod tests {
     use super::*;
     use spunlaid::experiment::study::{foreign, in_use, unsynced};
-    use spunlaid::ground::Problem;
+    use spunlaid::ground::Diagnostic;
     use std::io;
     use std::path::Path;
 
@@ -121,7 +121,7 @@ mod tests {
         }
         for not_the_inputs_fault in [
             Failure::from(Error::unwritable(path)(full())),
-            Error::System(Box::new(Problem::from(Fault::plain("the page cannot be served")))).into(),
+            Error::System(Box::new(Diagnostic::from(Fault::plain("the page cannot be served")))).into(),
             Failure::Incomplete { what: "1 of 2 fibres was lost".to_owned() },
             Failure::Panicked,
             Error::Diverged {

@@ -27,7 +27,7 @@ pub use claim::{Claim, REAL, Verdict};
 pub use claim::{goes, significance};
 pub use fit::USUAL_FACTOR;
 pub use fit::{
-    FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, MOST_TRIALS, MeasuredPatch,
+    FEWEST_WEBS, Fit, FittedKey, FittedNumber, IntervalEnd, KeyWarning, MOST_TRIALS, MeasuredPatch,
     MeasuredWeb, Parameter, Question, Target, Texture, USUAL_WEBS, WebInProgress,
 };
 pub use plant::{PlantNumber, plant_numbers};

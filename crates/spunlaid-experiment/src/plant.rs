@@ -1,5 +1,6 @@
 //! The numbers by which a plant knows its line.
 
+use spunlaid_ground::units::rounded;
 use spunlaid_simulation::{LayerSpec, SAME, WebSpec};
 
 /// A number of a line in the unit in which a plant says it.
@@ -73,7 +74,7 @@ impl Row {
                 false => [format!("{}.{layer}", self.name), format!("{}, layer {layer}", self.label)],
             };
             let (value, (unit, size)) = (value?, self.unit);
-            let digits: f64 = format!("{:.3e}", value / size).parse().unwrap_or(f64::NAN);
+            let digits = rounded(value / size, 3);
             let text = if unit.is_empty() { digits.to_string() } else { format!("{digits} {unit}") };
             Some(PlantNumber { name, label, value, text })
         };

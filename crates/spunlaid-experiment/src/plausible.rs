@@ -1,7 +1,7 @@
 //! Whether the numbers of a line are such as spunbond lines have.
 
-use spunlaid_fibre::{Note, Remark};
-use spunlaid_ground::error::Place;
+use spunlaid_ground::Diagnostic;
+use spunlaid_ground::units::rounded;
 use spunlaid_simulation::layers::full_names::web_key;
 use spunlaid_simulation::{LayerSpec, WebSpec};
 use std::fmt;
@@ -118,18 +118,18 @@ impl Implausible {
     /// What is reported of it.
     ///
     /// * `is_written` – whether its key is, so that another unit may have been meant
-    pub fn note(&self, is_written: bool) -> Note {
+    pub fn note(&self, is_written: bool) -> Diagnostic {
         let Limit { key, words, unit: (unit, _), range: ends, advice, .. } = self.limit;
         let dimension = web_key(key).and_then(|key| key.kind.dimension()).filter(|_| is_written);
         let meant = dimension.and_then(|dimension| dimension.meant_in(unit, self.value, *ends));
         let advice =
             meant.map_or_else(|| (*advice).to_owned(), |meant| format!("did you mean {meant} {unit}?"));
         let (found, range) = self.words();
-        let what = Remark::doubt(format!(
+        Diagnostic::implausible(format!(
             "is outside the usual range: a {words} of {found}, where spunbond lines have {range}; {advice}"
         ))
-        .outside_by(self.excess());
-        Note { place: Place::Code, key: (*key).to_owned(), value: None, what }
+        .outside_by(self.excess())
+        .with_key(*key, None)
     }
 }
 
@@ -141,7 +141,7 @@ impl fmt::Display for Implausible {
 
 /// A number with three digits.
 fn shown(number: f64) -> String {
-    format!("{number:.2e}").parse::<f64>().unwrap_or(number).to_string()
+    rounded(number, 2).to_string()
 }
 
 /// The numbers of a web that are outside the ranges of spunbond lines, each once: its layers share some.

@@ -34,8 +34,7 @@ pub mod load;
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use body::{Fibre, Root};
 pub use case::{
-    Case, Checks, ERROR_TOLERANCE, FLIGHT_MEMORY_LIMIT, MOST_REPLICATES, MOST_STEPS, Note, Remark, Run,
-    StepChoice,
+    Case, Checks, ERROR_TOLERANCE, FLIGHT_MEMORY_LIMIT, MOST_REPLICATES, MOST_STEPS, Run, StepChoice,
 };
 pub use chain::FibreParameters;
 pub use charge::{BREAKDOWN, Charge, ChargeEstimate, SheetHeight};

@@ -1,16 +1,16 @@
 //! Errors. A problem names the place, the key, the value, what is wrong, and what to do about it.
 
+mod diagnostic;
 mod fault;
 mod file;
-mod problem;
 mod words;
 
+pub use diagnostic::{Diagnostic, FileError, Place, Position, Severity};
 pub use fault::Fault;
 pub use file::FileKind;
-pub use problem::{FileError, Finding, Place, Position, Problem};
 pub use words::{
     IS, WAS, by_count, by_similarity, counted, excerpt, is_invisible, listed, memory, nearest_word, one_of,
-    shortest,
+    rounded, shortest,
 };
 
 use std::borrow::Cow;
@@ -23,7 +23,7 @@ use std::path::Path;
 pub enum Error {
     /// A case, a study or a web cannot be used. All problems found, in the order of the file.
     #[error("{}", one_per_line(.0))]
-    Rejected(Vec<Problem>),
+    Rejected(Vec<Diagnostic>),
     /// A file that cannot be used.
     #[error("{0}")]
     File(FileError),
@@ -32,10 +32,10 @@ pub enum Error {
     Flight(Fault),
     /// A folder of results, or a file in it, is in use or holds something else. The reason, and details of it.
     #[error("{}", one_per_line(.0))]
-    Folder(Vec<Problem>),
+    Folder(Vec<Diagnostic>),
     /// The operating system does not let a file be read or written.
     #[error("{0}")]
-    System(Box<Problem>),
+    System(Box<Diagnostic>),
     /// The computation of a fibre has diverged.
     #[error("replicate {replicate}: {sign} at {time:e} s; {cause}")]
     Diverged {
@@ -83,7 +83,7 @@ impl Error {
 
     /// A folder of results, or a file in it, that is in use or holds something else.
     pub fn folder(path: &Path, fault: Fault) -> Self {
-        Self::Folder(vec![Problem::with_path(path, fault)])
+        Self::Folder(vec![Diagnostic::with_path(path, fault)])
     }
 
     /// A folder that does not hold the results of a run.
@@ -94,7 +94,7 @@ impl Error {
 
     /// A file that the operating system does not let be read or written.
     pub fn system(path: &Path, fault: Fault) -> Self {
-        Self::System(Box::new(Problem::with_path(path, fault)))
+        Self::System(Box::new(Diagnostic::with_path(path, fault)))
     }
 
     /// A file or folder of results that the operating system does not let us write.
@@ -115,7 +115,7 @@ impl Error {
     }
 
     /// The problems that it consists of.
-    pub fn problems(&self) -> &[Problem] {
+    pub fn problems(&self) -> &[Diagnostic] {
         match self {
             Self::Rejected(problems) | Self::Folder(problems) => problems,
             Self::File(problem) | Self::System(problem) => std::slice::from_ref(problem),
@@ -125,7 +125,7 @@ impl Error {
 
     /// The message for a user of the program `spunlaid`: each problem is followed by what they type for its remedy.
     pub fn with_options(&self) -> String {
-        let shown = |problem: &Problem| match &*problem.what.option {
+        let shown = |problem: &Diagnostic| match &*problem.cause.option {
             "" => problem.to_string(),
             option => format!("{problem} ({option})"),
         };
@@ -160,14 +160,14 @@ impl From<Fault> for Error {
     }
 }
 
-impl From<Box<Problem>> for Error {
-    fn from(problem: Box<Problem>) -> Self {
+impl From<Box<Diagnostic>> for Error {
+    fn from(problem: Box<Diagnostic>) -> Self {
         Self::Rejected(vec![*problem])
     }
 }
 
-impl From<Vec<Problem>> for Error {
-    fn from(problems: Vec<Problem>) -> Self {
+impl From<Vec<Diagnostic>> for Error {
+    fn from(problems: Vec<Diagnostic>) -> Self {
         Self::Rejected(problems)
     }
 }
@@ -175,11 +175,11 @@ impl From<Vec<Problem>> for Error {
 /// Largest number of problems that are listed; further ones are only counted.
 const MOST_TOLD: usize = 20;
 
-fn one_per_line(problems: &[Problem]) -> String {
+fn one_per_line(problems: &[Diagnostic]) -> String {
     lines(problems, ToString::to_string)
 }
 
-fn lines(problems: &[Problem], shown: impl Fn(&Problem) -> String) -> String {
+fn lines(problems: &[Diagnostic], shown: impl Fn(&Diagnostic) -> String) -> String {
     let mut lines: Vec<String> = problems.iter().take(MOST_TOLD).map(shown).collect();
     if problems.len() > MOST_TOLD {
         lines.push(format!("and {} more like these", problems.len() - MOST_TOLD));

@@ -49,7 +49,7 @@ pub use company::{Bits, PerLane};
 pub use effects::{
     Change, ChangedKey, Effect, NAMED, Outcome, RACING, Sensitivity, SensitivityRun, Setting, Turned,
 };
-pub use error::{Error, Fault, FileError, FileKind, Finding, IS, Position, Problem, WAS};
+pub use error::{Diagnostic, Error, Fault, FileError, FileKind, IS, Position, Severity, WAS};
 pub use fft::{Complex, InverseTransform, WideComplex};
 pub use lanes::{F32x12, F32x16, Isa, Lanes, Plain, Register, Simd, Task, WIDTH, Wide};
 pub use log::Log;

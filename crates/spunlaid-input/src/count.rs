@@ -6,8 +6,8 @@ use super::written_values::{WrittenValues, sorted};
 use spunlaid_air::EddyModel;
 use spunlaid_fibre::case::keys::{self, Value};
 use spunlaid_fibre::case::{too_many_steps, unusual, whole_parts};
-use spunlaid_fibre::{Case, Fibre, MOST_STEPS, Note, Remark, StepChoice};
-use spunlaid_ground::{Dimension, Error, Finding};
+use spunlaid_fibre::{Case, Fibre, MOST_STEPS, StepChoice};
+use spunlaid_ground::{Diagnostic, Dimension, Error};
 
 /// How many times longer a suitable step must be than the written one to be mentioned.
 const MUCH_LONGER: f64 = 50.0;
@@ -22,7 +22,7 @@ impl OpenCase {
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
-    pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Note>), Error> {
+    pub(super) fn resolve_at_once(mut self) -> Result<(Case, Vec<Diagnostic>), Error> {
         self.spin()?;
         let fibre = &self.case.fibre;
         self.case.air.settle_along(fibre.direction * fibre.length);
@@ -37,14 +37,14 @@ impl OpenCase {
             };
         if let Some((time_step, remark)) = chosen {
             let place = self.key_values.whole();
-            self.notes.push(Finding { place, ..keys::finding("run.time_step", time_step, remark) });
+            self.notes.push(Diagnostic { place, ..keys::diagnostic("run.time_step", time_step, remark) });
         }
         self.look_at_what_no_case_has();
         if !self.is_written(MACHINE_DIRECTION)
             && let Some((axis, what)) = self.case.chosen_machine_direction()
         {
             let (place, key) = (self.key_values.whole(), MACHINE_DIRECTION.to_owned());
-            self.notes.push(Finding { place, key, value: Some(format!("\"{axis}\"")), what });
+            self.notes.push(Diagnostic { place, key, value: Some(format!("\"{axis}\"")), ..what });
         }
         match self.case.check() {
             Ok(more) => {
@@ -71,8 +71,8 @@ impl OpenCase {
         }
     }
 
-    fn note(&mut self, key: &str, value: f64, remark: Remark) {
-        self.notes.push(self.key_values.placed(keys::finding(key, value, remark)));
+    fn note(&mut self, key: &str, value: f64, remark: Diagnostic) {
+        self.notes.push(self.key_values.placed(keys::diagnostic(key, value, remark)));
     }
 
     fn number_of(&self, key: &str) -> f64 {
@@ -98,12 +98,12 @@ impl OpenCase {
             let text = format!(
                 "does not divide fibre.length into whole elements: {elements} of {rest_length} {are_used}"
             );
-            self.note("fibre.element_length", element_length, Remark::note(text));
+            self.note("fibre.element_length", element_length, Diagnostic::note(text));
         }
     }
 
     /// Sets the time step as written, or chooses one and returns it [s] with the reason.
-    fn find_step(&mut self) -> Option<(f64, Remark)> {
+    fn find_step(&mut self) -> Option<(f64, Diagnostic)> {
         let [duration, tolerance] = ["run.duration", "run.error_tolerance"].map(|key| self.number_of(key));
         let written_step = self.key_values.number("run.time_step");
         self.case.run.time_step = written_step.unwrap_or(duration);
@@ -119,7 +119,7 @@ impl OpenCase {
             let limit = Dimension::Time.pretty(limit);
             return Some((
                 suggested,
-                Remark::choice(format!("is used ({}); {stable} {limit}", choice.reason())),
+                Diagnostic::choice(format!("is used ({}); {stable} {limit}", choice.reason())),
             ));
         };
         if suggested >= MUCH_LONGER * step {
@@ -130,11 +130,11 @@ impl OpenCase {
                 self.case.run.scheme.name(),
                 Dimension::Time.pretty(suggested)
             );
-            self.note("run.time_step", step, Remark::note(text));
+            self.note("run.time_step", step, Diagnostic::note(text));
         }
         if self.is_written("run.error_tolerance") {
             let text = "has no effect because run.time_step is given; remove one of the two";
-            self.note("run.error_tolerance", tolerance, Remark::note(text));
+            self.note("run.error_tolerance", tolerance, Diagnostic::note(text));
         }
         None
     }
@@ -145,7 +145,7 @@ impl OpenCase {
         let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
             let fault = too_many_steps(steps, time_step);
-            let mut problems = vec![keys::finding("run.duration", duration, fault)];
+            let mut problems = vec![keys::diagnostic("run.duration", duration, fault)];
             self.case.blame_slips(&mut problems);
             return Err(sorted(
                 problems.into_iter().map(|problem| self.key_values.placed(problem)).collect(),
@@ -166,7 +166,7 @@ impl OpenCase {
             let text =
                 format!("does not divide run.duration into whole steps: {} of {used} {are_used}", run.steps);
             if self.is_written("run.time_step") {
-                self.note("run.time_step", time_step, Remark::note(text));
+                self.note("run.time_step", time_step, Diagnostic::note(text));
             }
         }
         Ok(())
@@ -199,7 +199,7 @@ impl OpenCase {
             self.note(
                 key,
                 time,
-                Remark::note(format!("is not a whole number of time steps: {used} is used")),
+                Diagnostic::note(format!("is not a whole number of time steps: {used} is used")),
             );
         }
     }
@@ -238,7 +238,7 @@ fn feed(case: &mut Case, key_values: &WrittenValues, written_length: Option<f64>
 
 /// Shortens the time step of a fed fibre so that an element is fed in a whole number of steps, and sets the number of
 /// steps of the run. A step that is too long for the feed stays as it is, because it is refused later.
-fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
+fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Diagnostic> {
     let (length, step) = (case.fibre.rest_length(), case.run.time_step);
     let line = case.line.as_mut()?;
     let lifetime = length / line.feed_speed;
@@ -249,7 +249,7 @@ fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Remark> {
     case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
     let (steps, used) = (line.steps_per_element, Dimension::Time.pretty_to(case.run.time_step, 8));
     (!keeps).then(|| {
-        Remark::note(format!(
+        Diagnostic::note(format!(
             "does not divide the time in which an element is fed into whole steps: {steps} of {used} are used for each"
         ))
     })

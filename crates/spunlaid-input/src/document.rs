@@ -11,7 +11,7 @@ use super::written_values::{WrittenValue, WrittenValues};
 use spunlaid_fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, Relative, TableList, Value};
 use spunlaid_ground::error::Place;
 use spunlaid_ground::sort::sort_by_key;
-use spunlaid_ground::{Error, Fault, Finding, Problem, Removed};
+use spunlaid_ground::{Diagnostic, Error, Fault, Removed};
 use spunlaid_simulation::layers::full_names::without_numbers;
 use spunlaid_simulation::layers::keys::{WEB, WEB_FILE};
 use std::collections::BTreeMap;
@@ -84,7 +84,7 @@ fn check_kind<T>(
     keys: &KeyTable<T>,
     root: &DeTable<'_>,
     source: &TextWithLines<'_>,
-) -> Result<(), Vec<Problem>> {
+) -> Result<(), Vec<Diagnostic>> {
     type IsOf = fn(&str) -> bool;
     const KINDS: [(IsOf, &str, &str, &str, &str); 3] = [
         (|name| ["vary", "design"].contains(&name), "a study", "the file as a study", "`spunlaid sweep`", ""),
@@ -106,7 +106,7 @@ fn check_kind<T>(
                 None => format!("read {it}"),
             };
             let what = Fault::new(format!("belongs to {kind}, not to {}", keys.noun), remedy).option(command);
-            return Err(vec![Finding { place, key, value: None, what }]);
+            return Err(vec![Diagnostic { place, key, ..what.into() }]);
         }
     }
     Ok(())

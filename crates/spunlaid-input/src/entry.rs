@@ -5,7 +5,7 @@ use super::text_with_lines::{TextWithLines, fit};
 use spunlaid_fibre::case::keys::{DataFile, Kind, Value};
 use spunlaid_ground::error::Place;
 use spunlaid_ground::sort::sort_by_key;
-use spunlaid_ground::{Dimension, Fault, Finding, Problem, UnitAdvice, Vec3};
+use spunlaid_ground::{Diagnostic, Dimension, Fault, UnitAdvice, Vec3};
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
@@ -55,8 +55,8 @@ impl<'a> Entry<'a> {
     }
 
     /// A problem with it.
-    pub(super) fn problem(&self, key: &str, what: impl Into<Fault>) -> Problem {
-        Finding { place: self.place.clone(), key: fit(key), value: self.shown.clone(), what: what.into() }
+    pub(super) fn problem(&self, key: &str, what: Fault) -> Diagnostic {
+        Diagnostic { place: self.place.clone(), key: fit(key), value: self.shown.clone(), ..what.into() }
     }
 }
 
@@ -64,7 +64,7 @@ impl<'a> Entry<'a> {
 ///
 /// # Errors
 /// What the parser finds.
-pub(super) fn root<'a>(source: &TextWithLines<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Problem>> {
+pub(super) fn root<'a>(source: &TextWithLines<'_>, text: &'a str) -> Result<DeTable<'a>, Vec<Diagnostic>> {
     let (root, faults) = DeTable::parse_recoverable(text);
     if faults.is_empty() { Ok(root.into_inner()) } else { Err(source.syntax(&faults)) }
 }
@@ -80,7 +80,7 @@ pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<
 }
 
 /// Rejects a file of a newer format.
-pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Box<Problem>> {
+pub(super) fn check_version(entry: &Entry<'_>) -> Result<(), Box<Diagnostic>> {
     let known = FORMAT_VERSION;
     let what = match &entry.value {
         DeValue::Integer(number) => match number.as_str().parse() {

@@ -48,16 +48,16 @@ pub use write::write_case;
 use data::DataFiles;
 use open::OpenCase;
 use spunlaid_experiment::Experiment;
+use spunlaid_fibre::Case;
 use spunlaid_fibre::case::keys;
 use spunlaid_fibre::case::keys::{Key, Value};
-use spunlaid_fibre::{Case, Note};
-use spunlaid_ground::{Error, Fault, FileError, FileKind};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileError, FileKind};
 use std::path::Path;
 use toml::de::DeTable;
 use written_values::WrittenValues;
 
 /// What is read of a case file: the case, with notes and warnings about it.
-pub type CaseWithNotes = (Case, Vec<Note>);
+pub type CaseWithNotes = (Case, Vec<Diagnostic>);
 
 /// The version of the case file format that this library writes, and the newest one that it reads.
 pub(crate) const FORMAT_VERSION: u32 = 1;

@@ -4,9 +4,9 @@ use super::data::DataFiles;
 use super::written_values::{WrittenValues, sorted};
 use spunlaid_air::{FieldLayout, Flow, RecordLayout};
 use spunlaid_fibre::case::keys::{self, Content, DataFile, Key, Kind, Omission, Value};
-use spunlaid_fibre::{Case, Line, Note, Remark, Spinline};
+use spunlaid_fibre::{Case, Line, Spinline};
 use spunlaid_ground::sort::sort_by_key;
-use spunlaid_ground::{Error, Fault, FileError};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileError};
 use std::path::PathBuf;
 
 /// A case in which every independent key is set. Keys that are counted in whole elements, steps and harmonics are
@@ -17,7 +17,7 @@ pub(super) struct OpenCase {
     pub(super) key_values: WrittenValues,
     /// The case. Numbers that the flow gives are NaN.
     pub(super) case: Case,
-    pub(super) notes: Vec<Note>,
+    pub(super) notes: Vec<Diagnostic>,
 }
 
 /// Sets the written values and the defaults of the other keys.
@@ -50,8 +50,11 @@ pub(super) fn open_part(
         {
             written = Some(match load(files, kind, paths, &key_values) {
                 Ok((content, remarks)) => {
-                    let finding = |what| Note { value: None, ..keys::finding(key.name, 0.0, what) };
-                    notes.extend(remarks.into_iter().map(|what| key_values.placed(finding(what))));
+                    let about_key = |what: Diagnostic| Diagnostic {
+                        value: None,
+                        ..keys::diagnostic(key.name, 0.0, what)
+                    };
+                    notes.extend(remarks.into_iter().map(|what| key_values.placed(about_key(what))));
                     Some(Value::Content(content))
                 }
                 Err(error) => {
@@ -143,13 +146,13 @@ fn load(
     kind: DataFile,
     paths: &[PathBuf],
     key_values: &WrittenValues,
-) -> Result<(Content, Vec<Remark>), FileError> {
+) -> Result<(Content, Vec<Diagnostic>), FileError> {
     let layouts = (record_layout(key_values), field_layout(key_values));
-    let (mut all, mut remarks): (Option<Content>, Vec<Remark>) = (None, Vec::new());
+    let (mut all, mut remarks): (Option<Content>, Vec<Diagnostic>) = (None, Vec::new());
     for path in paths {
         let (content, of_file) = files.read(kind, path, &layouts)?;
         let place =
-            |what: Remark| if paths.len() > 1 { what.of_file(&path.display().to_string()) } else { what };
+            |what: Diagnostic| if paths.len() > 1 { what.of_file(&path.display().to_string()) } else { what };
         remarks.extend(of_file.into_iter().map(place));
         all = Some(all.map_or(content.clone(), |others| others.with(content)));
     }

@@ -6,9 +6,9 @@ use super::data::DataFiles;
 use super::open::OpenCase;
 use super::written_values::WrittenValues;
 use spunlaid_fibre::case::keys;
-use spunlaid_fibre::{Case, End, Note, Remark};
+use spunlaid_fibre::{Case, End};
 use spunlaid_ground::threads::{lock, try_par_map};
-use spunlaid_ground::{Dimension, Error, Fault, Finding, RunContext};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Fault, RunContext};
 use spunlaid_simulation::Recorded;
 use spunlaid_simulation::ensemble::fly;
 use std::sync::Mutex;
@@ -108,7 +108,7 @@ impl Resources {
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
-    pub(super) fn resolve(&self, open: OpenCase) -> Result<(Case, Vec<Note>), Error> {
+    pub(super) fn resolve(&self, open: OpenCase) -> Result<(Case, Vec<Diagnostic>), Error> {
         if !open.waits_for_flights() {
             return open.resolve_at_once();
         }
@@ -119,7 +119,7 @@ impl Resources {
         let (case, mut notes) = open.clone().resolve_at_once()?;
         let text = "is found when the case is simulated; until then, all that follows from it belongs to \
             a tension of 0 N";
-        notes.push(open.note_of_end(Remark::note(text)));
+        notes.push(open.note_of_end(Diagnostic::note(text)));
         let mut wanted = lock(&self.wanted);
         if !wanted.iter().any(|(other, _)| is_it(other)) {
             wanted.push((open, most_steps(&case)));
@@ -171,13 +171,13 @@ impl OpenCase {
     ///
     /// # Errors
     /// Every reason why the case cannot be run.
-    fn resolve_with(mut self, found: Option<FlownTension>) -> Result<(Case, Vec<Note>), Error> {
+    fn resolve_with(mut self, found: Option<FlownTension>) -> Result<(Case, Vec<Diagnostic>), Error> {
         let Some(FlownTension { tension, change }) = found else {
             let what = Fault::new(
                 format!("does not settle within {MOST_ROUNDS} rounds of simulations"),
                 "write the tension that a run of this case with \"0 N\" reports, and try again",
             );
-            let problem = Finding { value: None, ..keys::finding(END_TENSION, 0.0, what) };
+            let problem = Diagnostic { value: None, ..keys::diagnostic(END_TENSION, 0.0, what) };
             return Err(vec![self.key_values.placed(problem)].into());
         };
         self.set_end(End::Tension(tension));
@@ -191,13 +191,13 @@ impl OpenCase {
             Dimension::Velocity.pretty(speed),
             Dimension::Ratio.pretty_to(change, 2)
         );
-        notes.push(open.note_of_end(Remark::choice(text)));
+        notes.push(open.note_of_end(Diagnostic::choice(text)));
         Ok((case, notes))
     }
 
-    fn note_of_end(&self, what: Remark) -> Note {
-        let note = self.key_values.placed(keys::finding(END_TENSION, 0.0, what));
-        Note { value: None, ..note }
+    fn note_of_end(&self, what: Diagnostic) -> Diagnostic {
+        let note = self.key_values.placed(keys::diagnostic(END_TENSION, 0.0, what));
+        Diagnostic { value: None, ..note }
     }
 
     fn set_end(&mut self, end: End) {

@@ -8,11 +8,9 @@ use super::written_values::{WrittenValues, sorted};
 use super::{FORMAT_VERSION, Overrides, Source, open_values, values_of_case, write};
 use spunlaid_air::{Flow, Hint};
 use spunlaid_fibre::case::keys::{self, Key};
-use spunlaid_fibre::{
-    AirTable, Case, End, Failure, Melt, Note, Remark, Solution, SpinSpec, Spinline, Surroundings,
-};
+use spunlaid_fibre::{AirTable, Case, End, Failure, Melt, Solution, SpinSpec, Spinline, Surroundings};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Error, Fault, FileKind, Problem, Vec3};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Fault, FileKind, Vec3};
 
 /// The tables that describe a spinline.
 pub(super) const TABLES: [&str; 3] = ["spinline", "spinline.material", "drag"];
@@ -25,7 +23,7 @@ pub struct SpinFile {
     /// The line and the drag laws.
     pub spec: SpinSpec,
     /// Notes and warnings.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Diagnostic>,
     key_values: WrittenValues,
 }
 
@@ -161,17 +159,17 @@ fn spec_of(case: &Case) -> SpinSpec {
 /// A failure at the place of the key to blame, after the unusual values that may be why.
 fn rejected(key_values: &WrittenValues, case: &Case, failure: Failure) -> Error {
     let slips = case.unusual_in(&TABLES).into_iter().filter(|slip| slip.key != failure.key);
-    let mut problems: Vec<Problem> = slips.map(|slip| key_values.placed(Remark::problem(slip))).collect();
+    let mut problems: Vec<Diagnostic> = slips.map(|slip| key_values.placed(slip.into_error())).collect();
     problems.push(placed(key_values, failure));
     problems.into()
 }
 
 /// A failure at the place of the key to blame.
-fn placed(key_values: &WrittenValues, failure: Failure) -> Problem {
+fn placed(key_values: &WrittenValues, failure: Failure) -> Diagnostic {
     let Failure { key, value, fault } = failure;
     match value {
-        Some(value) => key_values.placed(keys::finding(key, value, fault)),
-        None => Problem { key: key.to_owned(), ..key_values.placed(keys::finding(key, f64::NAN, fault)) },
+        Some(value) => key_values.placed(keys::diagnostic(key, value, fault)),
+        None => key_values.placed(Diagnostic::from(fault).with_key(key, None)),
     }
 }
 
@@ -186,8 +184,7 @@ impl OpenCase {
         let solved = spinline.solve(self.case.drag.along);
         let filament = solved.map_err(|failure| rejected(&self.key_values, &self.case, failure))?;
         if let Some(beyond) = filament.beyond_table(self.case.drag.along) {
-            let finding = keys::finding("drag.along", f64::NAN, Remark::warning(beyond));
-            self.notes.push(self.key_values.placed(finding));
+            self.notes.push(self.key_values.placed(Diagnostic::warning(beyond).with_key("drag.along", None)));
         }
         self.case.take_filament(&filament);
         Ok(())
@@ -237,13 +234,13 @@ impl OpenCase {
         if let Surroundings::Field { temperature, .. } = spinline.air {
             match field_along(case, spinline.length, temperature) {
                 Ok(table) => {
-                    let what = Remark::note(format!(
+                    let what = Diagnostic::note(format!(
                         "takes the velocity of the air along the spinline from the field, and its temperature, {} \
                         everywhere, from spinline.temperature",
                         Dimension::Temperature.pretty(temperature)
                     ));
-                    let finding = keys::finding("spinline.field", f64::NAN, what);
-                    notes.push(key_values.placed(Note { value: None, ..finding }));
+                    let note = key_values.placed(what.with_key("spinline.field", None));
+                    notes.push(Diagnostic { value: None, ..note });
                     if let Some(line) = &mut case.spinline {
                         line.air = Surroundings::Field { temperature, table };
                     }

@@ -3,7 +3,7 @@
 use super::slip::{Unclosed, slip};
 use spunlaid_ground::error::Place;
 use spunlaid_ground::units::excerpt;
-use spunlaid_ground::{Fault, Finding, Position, Problem};
+use spunlaid_ground::{Diagnostic, Fault, Position};
 use std::ops::Range;
 
 /// The name and text of a file.
@@ -42,7 +42,7 @@ impl<'a> TextWithLines<'a> {
 
     /// What is wrong with the text, by the faults that the parser found: one problem for a line, and none
     /// behind a list or a text that has no end.
-    pub(super) fn syntax(&self, faults: &[toml::de::Error]) -> Vec<Problem> {
+    pub(super) fn syntax(&self, faults: &[toml::de::Error]) -> Vec<Diagnostic> {
         let alone = self.text.contains('\r') && !self.text.contains('\n');
         if alone {
             let fault = Fault::new(
@@ -52,7 +52,7 @@ impl<'a> TextWithLines<'a> {
             return vec![self.problem(Position::Line(1), fault)];
         }
         let unclosed = Unclosed::find(self.text);
-        let mut problems: Vec<(u64, Problem)> = Vec::new();
+        let mut problems: Vec<(u64, Diagnostic)> = Vec::new();
         for fault in faults {
             let at = fault.span().map_or(0, |span| span.start);
             let (line, column) = self.position(at);
@@ -76,8 +76,8 @@ impl<'a> TextWithLines<'a> {
         problems.into_iter().map(|(_, problem)| problem).collect()
     }
 
-    fn problem(&self, position: Position, what: Fault) -> Problem {
-        Finding { place: Place::in_file(&self.name, position), key: String::new(), value: None, what }
+    fn problem(&self, position: Position, what: Fault) -> Diagnostic {
+        Diagnostic { place: Place::in_file(&self.name, position), ..what.into() }
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.

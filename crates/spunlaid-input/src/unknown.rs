@@ -5,7 +5,7 @@ use super::entry::{Entry, VERSION};
 use super::text_with_lines::fit;
 use spunlaid_fibre::case::keys::{Key, Kind, Omission, TableList};
 use spunlaid_ground::error::one_of;
-use spunlaid_ground::{Fault, Finding, Removed};
+use spunlaid_ground::{Diagnostic, Fault, Removed};
 use toml::de::DeValue;
 
 impl<T> Document<'_, T> {
@@ -69,7 +69,7 @@ impl<T> Document<'_, T> {
         };
         let what = Fault::unknown(message, nearest, &takes, &self.known(table));
         let value = entry.shown.clone().filter(|_| !is_table);
-        self.key_values.problems.push(Finding { value, ..entry.problem(&key, what) });
+        self.key_values.problems.push(Diagnostic { value, ..entry.problem(&key, what) });
     }
 
     /// A table of the file as it is written.

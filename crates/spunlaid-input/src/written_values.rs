@@ -2,7 +2,7 @@
 
 use spunlaid_fibre::case::keys::{self, Key, Omission, Value};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Fault, Finding, Position, Problem};
+use spunlaid_ground::{Diagnostic, Fault, Position};
 use spunlaid_simulation::layers::full_names::replaced_by;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -35,7 +35,7 @@ pub(super) struct WrittenValues {
     /// The whole file as a place, for values that it does not contain.
     file: Place,
     values: BTreeMap<Cow<'static, str>, WrittenValue>,
-    pub(super) problems: Vec<Problem>,
+    pub(super) problems: Vec<Diagnostic>,
     /// Keys that are missing only because of another problem. Names of tables end in a dot.
     excused: Vec<String>,
     /// What is taken out beside the file.
@@ -154,41 +154,42 @@ impl WrittenValues {
     }
 
     /// A problem with a key.
-    pub(super) fn problem(&self, key: &str, what: Fault) -> Problem {
+    pub(super) fn problem(&self, key: &str, what: Fault) -> Diagnostic {
         let (place, value) = match self.get(key) {
             Some(written_value) => (written_value.place.clone(), written_value.shown.clone()),
             None => (self.file.clone(), None),
         };
-        Finding { place, key: key.to_owned(), value, what }
+        Diagnostic { place, key: key.to_owned(), value, ..what.into() }
     }
 
-    /// Adds the place and the written text of the value to a finding.
-    pub(super) fn placed<W>(&self, mut finding: Finding<W>) -> Finding<W> {
-        match self.get(&finding.key) {
+    /// Adds the place and the written text of the value to a diagnostic.
+    pub(super) fn placed(&self, mut diagnostic: Diagnostic) -> Diagnostic {
+        match self.get(&diagnostic.key) {
             Some(written_value) => {
-                (finding.place, finding.value) = (written_value.place.clone(), written_value.shown.clone())
+                (diagnostic.place, diagnostic.value) =
+                    (written_value.place.clone(), written_value.shown.clone())
             }
             None => {
-                finding.place = self.file.clone();
+                diagnostic.place = self.file.clone();
                 let is_required = |key: &Key| matches!(key.omission, Omission::Required(_));
                 // A case that leaves out what it needs has it from its air or from its spinline.
-                let source = if keys::find(&finding.key).is_some_and(is_required) {
+                let source = if keys::find(&diagnostic.key).is_some_and(is_required) {
                     "it follows from the air or the spinline"
                 } else {
                     "the default"
                 };
-                finding.value = finding.value.map(|value| format!("{value} ({source})"));
+                diagnostic.value = diagnostic.value.map(|value| format!("{value} ({source})"));
             }
         }
-        finding
+        diagnostic
     }
 }
 
-/// Sorts findings by their place: first what is written in the file, then the overrides, then what is missing, which
+/// Sorts diagnostics by their place: first what is written in the file, then the overrides, then what is missing, which
 /// may follow from the others.
-pub(super) fn sorted<W>(mut findings: Vec<Finding<W>>) -> Vec<Finding<W>> {
+pub(super) fn sorted(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let is_missing =
-        |finding: &Finding<W>| matches!(finding.place, Place::File { position: Position::Whole, .. });
-    findings.sort_by(|a, b| is_missing(a).cmp(&is_missing(b)).then_with(|| a.place.cmp(&b.place)));
-    findings
+        |diagnostic: &Diagnostic| matches!(diagnostic.place, Place::File { position: Position::Whole, .. });
+    diagnostics.sort_by(|a, b| is_missing(a).cmp(&is_missing(b)).then_with(|| a.place.cmp(&b.place)));
+    diagnostics
 }

@@ -27,10 +27,10 @@ mod server;
 use board::{Board, Picture};
 use fibre::Document;
 use guard::Guard;
-use message::{Complaint, PageRequest};
+use message::{PageDiagnostic, PageRequest};
 use page::{Page, Tab};
 use server::{Server, SessionSite, Site};
-use spunlaid::ground::{Error, Fault, Problem};
+use spunlaid::ground::{Diagnostic, Error, Fault};
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, mpsc};
@@ -72,9 +72,9 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
     match subject {
         Subject::Fibre => {
             let name = file.as_ref().map_or_else(|| "the case".to_owned(), |file| file.display().to_string());
-            let rejected = |complaints: Vec<Complaint>| {
-                let problem = |why: String| Problem::with_path(Path::new(&name), Fault::plain(why));
-                Error::Rejected(complaint_lines(&complaints).into_iter().map(problem).collect())
+            let rejected = |diagnostics: Vec<PageDiagnostic>| {
+                let problem = |why: String| Diagnostic::with_path(Path::new(&name), Fault::plain(why));
+                Error::Rejected(diagnostic_lines(&diagnostics).into_iter().map(problem).collect())
             };
             let (session, remark) = fibre::begin(Document::new(text, file), folder).map_err(rejected)?;
             let board = session.board();
@@ -92,7 +92,7 @@ pub fn live(start: Start, ready: impl FnOnce(&str, Option<&str>)) -> Result<(), 
                             sessions.begin(Page::Fibre, tab, board, |heard, _| fibre.fly(&heard))?;
                         session.show_filament_to(layer, requests);
                     }
-                    Err(complaints) => session.lacks_filament(layer, &complaint_lines(&complaints)),
+                    Err(diagnostics) => session.lacks_filament(layer, &diagnostic_lines(&diagnostics)),
                 }
             }
             let board = session.board();
@@ -167,7 +167,7 @@ fn not_served(source: io::Error) -> Error {
     Error::System(Box::new(fault.into()))
 }
 
-fn complaint_lines(complaints: &[Complaint]) -> Vec<String> {
+fn diagnostic_lines(diagnostics: &[PageDiagnostic]) -> Vec<String> {
     let line = |line: Option<usize>| line.map_or_else(String::new, |line| format!("line {line}: "));
-    complaints.iter().map(|complaint| format!("{}{}", line(complaint.line), complaint.text)).collect()
+    diagnostics.iter().map(|diagnostic| format!("{}{}", line(diagnostic.line), diagnostic.text)).collect()
 }

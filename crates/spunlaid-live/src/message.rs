@@ -2,8 +2,8 @@
 
 use super::board::{Board, PageId};
 use serde::{Deserialize, Serialize};
-use spunlaid::ground::error::Place;
-use spunlaid::ground::{Error, Problem};
+
+use spunlaid::ground::{Diagnostic, Error};
 use std::collections::BTreeSet;
 use std::iter;
 use std::sync::mpsc::Receiver;
@@ -96,7 +96,7 @@ pub(super) enum Answer {
     /// There is a file of this name already.
     Exists { name: String },
     /// What was asked cannot be done.
-    Refused { about: Subject, problems: Vec<Complaint> },
+    Refused { about: Subject, problems: Vec<PageDiagnostic> },
 }
 
 /// What a refusal is about, so that the page shows it there.
@@ -197,39 +197,37 @@ impl Command {
     }
 }
 
-/// Why something cannot be done.
+/// A diagnostic as a page shows it: why something cannot be done.
 #[derive(Clone, Debug, Serialize, PartialEq)]
-pub(super) struct Complaint {
+pub(super) struct PageDiagnostic {
     /// Line of the case, counted from 1, if it is about one.
     pub(super) line: Option<usize>,
     /// In words.
     pub(super) text: String,
 }
 
-pub(super) fn complaint(text: impl Into<String>) -> Vec<Complaint> {
-    vec![Complaint { line: None, text: text.into() }]
+pub(super) fn diagnostic(text: impl Into<String>) -> Vec<PageDiagnostic> {
+    vec![PageDiagnostic { line: None, text: text.into() }]
 }
 
 /// The problems of an error, each with its line.
-pub(super) fn complaints(error: &Error) -> Vec<Complaint> {
+pub(super) fn diagnostics(error: &Error) -> Vec<PageDiagnostic> {
     let Error::Rejected(problems) = error else {
-        return complaint(error.to_string());
+        return diagnostic(error.to_string());
     };
-    let mistake = |problem: &Problem| {
+    let on_page = |problem: &Diagnostic| {
         let line = problem.place.line().and_then(|line| usize::try_from(line).ok());
-        let mut problem = problem.clone();
-        problem.place = Place::Code;
-        Complaint { line, text: problem.to_string() }
+        PageDiagnostic { line, text: problem.without_place() }
     };
-    problems.iter().take(20).map(mistake).collect()
+    problems.iter().take(20).map(on_page).collect()
 }
 
 impl Answer {
     pub(super) fn refused(text: impl Into<String>) -> Self {
-        Self::rejected(vec![Complaint { line: None, text: text.into() }])
+        Self::rejected(vec![PageDiagnostic { line: None, text: text.into() }])
     }
 
-    pub(super) const fn rejected(problems: Vec<Complaint>) -> Self {
+    pub(super) const fn rejected(problems: Vec<PageDiagnostic>) -> Self {
         Self::Refused { about: Subject::Other, problems }
     }
 

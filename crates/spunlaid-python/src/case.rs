@@ -9,9 +9,9 @@ use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
 use spunlaid::air::PlaceAxes;
+use spunlaid::fibre::case;
 use spunlaid::fibre::case::keys::{self, Key, Value};
-use spunlaid::fibre::{Note, case};
-use spunlaid::ground::{FileKind, Vec3};
+use spunlaid::ground::{Diagnostic, FileKind, Vec3};
 use spunlaid::input::{
     Overrides, Resources, read_case, starter_case, starter_case_of_fed, write_case, write_changed_case,
 };
@@ -33,7 +33,7 @@ const NAME: &str = "Case";
 #[derive(Debug)]
 pub(crate) struct Case {
     pub(crate) case: Arc<case::Case>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<Diagnostic>,
     /// The text of the case file, what messages call it, and what is changed in it.
     text: Arc<str>,
     file: String,
@@ -67,7 +67,7 @@ impl Case {
         &self,
         py: Python<'_>,
         threads: Option<usize>,
-    ) -> PyResult<(Arc<case::Case>, Vec<Note>)> {
+    ) -> PyResult<(Arc<case::Case>, Vec<Diagnostic>)> {
         if !self.case.waits_for_flights() {
             return Ok((Arc::clone(&self.case), self.notes.clone()));
         }
@@ -256,7 +256,7 @@ impl Case {
     /// Notes and warnings about the case.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.notes.iter().map(Note::to_string).collect()
+        self.notes.iter().map(Diagnostic::to_string).collect()
     }
 
     /// The name of the case file.

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use spunlaid::ground::error::Place;
-use spunlaid::ground::{Error, Position, Problem};
+use spunlaid::ground::{Diagnostic, Error, Position};
 use spunlaid::input::StudyFile;
 use std::any::Any;
 
@@ -69,15 +69,15 @@ where
 }
 
 /// Problems as the fields of `spunlaid.Problem`.
-fn listed<'py>(py: Python<'py>, problems: &[Problem]) -> PyResult<Vec<Bound<'py, PyTuple>>> {
-    let fields = |problem: &Problem| {
-        let (Problem { key, value, what, place }, text) = (problem, problem.to_string());
+fn listed<'py>(py: Python<'py>, problems: &[Diagnostic]) -> PyResult<Vec<Bound<'py, PyTuple>>> {
+    let fields = |problem: &Diagnostic| {
+        let (Diagnostic { key, value, cause, place, .. }, text) = (problem, problem.to_string());
         let file = match place {
             Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
             Place::Code | Place::Override(_) => None,
         };
-        let [key, remedy] = [&**key, &*what.remedy].map(|text| Some(text).filter(|text| !text.is_empty()));
-        (key, value, &*what.message, remedy, file, place.line(), place.column(), text).into_pyobject(py)
+        let [key, remedy] = [&**key, &*cause.remedy].map(|text| Some(text).filter(|text| !text.is_empty()));
+        (key, value, &*cause.message, remedy, file, place.line(), place.column(), text).into_pyobject(py)
     };
     problems.iter().map(fields).collect()
 }

@@ -307,11 +307,12 @@ impl Study {
         let mut all = Vec::new();
         for ranking in &found.of_measures {
             let measure = &study.quantities[ranking.measure].column;
+            let explained = ranking.explained.unwrap_or(f64::NAN);
             for effect in &ranking.effects {
                 let (of, by) = (&effect.of, &effect.difference);
                 let (factor, half_width) = (&study.factors[of.factor].key.name, by.known_half_width());
                 let error = half_width.map(|_| by.standard_error);
-                let row = (measure, factor, of.from, of.to, by.value, error, half_width, ranking.explained);
+                let row = (measure, factor, of.from, of.to, by.value, error, half_width, explained);
                 all.push(row.into_pyobject(py)?);
             }
         }

@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
-use spunlaid::fibre::Note;
+use spunlaid::ground::Diagnostic;
 
 /// Frames of Python from a function of Rust to the line of the user: the line calls it, or a function of
 /// `python/spunlaid` does.
@@ -10,7 +10,7 @@ pub(crate) const CALLED: usize = 1;
 const BELOW: usize = 2;
 
 /// Warns of what may make results mislead; of notes it says nothing.
-pub(crate) fn warn_of<'a>(py: Python<'_>, notes: impl IntoIterator<Item = &'a Note>) -> PyResult<()> {
+pub(crate) fn warn_of<'a>(py: Python<'_>, notes: impl IntoIterator<Item = &'a Diagnostic>) -> PyResult<()> {
     warn_of_at(py, BELOW, notes)
 }
 
@@ -18,9 +18,9 @@ pub(crate) fn warn_of<'a>(py: Python<'_>, notes: impl IntoIterator<Item = &'a No
 pub(crate) fn warn_of_at<'a>(
     py: Python<'_>,
     level: usize,
-    notes: impl IntoIterator<Item = &'a Note>,
+    notes: impl IntoIterator<Item = &'a Diagnostic>,
 ) -> PyResult<()> {
-    let warnings = notes.into_iter().filter(|note| note.what.is_warning());
+    let warnings = notes.into_iter().filter(|note| note.is_warning());
     warnings.into_iter().try_for_each(|note| warn_at(py, level, &note.key, &note.to_string()))
 }
 

@@ -1,7 +1,7 @@
 //! Folders that cannot take results, and results that cannot be written.
 
 use parquet::errors::ParquetError;
-use spunlaid::ground::{Error, Fault, Problem};
+use spunlaid::ground::{Diagnostic, Error, Fault};
 use std::io;
 use std::path::Path;
 
@@ -71,7 +71,7 @@ pub(crate) fn other_study(folder: &Path, differences: Vec<String>) -> Failure {
             "name another folder, start again, or undo the differences that follow",
         )
     };
-    let refusal = Problem::with_path(folder, fault.option("--out, --force"));
+    let refusal = Diagnostic::with_path(folder, fault.option("--out, --force"));
     let differences = differences.into_iter().map(|line| Fault::plain(line).into());
     Error::Folder(std::iter::once(refusal).chain(differences).collect())
 }
@@ -97,7 +97,10 @@ pub(crate) fn undrawable(name: &str, reason: &str) -> Failure {
 /// A table that cannot be written. If the operating system refused, its message is used.
 pub(crate) fn table(path: &Path, error: ParquetError) -> Failure {
     let other = |error: &ParquetError| {
-        Error::System(Box::new(Problem::with_path(path, Fault::plain(format!("cannot be written: {error}")))))
+        Error::System(Box::new(Diagnostic::with_path(
+            path,
+            Fault::plain(format!("cannot be written: {error}")),
+        )))
     };
     match error {
         ParquetError::External(cause) => match cause.downcast::<io::Error>() {

@@ -1,8 +1,9 @@
-//! What flies together: fibres in independent turbulence, or all filaments of a line in one air, and what is measured.
+//! What is simulated together: fibres in independent turbulence, or all filaments of a line in shared turbulence, and
+//! what is measured.
 //!
 //! ```text
 //! observe (what is measured) → ensemble (fibres in independent turbulence)
-//!                            layers (the webs of a line) → one_air (their filaments, in one air)
+//!                            layers (the webs of a line) → shared_turbulence (their filaments)
 //! ```
 //!
 //! It is a part of `spunlaid`, which is the crate to depend on: the interface here may change with any version.
@@ -19,7 +20,7 @@ pub mod ensemble;
 
 pub mod layers;
 
-pub mod one_air;
+pub mod shared_turbulence;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use ensemble::{
@@ -33,5 +34,7 @@ pub use layers::{
     WebSpec,
 };
 pub use observe::{DECLARED, FibreMeasure, LAYDOWN, MEASURES, Observation, Observer, SURROGATE};
-pub use one_air::FewOfWeb;
-pub use one_air::{Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight};
+pub use shared_turbulence::FewOfWeb;
+pub use shared_turbulence::{
+    Beam, BeamCharge, BeamFindings, Compared, Flights, FlownWeb, Flyer, PlannedFlight,
+};

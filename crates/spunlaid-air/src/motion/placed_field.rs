@@ -187,9 +187,8 @@ impl PlacedField {
     pub fn main_direction(&self) -> (Axis, f64) {
         let mean = self.field.overview().velocity;
         let along = |axis: Axis| axis.part_of(mean) / mean.norm();
-        let shares = Axis::ALL.map(|axis| (axis, along(axis)));
-        let most = |a: (Axis, f64), b: (Axis, f64)| if b.1 > a.1 { b } else { a };
-        shares.into_iter().reduce(most).unwrap_or((self.axis, f64::NAN))
+        let [first, others @ ..] = Axis::ALL.map(|axis| (axis, along(axis)));
+        others.into_iter().fold(first, |a, b| if b.1 > a.1 { b } else { a })
     }
 
     /// The middle of the side where x enters the field's box [m]. This is the default place of the root.

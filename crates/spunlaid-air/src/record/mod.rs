@@ -53,7 +53,7 @@ mod rows;
 mod text;
 
 use spunlaid_ground::error::counted;
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 use spunlaid_ground::{Dimension, Fault, FileError, FileKind, file};
 use std::io::Read;
 use std::path::Path;
@@ -221,5 +221,5 @@ pub(super) fn hertz(frequency: f64) -> String {
 }
 
 pub(super) fn number(value: f64) -> String {
-    shortest(format!("{value:.2e}").parse().unwrap_or(value))
+    shortest(rounded(value, 2))
 }

@@ -1,7 +1,7 @@
 //! The case that a command reads, with the changes to it.
 
 use clap::{Args, ValueHint};
-use spunlaid::ground::{Error, Fault, Problem};
+use spunlaid::ground::{Diagnostic, Error, Fault};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case, text_of};
 use spunlaid_results::command::{beside_of, quoted};
 use std::cell::OnceCell;
@@ -67,7 +67,7 @@ const STANDARD_INPUT: &str = "standard input";
 /// The text on standard input, which is no longer than that of a file.
 fn standard_input() -> Result<String, Error> {
     let mut bytes = Vec::new();
-    let refused = |fault| Error::File(Box::new(Problem::with_path(Path::new(STANDARD_INPUT), fault)));
+    let refused = |fault| Error::File(Box::new(Diagnostic::with_path(Path::new(STANDARD_INPUT), fault)));
     let advice = "name the file of a case";
     let most = LARGEST_FILE + 1;
     std::io::stdin()

@@ -6,7 +6,7 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::say;
 use spunlaid::air::record::read_record;
-use spunlaid::ground::{Fault, FileError, Problem};
+use spunlaid::ground::{Diagnostic, Fault, FileError};
 use spunlaid::web::scan::{columns_of_map, is_picture_file};
 use spunlaid_results::reports::record::RecordFolder;
 use spunlaid_results::reports::scan::ScanFolder;
@@ -16,7 +16,7 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
     let is_scan = analyse.scan.pixel.is_some() || is_picture_file(&analyse.record);
     let foreign =
         if is_scan { invocation.first_option::<RecordOptions>() } else { invocation.first_option::<Scan>() };
-    let refuse = |fault| FileError::from(Problem::with_path(&analyse.record, fault));
+    let refuse = |fault| FileError::from(Diagnostic::with_path(&analyse.record, fault));
     if let Some(option) = foreign {
         let [kind, other, remedy] = if is_scan {
             ["scan or a map of a web", "velocity records", "leave it out"]

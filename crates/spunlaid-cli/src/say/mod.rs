@@ -6,7 +6,7 @@
 mod wrap;
 
 use anstyle::{AnsiColor, Style};
-use spunlaid::fibre::Note;
+use spunlaid::ground::Diagnostic;
 use spunlaid::input::StudyNote;
 use std::fmt::Display;
 use std::io::{Error, ErrorKind, Write};
@@ -33,13 +33,13 @@ pub(crate) fn error(what: &impl Display) {
 }
 
 /// A note or a warning about a case.
-pub(crate) fn note(note: &Note) {
-    remark(note.what.is_warning(), note);
+pub(crate) fn note(note: &Diagnostic) {
+    remark(note.is_warning(), note);
 }
 
 /// A note or a warning about points of a study.
 pub(crate) fn study_note(note: &StudyNote) {
-    remark(note.note.what.is_warning(), note);
+    remark(note.note.is_warning(), note);
 }
 
 /// A warning.

@@ -23,7 +23,7 @@ use spunlaid_ground::{
     Dimension, Effect, Error, Fault, Log, Outcome, RACING, RunContext, Sensitivity, effects,
 };
 use spunlaid_simulation::layers::kept_under;
-use spunlaid_simulation::one_air::{fits_memory, steps_in_same_air};
+use spunlaid_simulation::shared_turbulence::{fits_memory, steps_in_same_air};
 use spunlaid_simulation::{Compared, FewOfWeb, Flights, Flyer, WebSpec};
 use spunlaid_web::map::{Findings, PatchFindings, expected_cv, nearest_to_seen};
 use spunlaid_web::{ExpectedCv, Web};
@@ -199,8 +199,10 @@ fn few_of_changes(
         let mut base = WebOfFew::new(spec, findings.laid.few().cloned().collect()).cvs(0.0);
         let of_web = of_maps(&findings.patches);
         base.retain(|cv| of_web.iter().any(|of_web| of_web.patch == cv.patch));
-        let numbers: Vec<f64> =
-            base.iter().flat_map(|base| [base.patch, base.cv, base.standard_error]).collect();
+        let numbers: Vec<f64> = base
+            .iter()
+            .flat_map(|base| [base.patch, base.cv, base.standard_error.unwrap_or(f64::NAN)])
+            .collect();
         let alone = tell(&[changed], &numbers, &|told| {
             let effects =
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
@@ -264,7 +266,7 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
 fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     let of_map = |found: &PatchFindings| {
         let (told, error) = (found.reported()?, found.total_error().whole());
-        Some(ExpectedCv::alone(told.patch, told.cv, error.unwrap_or(f64::NAN)))
+        Some(ExpectedCv::alone(told.patch, told.cv, error))
     };
     patches.iter().filter_map(of_map).collect()
 }

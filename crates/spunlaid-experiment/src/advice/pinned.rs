@@ -2,8 +2,8 @@
 
 use super::web_of_few::{OF_OTHER_MESH, WebOfFew};
 use spunlaid_ground::{Effect, Error, RunContext};
-pub use spunlaid_simulation::one_air::LaidStretch;
-use spunlaid_simulation::one_air::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
+pub use spunlaid_simulation::shared_turbulence::LaidStretch;
+use spunlaid_simulation::shared_turbulence::{LookOfLayer, PITCHES, PinnedLayer, SeenOfLayer};
 use spunlaid_simulation::{Compared, Flyer, WebSpec};
 use spunlaid_web::SubsampleEstimate;
 
@@ -26,8 +26,8 @@ pub struct CvSoFar {
     pub patch: f64,
     /// The CV.
     pub cv: f64,
-    /// Its standard error.
-    pub standard_error: f64,
+    /// Its standard error; None where it is not known.
+    pub standard_error: Option<f64>,
 }
 
 /// What the sheet of a coarse flight says so far.

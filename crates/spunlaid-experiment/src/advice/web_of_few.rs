@@ -88,7 +88,7 @@ impl WebOfFew {
                 Some((share * share * of_layer.cv * error / cv).powi(2))
             };
             let variance: Option<f64> = self.layers.iter().map(part).sum();
-            let error = variance.map_or(f64::NAN, f64::sqrt).hypot(of_mesh * cv);
+            let error = variance.map(|variance| variance.sqrt().hypot(of_mesh * cv));
             Some(ExpectedCv::alone(patch, cv, error))
         };
         first.cvs.iter().filter_map(|cv| of_patch(cv.patch)).collect()

@@ -40,7 +40,7 @@ mod weights;
 pub use interval::IntervalEnd;
 pub use parameter::Parameter;
 pub use parameter::USUAL_FACTOR;
-pub use results::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyDoubt};
+pub use results::{Fit, FitTrial, FittedKey, FittedNumber, InseparableKeys, KeyWarning};
 pub(crate) use simulator::MakeWeb;
 pub use target::{MeasuredPatch, MeasuredWeb, Target};
 pub use texture::Texture;

@@ -60,12 +60,12 @@ pub struct FittedKey {
     /// The least misfit for other values of this key: value [SI] and misfit.
     pub profile: Vec<(f64, f64)>,
     /// Why the value is not to be trusted, if so.
-    pub doubt: Option<KeyDoubt>,
+    pub warning: Option<KeyWarning>,
 }
 
 /// Why the value of a key is not to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeyDoubt {
+pub enum KeyWarning {
     /// It changes nothing of what is compared.
     NoEffect,
     /// The interval is as wide as the range: the data do not know it.
@@ -152,22 +152,22 @@ fn keys(
         let (parameter, value) = (parameter.clone(), parameter.value(coordinates[key]));
         let Some(index) = surface.keys.iter().position(|known| *known == key) else {
             let interval = Err("it changes nothing of what is compared".to_owned());
-            let (ends, doubt) = ([IntervalEnd::OfRange; 2], Some(KeyDoubt::NoEffect));
-            return FittedKey { parameter, value, interval, ends, profile, doubt };
+            let (ends, warning) = ([IntervalEnd::OfRange; 2], Some(KeyWarning::NoEffect));
+            return FittedKey { parameter, value, interval, ends, profile, warning };
         };
         let [low, high] = parameter.ends();
         profile.extend(&ends[index].profile);
         sort_by_key(&mut profile, |(value, _)| *value);
         let Ends { coordinates: interval, kinds: ends, .. } = &ends[index];
         let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
-        let doubt = if *ends == [IntervalEnd::OfRange; 2] {
-            Some(KeyDoubt::Unknown)
+        let warning = if *ends == [IntervalEnd::OfRange; 2] {
+            Some(KeyWarning::Unknown)
         } else {
-            (near(low) || near(high)).then_some(KeyDoubt::AtEnd)
+            (near(low) || near(high)).then_some(KeyWarning::AtEnd)
         };
         let interval = interval.map(|end| parameter.value(end));
         let interval = webs.target.doubt().map_or(Ok(interval), |doubt| Err(doubt.to_owned()));
-        FittedKey { parameter, value, interval, ends: *ends, profile, doubt }
+        FittedKey { parameter, value, interval, ends: *ends, profile, warning }
     };
     profiles.into_iter().enumerate().map(key).collect()
 }

@@ -6,7 +6,7 @@ use super::simulator::Simulator;
 use super::target::Target;
 use super::webs::Webs;
 use super::weights::Matrix;
-use super::{Fit, IntervalEnd, KeyDoubt, find};
+use super::{Fit, IntervalEnd, KeyWarning, find};
 use crate::study::Journal;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -146,7 +146,7 @@ fn a_whole_number_is_found_among_few() {
     let [low, high] = key.interval.clone().unwrap();
     assert!(low <= 12.0 && 12.0 <= high && high - low < 12.0, "{key:?}");
     assert!(
-        key.doubt.is_none() && [key.value, low, high].iter().all(|value| value.fract() == 0.0),
+        key.warning.is_none() && [key.value, low, high].iter().all(|value| value.fract() == 0.0),
         "{key:?}"
     );
     assert!(fit.trials.iter().all(|trial| trial.values[1].fract() == 0.0), "{fit:?}");
@@ -159,10 +159,10 @@ fn a_value_within_its_range_is_not_at_its_end() {
     let fit = fitted(&parameters, &[16.0, 300.0], &mut OneKey(drawn())).unwrap();
     let key = &fit.keys[0];
     assert!(key.value < 350.0, "{key:?}");
-    assert_eq!((key.ends[1], key.doubt), (IntervalEnd::OfRange, None), "{key:?}");
+    assert_eq!((key.ends[1], key.warning), (IntervalEnd::OfRange, None), "{key:?}");
     let parameters = [parameter("filaments", 150.0, [50.0, 200.0])];
     let fit = fitted(&parameters, &[16.0, 300.0], &mut OneKey(drawn())).unwrap();
-    assert_eq!(fit.keys[0].doubt, Some(KeyDoubt::AtEnd), "{fit:?}");
+    assert_eq!(fit.keys[0].warning, Some(KeyWarning::AtEnd), "{fit:?}");
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn three_keys_are_found_together() {
         let [low, high] = key.interval.clone().unwrap();
         assert!(low < truth && truth < high, "{key:?}");
     }
-    assert_eq!(fit.keys[2].doubt, None, "{fit:?}");
+    assert_eq!(fit.keys[2].warning, None, "{fit:?}");
 }
 
 /// Both keys, and a share of the CV over the largest patches.
@@ -207,7 +207,7 @@ fn a_narrow_range_is_searched_and_its_ends_are_told() {
     let mut simulator = OneKey(drawn());
     let fit = fitted(&parameters, &[16.0, 350.0], &mut simulator).unwrap();
     assert_eq!(fit.keys[0].ends, [IntervalEnd::OfRange; 2], "{fit:?}");
-    assert_eq!(fit.keys[0].doubt, Some(KeyDoubt::Unknown));
+    assert_eq!(fit.keys[0].warning, Some(KeyWarning::Unknown));
     let parameters = [whole(parameter("filaments", 3.0, [2.8, 3.2]))];
     let error = fitted(&parameters, &[16.0, 3.0], &mut OneKey(drawn())).unwrap_err().to_string();
     assert!(error.contains("filaments has no second value in its range"), "{error}");

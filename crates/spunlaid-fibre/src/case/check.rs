@@ -1,16 +1,14 @@
 //! The conditions that a case must meet before it can be run.
 
 use super::Case;
-use super::keys::{self, FLOWN, finding};
+use super::keys::{self, FLOWN, diagnostic};
 use super::limits::{FLIGHT_MEMORY_LIMIT, MOST_INSTANTS, MOST_STEPS};
-use super::note::Note;
 use super::step::{FEEDING, StepLimit};
 use crate::body::Root;
 use crate::chain::Scheme;
 use crate::line::Contact;
 use spunlaid_air::{FileContent, Flow, Lateral, Measured};
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Fault, Finding, Problem, error};
+use spunlaid_ground::{Diagnostic, Dimension, Fault, error};
 
 impl Case {
     /// Checks everything that must hold for the case to be run.
@@ -19,7 +17,7 @@ impl Case {
     ///
     /// # Errors
     /// Returns every reason why the case cannot be run.
-    pub fn check(&self) -> Result<Vec<Note>, Vec<Problem>> {
+    pub fn check(&self) -> Result<Vec<Diagnostic>, Vec<Diagnostic>> {
         let mut check = Check { case: self, problems: Vec::new() };
         check.values();
         let values_are_sound = check.problems.is_empty();
@@ -53,17 +51,16 @@ const WHOLE_STEPS: f64 = 1e-6;
 
 struct Check<'a> {
     case: &'a Case,
-    problems: Vec<Problem>,
+    problems: Vec<Diagnostic>,
 }
 
 impl Check<'_> {
     fn blame(&mut self, key: &str, value: f64, fault: Fault) {
-        self.problems.push(finding(key, value, fault));
+        self.problems.push(diagnostic(key, value, fault));
     }
 
     fn blame_key(&mut self, key: &str, value: String, fault: Fault) {
-        let place = Place::Code;
-        self.problems.push(Finding { place, key: key.to_owned(), value: Some(value), what: fault });
+        self.problems.push(Diagnostic::from(fault).with_key(key, Some(value)));
     }
 
     /// Checks each value on its own.

@@ -4,7 +4,6 @@ mod check;
 mod files;
 pub mod keys;
 mod limits;
-mod note;
 mod remarks;
 mod step;
 mod usual;
@@ -24,7 +23,6 @@ use step::FEEDING;
 pub use check::too_many_steps;
 pub use limits::{FLIGHT_MEMORY_LIMIT, FlightMemory, MOST_INSTANTS, MOST_REPLICATES, MOST_STEPS};
 pub use limits::{MOST_SHAPES, whole_parts};
-pub use note::{Note, Remark};
 pub use step::{ERROR_TOLERANCE, StepChoice, StepLimit};
 pub use usual::unusual;
 

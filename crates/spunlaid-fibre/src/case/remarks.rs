@@ -1,12 +1,10 @@
 //! What is worth a note or a warning in a case that can be run.
 
 use super::Case;
-use super::keys::finding;
-use super::note::{Note, Remark};
+use super::keys::diagnostic;
 use crate::drag::{NormalLaw, TableLaw};
 use spunlaid_air::{Flow, Hint, PlacedField, SpectrumShape};
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Vec3};
+use spunlaid_ground::{Diagnostic, Dimension, Vec3};
 
 /// Share of the measured drag across a fibre below which a case is warned [-].
 const LOW_DRAG: f64 = 0.5;
@@ -22,10 +20,10 @@ const MOST_OFF_MIDDLE: f64 = 0.125;
 
 impl Case {
     /// Notes and warnings.
-    pub(super) fn notes(&self) -> Vec<Note> {
+    pub(super) fn notes(&self) -> Vec<Diagnostic> {
         let (fibre, l) = (&self.fibre, self.fibre.rest_length());
         let mut notes = Vec::new();
-        let mut note = |key, value, remark| notes.push(finding(key, value, remark));
+        let mut note = |key, value, remark| notes.push(diagnostic(key, value, remark));
         let across = self.drag.across;
         let there_is_air = self.air.density > 0.0;
         if let Some(fitted) = across.fitted_diameters()
@@ -38,7 +36,7 @@ impl Case {
                 "is outside {from} to {to}, the range of diameters that drag.across = \"{law}\" was fitted to; the \
                  drag across the fibre is extrapolated. \"{instead}\" is valid for any diameter"
             );
-            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+            note("fibre.diameter", fibre.diameter, Diagnostic::warning(text));
         }
         if let Some(fitted) = across.fitted_reynolds()
             && !matches!(across, NormalLaw::Table(_))
@@ -52,7 +50,7 @@ impl Case {
                 across.name(),
                 Dimension::Ratio.pretty(*fitted.end())
             );
-            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+            note("fibre.diameter", fibre.diameter, Diagnostic::warning(text));
         }
         let reynolds = self.usual_reynolds_across();
         // Outside of the diameters that it was fitted to, the case is warned of the law anyway.
@@ -69,13 +67,13 @@ impl Case {
                      only {share} times the drag that was measured on fine fibres and cylinders; \"{instead}\" agrees \
                      with these measurements"
                 );
-                note("fibre.diameter", fibre.diameter, Remark::warning(text));
+                note("fibre.diameter", fibre.diameter, Diagnostic::warning(text));
             }
         }
         let element_length = Dimension::Length.pretty(l);
         if fibre.diameter > l {
             let text = format!("is larger than the element length, {element_length}; use longer elements");
-            note("fibre.diameter", fibre.diameter, Remark::warning(text));
+            note("fibre.diameter", fibre.diameter, Diagnostic::warning(text));
         }
         // At the centres of the first and the last element.
         let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
@@ -88,7 +86,7 @@ impl Case {
             };
             let text = "reaches out of the region where the flow is known; outside it, the air at the nearest \
                 known point is used";
-            note(key, length, Remark::warning(text));
+            note(key, length, Diagnostic::warning(text));
         }
         let felt = there_is_air && self.air.rms() > 0.0;
         if felt && self.air.length_scale < l * (1.0 - 1e-9) {
@@ -96,7 +94,7 @@ impl Case {
                 "is shorter than the elements ({element_length}): each element only feels the eddy at its centre. \
                  Shorten fibre.element_length so that every eddy acts on the fibre"
             );
-            note("air.length_scale", self.air.length_scale, Remark::warning(text));
+            note("air.length_scale", self.air.length_scale, Diagnostic::warning(text));
         }
         let (air, from_flow) = (&self.air, self.air.from_flow);
         let times = air.length_scale / fibre.length;
@@ -106,7 +104,7 @@ impl Case {
                     "is {} times fibre.length, so that the same fluctuation acts on the whole fibre; check the unit",
                     Dimension::Ratio.pretty_to(times, 2)
                 );
-                note("air.length_scale", air.length_scale, Remark::warning(text));
+                note("air.length_scale", air.length_scale, Diagnostic::warning(text));
             }
             let passing = air.velocity.abs() / air.length_scale;
             if !from_flow.cutoff_frequency
@@ -118,7 +116,7 @@ impl Case {
                      lie above it and is moved below; choose a cut-off several times higher",
                     Dimension::Frequency.pretty(passing)
                 );
-                note("air.cutoff_frequency", air.cutoff_frequency, Remark::warning(text));
+                note("air.cutoff_frequency", air.cutoff_frequency, Diagnostic::warning(text));
             }
         }
         notes.extend(self.beyond_tables());
@@ -129,7 +127,7 @@ impl Case {
     }
 
     /// Tables of drag laws that end before the Reynolds numbers that are to be expected.
-    fn beyond_tables(&self) -> Vec<Note> {
+    fn beyond_tables(&self) -> Vec<Diagnostic> {
         if self.air.density <= 0.0 {
             return Vec::new();
         }
@@ -141,8 +139,7 @@ impl Case {
         let of_tables = self.drag.tables().into_iter().zip([("drag.along", along), ("drag.across", across)]);
         let note = |(law, (key, expected)): (Option<TableLaw>, (&str, [f64; 2]))| {
             let (name, beyond) = law.and_then(|law| Some((law.name(), law.beyond(expected)?)))?;
-            let what = Remark::warning(beyond);
-            Some(Note { place: Place::Code, key: key.to_owned(), value: Some(format!("\"{name}\"")), what })
+            Some(Diagnostic::warning(beyond).with_key(key, Some(format!("\"{name}\""))))
         };
         of_tables.filter_map(note).collect()
     }
@@ -157,7 +154,7 @@ impl Case {
 
     /// What is said of a web of such filaments, if the mean flow slows on their way and the case does not say
     /// whether it widens.
-    pub fn slows_only(&self) -> Option<Remark> {
+    pub fn slows_only(&self) -> Option<Diagnostic> {
         if !matches!(self.air.flow, Flow::Profile(_)) || self.air.widening.is_some() {
             return None;
         }
@@ -165,7 +162,7 @@ impl Case {
         let (from, to) = (velocity(Vec3::new(0.0, 0.0, 0.0)), velocity(self.along()));
         (to < LEAST_SLOWING * from).then(|| {
             let [from, to] = [from, to].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
-            Remark::warning(format!(
+            Diagnostic::warning(format!(
                 "lays filaments in air that slows from {from} to {to} and does not widen. Air slows in a channel \
                  that widens, and carries the filaments apart along the machine direction, so the web is more \
                  uniform. Write widening = \"md\" in [air] of the case, or \"none\" if it is meant"
@@ -174,7 +171,7 @@ impl Case {
     }
 
     /// The machine direction of a field as the case has it, with what is said of it where nobody has written it.
-    pub fn chosen_machine_direction(&self) -> Option<(&'static str, Remark)> {
+    pub fn chosen_machine_direction(&self) -> Option<(&'static str, Diagnostic)> {
         let Flow::Field(placed) = &self.air.flow else { return None };
         let [_, machine, cross] = placed.axes();
         let plane = placed.field.even_axis() == Some(cross.index);
@@ -185,11 +182,11 @@ impl Case {
             key if the belt runs otherwise"
         };
         let text = format!("is used: the cross direction (CD) is {} of the field, {why}", cross.name());
-        Some((machine.name(), Remark::choice(text)))
+        Some((machine.name(), Diagnostic::choice(text)))
     }
 
     /// What is said of a web of this width [m], if the air of a field changes over it.
-    pub fn changes_across(&self, width: f64) -> Option<Remark> {
+    pub fn changes_across(&self, width: f64) -> Option<Diagnostic> {
         const PLACES: i32 = 8;
         let Flow::Field(placed) = &self.air.flow else { return None };
         let mut hint = Hint::default();
@@ -210,7 +207,7 @@ impl Case {
         let share = (-PLACES..=PLACES).map(change).fold(0.0, f64::max) / speed;
         let cross = placed.axes()[2].name();
         (share > MOST_ACROSS).then(|| {
-            Remark::warning(format!(
+            Diagnostic::warning(format!(
                 "lets the air change by {} % of its mean speed along the cross direction ({cross} of the \
                  field), over the {} of the web around the root. A web is laid as if its air were the \
                  same across. If {cross} is the machine direction, write it here; otherwise choose root \
@@ -224,7 +221,7 @@ impl Case {
     /// What is said of a web whose filaments are fed beside the air of a field, or not in its middle.
     ///
     /// * `from`, `to` – where they are fed along the machine direction, seen from the root [m]
-    pub fn fed_off_the_middle(&self, [from, to]: [f64; 2]) -> Option<Remark> {
+    pub fn fed_off_the_middle(&self, [from, to]: [f64; 2]) -> Option<Diagnostic> {
         const PLACES: i32 = 400;
         let Flow::Field(placed) = &self.air.flow else { return None };
         let mut hint = Hint::default();
@@ -241,7 +238,7 @@ impl Case {
         };
         let remedy = "choose the position in the middle of the slot, at its upper end (air.field_root)";
         if [from, to].into_iter().any(|y| speed(y).is_none()) {
-            return Some(Remark::warning(format!(
+            return Some(Diagnostic::warning(format!(
                 "{fed}, some of them outside of the region where the flow is known, where they meet the air of its \
                  edge; {remedy}, or a smaller line.slot_gap"
             )));
@@ -261,7 +258,7 @@ impl Case {
         let velocity = |speed: f64| Dimension::Velocity.pretty_to(speed, 3);
         if here < IN_SLOT * fastest {
             let at = speeds.iter().find(|(_, v)| *v == fastest).map_or(middle, |(y, _)| *y);
-            return Some(Remark::warning(format!(
+            return Some(Diagnostic::warning(format!(
                 "{fed}, in air of {}, while that at {} has {}; {remedy}",
                 velocity(here),
                 shown(at),
@@ -273,7 +270,7 @@ impl Case {
         let before = speeds.iter().rev().filter(|(y, _)| *y < middle).find(is_slow).map_or(low, |(y, _)| *y);
         let after = speeds.iter().filter(|(y, _)| *y > middle).find(is_slow).map_or(high, |(y, _)| *y);
         (((0.5 * (before + after) - middle) / (after - before)).abs() > MOST_OFF_MIDDLE).then(|| {
-            Remark::warning(format!(
+            Diagnostic::warning(format!(
                 "{fed}, off the middle of the fast air at the inlet, which reaches from {} to {}; {remedy}",
                 shown(before),
                 shown(after)
@@ -282,7 +279,7 @@ impl Case {
     }
 
     /// Whether the root is farther outside of a field's box than rounding.
-    fn root_outside(&self) -> Option<Note> {
+    fn root_outside(&self) -> Option<Diagnostic> {
         let Flow::Field(placed) = &self.air.flow else {
             return None;
         };
@@ -295,30 +292,29 @@ impl Case {
         {
             return None;
         }
-        let what = Remark::warning(format!(
+        let what = Diagnostic::warning(format!(
             "is outside of the box around the field, {} to {}; the air at the nearest point of the field is used \
              there",
             PlacedField::in_words(low * placed.unit),
             PlacedField::in_words(high * placed.unit)
         ));
         let value = Some(PlacedField::in_words(placed.root));
-        Some(Note { place: Place::Code, key: "air.field_root".to_owned(), value, what })
+        Some(what.with_key("air.field_root", value))
     }
 
     /// A field that may be turned or scaled wrongly.
-    fn field_notes(&self) -> Vec<Note> {
+    fn field_notes(&self) -> Vec<Diagnostic> {
         let Flow::Field(placed) = &self.air.flow else {
             return Vec::new();
         };
         let mut notes = Vec::new();
-        let mut note = |key: &str, value: String, what| {
-            notes.push(Note { place: Place::Code, key: key.to_owned(), value: Some(value), what });
-        };
+        let mut note =
+            |key: &str, value: String, what: Diagnostic| notes.push(what.with_key(key, Some(value)));
         let (along, speed) = self.air.along_and_speed(self.along());
         if along < 0.25 * speed {
             let how = if along < 0.0 { "it blows from the end to the root" } else { "it blows across" };
             let [along, speed] = [along, speed].map(|speed| Dimension::Velocity.pretty_to(speed, 3));
-            let what = Remark::warning(format!(
+            let what = Diagnostic::warning(format!(
                 "lets the air flow along the fibre with {along} on average, although its speed is {speed}: {how}; \
                  choose the direction in which the air leaves the spinneret"
             ));
@@ -327,7 +323,7 @@ impl Case {
         let [_, machine, cross] = placed.axes();
         if placed.field.is_even_along(machine.index) && !placed.field.is_even_along(cross.index) {
             let cross = cross.name();
-            let what = Remark::warning(format!(
+            let what = Diagnostic::warning(format!(
                 "makes the air the same along the machine direction, and lets it change along the cross direction \
                  ({cross} of the field), as if the two were swapped: the air of a slot is the same across. Write \
                  \"{cross}\", or leave the key out"
@@ -339,7 +335,7 @@ impl Case {
         let (field, fibre) = (size.x.max(size.y).max(size.z), self.fibre.length);
         if field > 30.0 * fibre || field < fibre / 30.0 {
             let unit = Dimension::Length.pretty(placed.unit);
-            let what = Remark::warning(format!(
+            let what = Diagnostic::warning(format!(
                 "makes the field {} long, while the fibre is {} long; check that this is the unit of the mesh",
                 Dimension::Length.pretty_to(field, 3),
                 Dimension::Length.pretty(fibre)

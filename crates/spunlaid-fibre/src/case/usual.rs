@@ -1,11 +1,9 @@
 //! Values that are most likely slips, of a unit above all.
 
 use super::Case;
-use super::keys::{self, Key, Value, finding};
-use super::note::{Note, Remark};
+use super::keys::{self, Key, Value, diagnostic};
 use spunlaid_air::{Flow, Hint};
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Problem};
+use spunlaid_ground::{Diagnostic, Dimension};
 
 /// Pressure of the atmosphere [Pa], and ratio of the specific heats of air [-]. The speed of sound is √(1.4 p/ρ).
 const ATMOSPHERE: f64 = 101_325.0;
@@ -18,14 +16,14 @@ const SLOW: f64 = 0.3;
 const PLACES: usize = 64;
 
 /// What is said of a value whose magnitude is outside the usual range; nothing of zero.
-pub fn unusual(dimension: Dimension, usual: (f64, f64), value: f64) -> Option<Remark> {
+pub fn unusual(dimension: Dimension, usual: (f64, f64), value: f64) -> Option<Diagnostic> {
     is_unusual(usual, value).then(|| {
         let advice = match &dimension.in_other_units(value, usual.0, usual.1)[..] {
             [] => "check the value and its unit".to_owned(),
             [one] => format!("did you mean {one}?"),
             [more @ .., last] => format!("did you mean {} or {last}?", more.join(", ")),
         };
-        Remark::warning(format!("is outside the usual range, {}; {advice}", range(dimension, usual)))
+        Diagnostic::warning(format!("is outside the usual range, {}; {advice}", range(dimension, usual)))
             .outside_by(excess(usual, value))
     })
 }
@@ -46,7 +44,7 @@ fn range(dimension: Dimension, (least, greatest): (f64, f64)) -> String {
 
 impl Case {
     /// Warnings about values that are most likely slips.
-    pub(super) fn slips(&self) -> Vec<Note> {
+    pub(super) fn slips(&self) -> Vec<Diagnostic> {
         let mut notes = self.fast().into_iter().chain(self.intensity()).collect::<Vec<_>>();
         let fast = !notes.is_empty();
         for key in keys::all() {
@@ -66,7 +64,7 @@ impl Case {
                         "means that the rms of the fluctuation is {shown} times the mean velocity; if {shown} % was \
                          meant, write \"{shown} %\""
                     );
-                    notes.push(finding(key.name, value, Remark::warning(text).outside_by(value)));
+                    notes.push(diagnostic(key.name, value, Diagnostic::warning(text).outside_by(value)));
                 }
                 None => notes.extend(self.unusual(key)),
             }
@@ -77,21 +75,21 @@ impl Case {
     }
 
     /// Adds values that are most likely slips to the problems of a case: they may be why it cannot be run.
-    pub fn blame_slips(&self, problems: &mut Vec<Problem>) {
+    pub fn blame_slips(&self, problems: &mut Vec<Diagnostic>) {
         for note in self.slips() {
             if !problems.iter().any(|problem| problem.key == note.key) {
-                problems.push(Remark::problem(note));
+                problems.push(note.into_error());
             }
         }
     }
 
     /// Notes on unusual values of the keys of some tables.
-    pub fn unusual_in(&self, tables: &[&str]) -> Vec<Note> {
+    pub fn unusual_in(&self, tables: &[&str]) -> Vec<Diagnostic> {
         let keys = keys::all().iter().filter(|key| tables.contains(&key.table()));
         keys.filter_map(|key| self.unusual(key)).collect()
     }
 
-    fn unusual(&self, key: &Key) -> Option<Note> {
+    fn unusual(&self, key: &Key) -> Option<Diagnostic> {
         let Value::Number(value) = key.get(self)? else { return None };
         let (dimension, usual) = (key.dimension()?, key.usual?);
         if key.is_derived(self) {
@@ -101,14 +99,14 @@ impl Case {
                 key.kind.pretty(&Value::Number(value)),
                 range(dimension, usual)
             );
-            let remark = Remark::warning(text).outside_by(excess(usual, value));
+            let remark = Diagnostic::warning(text).outside_by(excess(usual, value));
             return is_unusual(usual, value).then(|| self.note_of_file(remark))?;
         }
-        Some(finding(key.name, value, unusual(dimension, usual, value)?))
+        Some(diagnostic(key.name, value, unusual(dimension, usual, value)?))
     }
 
     /// A note about the file that the air comes from; none if it comes from no file.
-    fn note_of_file(&self, what: Remark) -> Option<Note> {
+    fn note_of_file(&self, what: Diagnostic) -> Option<Diagnostic> {
         let key = match (&self.air.flow, self.air.records.is_empty()) {
             (Flow::Profile(_), _) => "air.profile",
             (Flow::Field(_), _) => "air.field",
@@ -116,7 +114,7 @@ impl Case {
             (Flow::Uniform, true) => return None,
         };
         let value = keys::find(key).and_then(|key| Some(key.kind.pretty(&key.get(self)?)));
-        Some(Note { place: Place::Code, key: key.to_owned(), value, what })
+        Some(what.with_key(key, value))
     }
 
     /// The largest mean velocity of the air along the way of the fibre, if there is air [m/s].
@@ -128,7 +126,7 @@ impl Case {
     }
 
     /// Air that is too fast for air of constant density.
-    fn fast(&self) -> Option<Note> {
+    fn fast(&self) -> Option<Diagnostic> {
         let air = &self.air;
         if air.density == 0.0 {
             return None;
@@ -148,7 +146,7 @@ impl Case {
         let (shown, mach) =
             (Dimension::Velocity.pretty_to(speed, 3), Dimension::Ratio.pretty_to(mach_number, 2));
         let remark = |advice| {
-            Remark::warning(format!(
+            Diagnostic::warning(format!(
                 "makes the air as fast as {shown}, which is Mach {mach}: the model's air has a constant density, as \
                  air has up to about Mach {SLOW}{advice}"
             ))
@@ -156,7 +154,11 @@ impl Case {
         };
         let note = match (&air.flow, air.records.is_empty()) {
             (Flow::Uniform, true) => {
-                return Some(finding("air.velocity", air.velocity, remark(advice(". Did you mean mm/s?"))));
+                return Some(diagnostic(
+                    "air.velocity",
+                    air.velocity,
+                    remark(advice(". Did you mean mm/s?")),
+                ));
             }
             (Flow::Uniform, false) => {
                 remark(advice(". If its velocities are in mm/s, write air.record_velocity_unit = \"mm/s\""))
@@ -173,7 +175,7 @@ impl Case {
     }
 
     /// Turbulence of a file that is stronger than its mean flow.
-    fn intensity(&self) -> Option<Note> {
+    fn intensity(&self) -> Option<Diagnostic> {
         let air = &self.air;
         let of_record = !air.records.is_empty();
         let intensity = air.turbulence_intensity;
@@ -192,11 +194,11 @@ impl Case {
         let text = format!(
             "makes the rms of the fluctuation {shown} times the mean velocity along the fibre; {advice}"
         );
-        self.note_of_file(Remark::warning(text).outside_by(intensity))
+        self.note_of_file(Diagnostic::warning(text).outside_by(intensity))
     }
 
     /// A profile whose distances seem to have another unit.
-    fn profile_size(&self) -> Option<Note> {
+    fn profile_size(&self) -> Option<Diagnostic> {
         let Flow::Profile(table) = &self.air.flow else { return None };
         let ((first, last), fibre) = (table.range(), self.fibre.length);
         let profile = last - first;
@@ -204,14 +206,14 @@ impl Case {
             return None;
         }
         let [profile, fibre] = [profile, fibre].map(|length| Dimension::Length.pretty_to(length, 3));
-        self.note_of_file(Remark::warning(format!(
+        self.note_of_file(Diagnostic::warning(format!(
             "is {profile} long, while the fibre is {fibre} long, so that it feels the first rows only; check the unit \
              of the distances"
         )))
     }
 
     /// Turbulence of a field without a length of its own, and a field without any.
-    fn dissipation(&self) -> Option<Note> {
+    fn dissipation(&self) -> Option<Diagnostic> {
         let Flow::Field(placed) = &self.air.flow else { return None };
         if self.air.density == 0.0 || !self.air.from_flow.length_scale {
             return None;
@@ -220,7 +222,7 @@ impl Case {
         let places = (0..PLACES).map(|i| along * ((i as f64 + 0.5) / PLACES as f64));
         let turbulence = places.map(|at| placed.turbulence(at, &mut hint)).collect::<Vec<_>>();
         if turbulence.iter().all(|(k, _)| *k == 0.0) {
-            return self.note_of_file(Remark::warning(
+            return self.note_of_file(Diagnostic::warning(
                 "has k = 0 everywhere along the fibre, so the air there is not turbulent; check that the file has the \
                  k of the solution",
             ));
@@ -229,7 +231,7 @@ impl Case {
         if places == 0 {
             return None;
         }
-        self.note_of_file(Remark::warning(format!(
+        self.note_of_file(Diagnostic::warning(format!(
             "has k above zero and ε = 0 at {places} of {PLACES} points along the fibre; the eddies there \
              are taken to be as large as the field. Write ε or ω for every point"
         )))

@@ -43,7 +43,7 @@ impl Flight {
         let most_speed = Lanes::from_fn(|lane| {
             self.case(lane).map_or(f64::INFINITY, |case| MOST_SPEED * case.air.velocity.abs())
         });
-        let found = self.isa.run(Doubts { chain: &self.chain, most_speed });
+        let found = self.isa.run(SuspectNodes { chain: &self.chain, most_speed });
         std::array::from_fn(|lane| found.0[lane] > 0.0 || self.chain.tensions.worst[lane].0 > MOST_OFF)
     }
 
@@ -136,13 +136,13 @@ impl Flight {
 
 /// Looks for what [`Flight::sign_of_divergence`] would find, in all lanes at once: 1 where it may find
 /// something, otherwise 0.
-struct Doubts<'a> {
+struct SuspectNodes<'a> {
     chain: &'a Chain,
     /// Of a node, that needs no closer look [m/s].
     most_speed: Lanes,
 }
 
-impl Task for Doubts<'_> {
+impl Task for SuspectNodes<'_> {
     type Output = Lanes;
 
     #[inline(always)]

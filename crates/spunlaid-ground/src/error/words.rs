@@ -101,6 +101,11 @@ pub fn shortest(value: f64) -> String {
     if scientific.len() < plain.len() { scientific } else { plain }
 }
 
+/// The number with so many decimals in its form with an exponent: 2 of them are three significant digits.
+pub fn rounded(value: f64, decimals: usize) -> f64 {
+    format!("{value:.decimals$e}").parse().unwrap_or(value)
+}
+
 /// The most similar word, if any is similar.
 pub fn nearest_word<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     by_similarity(word, known.map(|known| (known, known, 0.0))).first().copied()

@@ -5,7 +5,7 @@ mod spelling;
 mod table;
 
 use crate::error::is_invisible;
-pub use crate::error::{excerpt, shortest};
+pub use crate::error::{excerpt, rounded, shortest};
 pub use expression::{Expression, Powers, unknown_name};
 pub use spelling::{plain_spelling, readings, si_unit_of, udunits, with_decimal_point};
 pub use table::Dimension;
@@ -181,15 +181,14 @@ impl Dimension {
             _ => None,
         });
         let (number, unit) = zero.map_or((value / best.0, best.1), |(zero, unit)| (value - zero, unit));
-        let digits: f64 = format!("{number:.decimals$e}").parse().unwrap_or(number);
-        with_unit(&shortest(digits), unit)
+        with_unit(&shortest(rounded(number, decimals)), unit)
     }
 
     /// The same digits as [`Dimension::pretty`] shows, with the other units that bring the value between two others:
     /// `18 mm` between 1 µm and 1 mm is `18 µm`. The units are those whose size is a power of ten, so none for a ratio.
     pub fn in_other_units(self, value: f64, least: f64, greatest: f64) -> Vec<String> {
         let (size, own) = self.unit_for(value, 3);
-        let digits: f64 = format!("{:.3e}", value / size).parse().unwrap_or(value / size);
+        let digits = rounded(value / size, 3);
         let others = self.units().iter().filter(|unit| unit.shown != own && unit.shown != "%");
         let fits = others.filter(|unit| match unit.scale {
             Ten(power) => (least..=greatest).contains(&(digits.abs() * 10f64.powi(power))),
@@ -203,7 +202,7 @@ impl Dimension {
     pub fn meant_in(self, unit: &str, value: f64, [least, greatest]: [f64; 2]) -> Option<f64> {
         let number = |own: &table::Unit| {
             let number = value / own.scale.size();
-            let short: f64 = format!("{number:.2e}").parse().ok()?;
+            let short = rounded(number, 2);
             ((short / number - 1.0).abs() < 1e-6 && (least..=greatest).contains(&short)).then_some(short)
         };
         self.units().iter().filter(|own| own.shown != unit).find_map(number)

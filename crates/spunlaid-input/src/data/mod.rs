@@ -9,10 +9,9 @@ use spunlaid_air::{
     FieldLayout, FileContent, LONGEST_GAP, Layout, Measured, ReadField, Record, RecordLayout, RecordNumbers,
     Settings,
 };
-use spunlaid_fibre::Remark;
 use spunlaid_fibre::case::keys::{Content, DataFile};
 use spunlaid_ground::threads::lock;
-use spunlaid_ground::{FileError, FileKind, Interval, Vec3, file};
+use spunlaid_ground::{Diagnostic, FileError, FileKind, Interval, Vec3, file};
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
@@ -21,7 +20,7 @@ use std::sync::{Arc, Mutex};
 const LARGEST_TABLE: u64 = 1 << 24;
 
 /// What is read of a file, and what is said of it.
-type Found = Result<(Content, Vec<Remark>), FileError>;
+type Found = Result<(Content, Vec<Diagnostic>), FileError>;
 
 /// What the case says of the files of its records and of its field.
 pub(super) type Layouts = (RecordLayout, FieldLayout);
@@ -68,7 +67,10 @@ fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Fo
         DataFile::Field => {
             let ReadField { field, warnings, checksum, parts } = ReadField::read(path, field)?;
             let content = Content::Field(from_file(path, checksum, field).with_parts(parts).read_as(way));
-            return Ok((content, warnings.iter().map(|fault| Remark::warning(fault.to_string())).collect()));
+            return Ok((
+                content,
+                warnings.iter().map(|fault| Diagnostic::warning(fault.to_string())).collect(),
+            ));
         }
         // All that `spunlaid analyse` says is said of a record.
         DataFile::Records => {
@@ -103,8 +105,8 @@ fn table<T>(
 }
 
 /// The fluctuation of a record with the numbers of the air that it gives, and what is said of it.
-fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
-    let repairs = record.repairs().into_iter().map(|fault| Remark::note(fault.to_string()));
+fn measured(record: Record) -> Result<(Measured, Vec<Diagnostic>), FileError> {
+    let repairs = record.repairs().into_iter().map(|fault| Diagnostic::note(fault.to_string()));
     let analysis = analyse_fluctuation(&record, &Settings::default())?;
     let with_mean = analysis.has_mean();
     let known_value = |interval: &Interval| with_mean.then_some(interval.value);
@@ -116,7 +118,7 @@ fn measured(record: Record) -> Result<(Measured, Vec<Remark>), FileError> {
     };
     let components: Vec<&[f64]> = record.components.iter().map(|c| c.values.as_slice()).collect();
     let measured = Measured::new(record.interval, &components, analysis.integral_time.value, says);
-    let warnings = analysis.warnings.iter().map(|fault| Remark::warning(fault.to_string()));
+    let warnings = analysis.warnings.iter().map(|fault| Diagnostic::warning(fault.to_string()));
     Ok((measured, repairs.chain(warnings).collect()))
 }
 

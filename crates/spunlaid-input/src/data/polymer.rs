@@ -5,7 +5,7 @@ use crate::write::toml_value;
 use spunlaid_fibre::case::keys::{self, Key};
 use spunlaid_fibre::{Case, Material, Polymer, PolymerFile, PolymerSource, Spinline};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Fault, FileError, Finding, Position};
+use spunlaid_ground::{Diagnostic, Fault, FileError, Position};
 
 /// The table of the constants.
 const TABLE: &str = "spinline.material";
@@ -14,7 +14,7 @@ const TABLE: &str = "spinline.material";
 pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
     let problem = |key: &str, what: Fault| {
         let place = Place::in_file(name, Position::Whole);
-        Box::new(Finding { place, key: key.to_owned(), value: None, what })
+        Box::new(Diagnostic { place, key: key.to_owned(), ..what.into() })
     };
     let key_values = document::read(&keys::CASE, text, name, &[]).map_err(|error| {
         let first = error.problems().first().cloned();
@@ -31,7 +31,7 @@ pub(super) fn read(text: &str, name: &str) -> Result<PolymerFile, FileError> {
                 "does not belong in the file of a polymer",
                 format!("it takes the table [{TABLE}] only"),
             );
-            return Err(Box::new(Finding { place: written_value.place.clone(), ..*problem(key, what) }));
+            return Err(Box::new(Diagnostic { place: written_value.place.clone(), ..*problem(key, what) }));
         };
         constant.apply(&mut case, value).map_err(|what| problem(key, what))?;
     }

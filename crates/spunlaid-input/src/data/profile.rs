@@ -3,12 +3,12 @@
 use spunlaid_air::{Profile, SpectrumTable};
 use spunlaid_fibre::case::keys::Kind;
 use spunlaid_fibre::case::keys::Sign::{self, Any, NotNegative, Positive};
-use spunlaid_fibre::{AirTable, DragTable, Remark, ZERO_CELSIUS};
+use spunlaid_fibre::{AirTable, DragTable, ZERO_CELSIUS};
 use spunlaid_ground::Dimension::{Frequency, Length, Ratio, Temperature, Velocity};
 use spunlaid_ground::error::listed;
 use spunlaid_ground::table::scale;
 use spunlaid_ground::units::excerpt;
-use spunlaid_ground::{Dimension, Fault, FileError, FileKind, Head, Problem, Table, Vec3};
+use spunlaid_ground::{Diagnostic, Dimension, Fault, FileError, FileKind, Head, Table, Vec3};
 
 /// Fewest rows of a table.
 const LEAST_ROWS: usize = 2;
@@ -130,12 +130,12 @@ pub(super) fn drag_law(text: &[u8]) -> Result<DragTable, FileError> {
 }
 
 /// What is said of the interpolation between the rows of a drag law.
-pub(super) fn interpolation(law: &DragTable) -> Remark {
+pub(super) fn interpolation(law: &DragTable) -> Diagnostic {
     /// Change without every second row from which on more rows are asked for [-].
     const LARGE: f64 = 0.05;
     let rows = law.rows().len();
     let Some(change) = law.change_without_every_second_row() else {
-        return Remark::note("has two rows, between which the drag is a power of the Reynolds number");
+        return Diagnostic::note("has two rows, between which the drag is a power of the Reynolds number");
     };
     let [error, shown] = [change / 3.0, change].map(|share| Ratio.pretty_to(100.0 * share, 2));
     let text = format!(
@@ -143,9 +143,9 @@ pub(super) fn interpolation(law: &DragTable) -> Remark {
          change by up to {shown} %"
     );
     if change > LARGE {
-        Remark::warning(format!("{text}; add rows, or smooth them"))
+        Diagnostic::warning(format!("{text}; add rows, or smooth them"))
     } else {
-        Remark::note(text)
+        Diagnostic::note(text)
     }
 }
 
@@ -356,8 +356,8 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
     // Options that tell the units of a record are none of these tables.
     let factor = head.factor(rule.dimension, rule.example).map_err(|error| {
-        let what = Fault { option: "".into(), ..error.what.clone() };
-        FileError::new(Problem { what, ..*error })
+        let cause = Fault { option: "".into(), ..error.cause.clone() };
+        FileError::new(Diagnostic { cause, ..*error })
     })?;
     Ok(Some((index, ColumnUnit { factor, ..ColumnUnit::PLAIN })))
 }

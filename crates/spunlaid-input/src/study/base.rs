@@ -8,9 +8,9 @@ use super::plan::Plan;
 use super::{Base, ExperimentWithNotes, advice, written_at};
 use spunlaid_experiment::{Experiment, Point, Quantity, Study};
 use spunlaid_fibre::case::keys::{self, VariedKey};
-use spunlaid_fibre::{Note, Remark, SpinSpec, Spinline};
+use spunlaid_fibre::{SpinSpec, Spinline};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Error, Fault, FileKind, Problem};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind};
 
 /// The case as it is written, with the files that it names.
 pub(super) struct CaseBase {
@@ -54,15 +54,14 @@ impl Base for CaseBase {
         Ok(VariedKey::new(name, key.kind))
     }
 
-    fn value(&self, key: &VariedKey) -> f64 {
-        let value = keys::find(&key.name).and_then(|found| {
+    fn value(&self, key: &VariedKey) -> Option<f64> {
+        keys::find(&key.name).and_then(|found| {
             if key.words().is_empty() {
                 self.open.number(found)
             } else {
                 key.number(&found.get(&self.open.case)?)
             }
-        });
-        value.unwrap_or(f64::NAN)
+        })
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {
@@ -103,7 +102,7 @@ impl Base for CaseBase {
                 return Err(no_flights(at).into());
             }
             let SpinFile { spec, mut notes, .. } = SpinFile::from_open(opened);
-            notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
+            notes.extend(unneeded.into_iter().map(|note| Diagnostic { place: at.clone(), ..note }));
             return Ok((Experiment::Spinline(Box::new(spec)), notes));
         }
         for (name, value) in [("run.seed", seed), ("run.replicates", plan.replicates.at_most)] {
@@ -111,7 +110,7 @@ impl Base for CaseBase {
         }
         let (opened, unneeded) = self.open(key_values, values, resources);
         let (case, mut notes) = resources.resolve(opened?)?;
-        notes.extend(unneeded.into_iter().map(|note| Note { place: at.clone(), ..note }));
+        notes.extend(unneeded.into_iter().map(|note| Diagnostic { place: at.clone(), ..note }));
         Ok((case.into(), notes))
     }
 
@@ -128,18 +127,18 @@ impl CaseBase {
         key_values: WrittenValues,
         set: &[(VariedKey, f64)],
         resources: &Resources,
-    ) -> (Result<OpenCase, Error>, Vec<Note>) {
+    ) -> (Result<OpenCase, Error>, Vec<Diagnostic>) {
         let opened = open_as(self.kind, key_values.clone(), resources);
-        let is_unneeded = |problem: &&Problem| {
-            problem.what.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
+        let is_unneeded = |problem: &&Diagnostic| {
+            problem.cause.needs.is_some() && set.iter().all(|(key, _)| key.name != problem.key)
         };
-        let unneeded: Vec<Note> = match &opened {
+        let unneeded: Vec<Diagnostic> = match &opened {
             Err(Error::Rejected(problems)) if set.iter().any(|(key, _)| !key.words().is_empty()) => {
-                let note = |problem: &Problem| {
-                    let needed = problem.what.needs?;
-                    let what = Remark::note(format!("is left out, because it needs {needed}"));
-                    let Problem { place, key, value, .. } = problem.clone();
-                    Some(Note { place, key, value, what })
+                let note = |problem: &Diagnostic| {
+                    let needed = problem.cause.needs?;
+                    let what = Diagnostic::note(format!("is left out, because it needs {needed}"));
+                    let Diagnostic { place, key, value, .. } = problem.clone();
+                    Some(Diagnostic { place, key, value, ..what })
                 };
                 problems.iter().filter(is_unneeded).filter_map(note).collect()
             }
@@ -155,11 +154,11 @@ impl CaseBase {
 }
 
 /// A study of a spinline alone flies no fibre whose tension it could take.
-fn no_flights(at: &Place) -> Vec<Problem> {
+fn no_flights(at: &Place) -> Vec<Diagnostic> {
     let what = Fault::new(
         "needs simulated fibres, and a study of a spinline simulates none",
         "write a tension, or let the study vary the case: case = \"…\" instead of spinline = \"…\"",
     );
     let (key, value) = ("spinline.end_tension".to_owned(), Some("\"simulated\"".to_owned()));
-    vec![Problem { place: at.clone(), key, value, what }]
+    vec![Diagnostic { place: at.clone(), key, value, ..what.into() }]
 }

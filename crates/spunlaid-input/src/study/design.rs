@@ -9,7 +9,7 @@ use spunlaid_experiment::{
 };
 use spunlaid_fibre::case::keys::{Kind, Relative, Value, VariedKey};
 use spunlaid_ground::error::nearest_word;
-use spunlaid_ground::{Fault, Finding};
+use spunlaid_ground::{Diagnostic, Fault};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
@@ -45,7 +45,7 @@ impl<'a> Reader<'a> {
             Ok(key) if others.contains(&&*key.name) => {
                 let (place, value) = (entry.place.clone(), None);
                 let what = Fault::duplicate(name);
-                self.key_values.problems.push(Finding { place, key: String::new(), value, what });
+                self.key_values.problems.push(Diagnostic { place, value, ..what.into() });
                 None
             }
             key => key.map_err(|advice| self.reject(name, entry, not_varied(advice))).ok(),
@@ -143,11 +143,11 @@ const LARGEST_WHOLE: u64 = 1 << 50;
 impl<'a> Reader<'a> {
     /// The values of a factor; `None` if they cannot be read, after noting the problems.
     ///
-    /// * `before` – the value before it varies; NaN for none
+    /// * `before` – the value before it varies; None if it has none
     pub(super) fn levels(
         &mut self,
         varied: &VariedKey,
-        before: f64,
+        before: Option<f64>,
         named: Named<'a, Study>,
         design: Design,
     ) -> Option<Levels> {
@@ -180,7 +180,13 @@ impl<'a> Reader<'a> {
     }
 
     /// A value of a key that varies as a number, which may be given by its change.
-    fn level(&mut self, varied: &VariedKey, before: f64, name: &str, entry: &Entry<'_>) -> Option<f64> {
+    fn level(
+        &mut self,
+        varied: &VariedKey,
+        before: Option<f64>,
+        name: &str,
+        entry: &Entry<'_>,
+    ) -> Option<f64> {
         let words = varied.words();
         let is_it = |text: &str| {
             let path = self.beside(&entry.place, text);
@@ -203,12 +209,12 @@ impl<'a> Reader<'a> {
     fn value_or_change(
         &self,
         varied: &VariedKey,
-        before: f64,
+        before: Option<f64>,
         entry: &Entry<'_>,
         text: Option<&str>,
     ) -> Result<Value, Fault> {
         match Relative::read(&varied.kind, text.unwrap_or_default())? {
-            Some(change) => change.of(Some(before), &varied.kind, "write the values themselves".to_owned()),
+            Some(change) => change.of(before, &varied.kind, "write the values themselves".to_owned()),
             None => self.as_kind(&varied.kind, entry),
         }
     }
@@ -216,7 +222,7 @@ impl<'a> Reader<'a> {
     fn range(
         &mut self,
         varied: &VariedKey,
-        before: f64,
+        before: Option<f64>,
         whole: &Entry<'a>,
         table: DeTable<'a>,
         design: Design,
@@ -236,7 +242,7 @@ impl<'a> Reader<'a> {
             for ((key, which), _) in missing.filter(|(_, end)| end.is_none()) {
                 let what = Fault::missing("", &format!("{key} = with the {which} value"));
                 let (place, key) = (whole.place.clone(), name(key));
-                self.key_values.problems.push(Finding { place, key, value: None, what });
+                self.key_values.problems.push(Diagnostic { place, key, ..what.into() });
             }
             return None;
         };

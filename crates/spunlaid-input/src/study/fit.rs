@@ -7,7 +7,7 @@ use super::web::WebBase;
 use spunlaid_experiment::{Parameter, USUAL_FACTOR};
 use spunlaid_fibre::case::keys::{Kind, Relative, Sign, VariedKey};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Error, Fault, FileKind, Finding, Problem};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind};
 
 /// The web of a fit, with the keys that are sought in it.
 pub struct FitFile {
@@ -40,15 +40,15 @@ pub fn read_fit<'a>(
     let base = source.into().open(FileKind::Web, set, |text, name, resources| {
         WebBase::new(text, name.to_owned(), &[set], resources)
     })?;
-    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Problem>::new());
+    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Diagnostic>::new());
     for item in vary {
         let (key, range) =
             item.split_once('=').map_or((item.trim(), None), |(key, range)| (key.trim(), Some(range.trim())));
-        let problem = |value: Option<&str>, what: Fault| Finding {
+        let problem = |value: Option<&str>, what: Fault| Diagnostic {
             place: Place::Override(word.to_owned()),
             key: key.to_owned(),
             value: value.map(ToOwned::to_owned),
-            what,
+            ..what.into()
         };
         let found = base.varied(key).map_err(|remedy| Fault::new("cannot be sought", remedy));
         let found = found.and_then(|found| {
@@ -117,33 +117,34 @@ fn parameter(base: &WebBase, key: VariedKey, range: Option<&str>) -> Result<Para
             }
             [from, to]
         }
-        None if value > 0.0 => [
-            value / USUAL_FACTOR,
-            if is_share { (value * USUAL_FACTOR).min(1.0) } else { value * USUAL_FACTOR },
-        ],
-        None => {
-            let reason = if value.is_nan() {
-                "has no value in the file from which the search could start"
-            } else {
-                "is not above zero, so it needs a range"
-            };
-            return Err(Fault::new(reason, format!("write {}=FROM..TO", key.name)));
-        }
+        None => match value {
+            Some(value) if value > 0.0 => [
+                value / USUAL_FACTOR,
+                if is_share { (value * USUAL_FACTOR).min(1.0) } else { value * USUAL_FACTOR },
+            ],
+            _ => {
+                let reason = match value {
+                    None => "has no value in the file from which the search could start",
+                    Some(_) => "is not above zero, so it needs a range",
+                };
+                return Err(Fault::new(reason, format!("write {}=FROM..TO", key.name)));
+            }
+        },
     };
-    if value < range[0] || value > range[1] {
+    if let Some(value) = value.filter(|value| *value < range[0] || *value > range[1]) {
         return Err(Fault::new(
             format!("has {} in the file, which lies outside its range", key.pretty(value)),
             format!("write a range that holds it, or another start with --set {}=VALUE", key.name),
         ));
     }
     let middle = if range[0] > 0.0 { (range[0] * range[1]).sqrt() } else { 0.5 * (range[0] + range[1]) };
-    let start = if value.is_nan() { middle } else { value };
+    let start = value.unwrap_or(middle);
     Ok(Parameter { key, start, range })
 }
 
-/// An end of a range: a value, or a change of the value in the file [SI], which is NaN if there is none.
-fn end_of_range(key: &VariedKey, value: f64, text: &str) -> Result<f64, Fault> {
+/// An end of a range: a value, or a change of the value in the file [SI], if there is one.
+fn end_of_range(key: &VariedKey, value: Option<f64>, text: &str) -> Result<f64, Fault> {
     let Some(change) = Relative::read(&key.kind, text)? else { return key.dimension().parse(text) };
-    let end = change.of(Some(value), &key.kind, format!("write {}=FROM..TO with values", key.name))?;
+    let end = change.of(value, &key.kind, format!("write {}=FROM..TO with values", key.name))?;
     end.number().ok_or_else(|| Fault::new("is not a range", "write numbers"))
 }

@@ -15,10 +15,10 @@ use super::written_at;
 use spunlaid_air::Flow;
 use spunlaid_experiment::plausible::LIMITS;
 use spunlaid_experiment::{Change, setting};
+use spunlaid_fibre::Case;
 use spunlaid_fibre::case::keys::VariedKey;
-use spunlaid_fibre::{Case, Note};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Error, Fault, Finding, Problem, Setting};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Fault, Setting};
 use spunlaid_simulation::layers::full_names::{layer_and_name, web_key};
 use spunlaid_simulation::{WebKey, WebSpec};
 
@@ -100,7 +100,7 @@ pub struct TurnedLine {
     /// The knobs of the file with the values that they have now: those that were turned, and what follows from them.
     pub knobs: Vec<Knob>,
     /// Notes and warnings.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Diagnostic>,
     /// Whether flights have still to find a tension: until then the web is that of a tension of 0 N
     /// (`Resources::resolve_tension`).
     pub needs_flights: bool,
@@ -127,7 +127,7 @@ impl LineFile {
     }
 
     /// Notes and warnings about the file.
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[Diagnostic] {
         &self.base.file.notes
     }
 
@@ -161,7 +161,7 @@ impl LineFile {
         }
         let path = self.base.path();
         let base = WebBase::new(&self.text, path.to_owned(), &[Overrides::new(&set, KNOB)], resources);
-        let is_absurd = self.notes().iter().any(|note| note.what.is_absurd());
+        let is_absurd = self.notes().iter().any(|note| note.is_absurd);
         let in_reason = |base: WebBase| if is_absurd { Ok(base) } else { base.within_reason() };
         let base = base.and_then(in_reason).map_err(of_knobs_first)?;
         let now = WebToChange { base: &base, set: &[], resources };
@@ -186,7 +186,7 @@ impl LineFile {
                 let all: Vec<String> = self.knobs.iter().map(LineKnob::name).collect();
                 let what =
                     Fault::new("is not a setting of this line", format!("change one of {}", all.join(", ")));
-                vec![Finding { place: place.clone(), key: name.clone(), value: None, what }]
+                vec![Diagnostic { place: place.clone(), key: name.clone(), ..what.into() }]
             })?;
             let Some(known @ KnownKey { key, from, .. }) = knob.known.first() else { continue };
             let Shown { size, .. } = self.shown(known);
@@ -278,7 +278,7 @@ impl LineKnob {
 fn of_knobs_first(error: Error) -> Error {
     match error {
         Error::Rejected(problems) => {
-            let is_set = |problem: &Problem| matches!(problem.place, Place::Override(_));
+            let is_set = |problem: &Diagnostic| matches!(problem.place, Place::Override(_));
             let (first, others): (Vec<_>, Vec<_>) = problems.into_iter().partition(is_set);
             [first, others].concat().into()
         }

@@ -213,12 +213,8 @@ impl WebToChange<'_> {
 
     /// The value of a key.
     fn number(&self, name: &str, key: &VariedKey) -> Option<f64> {
-        let number = self.base.value(key);
-        if !number.is_nan() && !name.starts_with("layer.") {
-            return self.base.number_of_cases(name);
-        }
-        if !number.is_nan() {
-            return Some(number);
+        if let Some(number) = self.base.value(key) {
+            return if name.starts_with("layer.") { Some(number) } else { self.base.number_of_cases(name) };
         }
         // Another key may stand in its place.
         let layer = name.strip_prefix("layer.")?.split('.').next()?.parse::<usize>().ok()?;
@@ -312,13 +308,13 @@ impl WebToChange<'_> {
         let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
         let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
         let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
-        layer.is_some_and(|layer| layer.throughput.is_some_and(|held| held == self.base.value(key)))
+        layer.is_some_and(|layer| layer.throughput.is_some() && layer.throughput == self.base.value(key))
     }
 
     /// Values as they are set in the file, without those that stand there.
     pub(super) fn settings_of(&self, values: &[(VariedKey, f64)]) -> impl Iterator<Item = (String, String)> {
         let is_new =
-            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && *value == self.base.value(key));
+            |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && Some(*value) == self.base.value(key));
         values.iter().filter(is_new).map(|value| self.setting(value))
     }
 

@@ -6,7 +6,7 @@ use super::{Base, Reader, not_written};
 use spunlaid_experiment::{Factor, Link};
 use spunlaid_fibre::case::keys::VariedKey;
 use spunlaid_ground::units::unknown_name;
-use spunlaid_ground::{Expression, Fault, Finding, Powers};
+use spunlaid_ground::{Diagnostic, Expression, Fault, Powers};
 
 /// Formulas with a name: the name, the key it is for, the formula.
 const READY_MADE: [(&str, &str, &str); 1] =
@@ -43,7 +43,7 @@ impl Reader<'_> {
             if let Some(name) = unwritten(link, &keys, base) {
                 let (place, key) = (entry.place.clone(), name.to_owned());
                 let what = not_written("use it in a formula");
-                self.key_values.problems.push(Finding { place, key, value: None, what });
+                self.key_values.problems.push(Diagnostic { place, key, ..what.into() });
             }
         }
         if let Err((link, fault)) = order(&links) {
@@ -117,7 +117,7 @@ pub(super) fn order(links: &[Link]) -> Result<Vec<usize>, (usize, Fault)> {
 /// The first key in a link's formula that has no value: neither varied nor linked nor written in the case.
 pub(super) fn unwritten<'a>(link: &'a Link, set: &[&str], base: &dyn Base) -> Option<&'a str> {
     let has_value =
-        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| !base.value(&key).is_nan());
+        |name: &str| set.contains(&name) || base.numeric(name).is_ok_and(|key| base.value(&key).is_some());
     link.expression.names().into_iter().find(|name| !has_value(name))
 }
 

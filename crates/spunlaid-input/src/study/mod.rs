@@ -22,11 +22,10 @@ use super::document::{self, Document};
 use super::written_values::{WrittenValue, sorted};
 use super::{Overrides, Resources, file};
 use plan::Plan;
-use spunlaid_experiment::{Experiment, Quantity, Replicates, STUDY, Study};
+use spunlaid_experiment::{Experiment, Factor, Quantity, Replicates, STUDY, Study};
 use spunlaid_fibre::case::keys::{self, VariedKey};
-use spunlaid_fibre::{Note, Remark};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Error, Fault, FileKind, Finding, Position, Problem, Removed};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind, Position, Removed};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -148,11 +147,11 @@ pub fn parse_study<'a>(
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
         let place = Place::in_file(name, Position::Whole);
         let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
-        let what = Remark::warning(
+        let what = Diagnostic::warning(
             "is too few to trust a standard error, so the study often stops before its results are as exact as \
             asked; write 6 or more",
         );
-        let note = Finding { place, key, value, what };
+        let note = Diagnostic { place, key, value, ..what };
         notes.push(StudyNote { note, points: resolved.len() as u64, all: true });
     }
     let study = plan.study(resolved);
@@ -190,8 +189,8 @@ trait Base {
         if is_number(&key) { Ok(key) } else { Err("a formula needs keys whose value is a number".to_owned()) }
     }
 
-    /// The value of a key before anything varies: a number, or the place of a word. NaN if it has none.
-    fn value(&self, key: &VariedKey) -> f64;
+    /// The value of a key before anything varies: a number, or the index of a word. None if it has none.
+    fn value(&self, key: &VariedKey) -> Option<f64>;
 
     /// The master seed, and the number of replicates, if the study does not say them.
     fn seed_and_replicates(&self) -> (u64, u64);
@@ -221,24 +220,31 @@ trait Base {
     fn written(&self, set: Vec<(String, String)>) -> (String, Vec<(String, String)>);
 }
 
+/// The values of the factors before they vary; NaN where a factor has none.
+fn values_before(base: &dyn Base, factors: &[Factor]) -> Vec<f64> {
+    factors.iter().map(|factor| base.value(&factor.key).unwrap_or(f64::NAN)).collect()
+}
+
 /// Values of keys as if they were written at a place.
 ///
 /// # Errors
 /// Those that their keys do not take.
 fn written_at(values: &[(VariedKey, f64)], at: &Place) -> Result<Vec<(String, WrittenValue)>, Error> {
-    let (mut written, mut problems) = (Vec::new(), Vec::<Problem>::new());
+    let (mut written, mut problems) = (Vec::new(), Vec::<Diagnostic>::new());
     for (key, value) in values {
         let (name, shown) = (key.name.clone(), Some(key.shown(*value)));
         match key.value(*value) {
             Ok(value) => written.push((name, WrittenValue::new(at, shown, value))),
-            Err(what) => problems.push(Finding { place: at.clone(), key: name, value: shown, what }),
+            Err(what) => {
+                problems.push(Diagnostic { place: at.clone(), key: name, value: shown, ..what.into() })
+            }
         }
     }
     if problems.is_empty() { Ok(written) } else { Err(problems.into()) }
 }
 
 /// An experiment, and the remarks on it.
-type ExperimentWithNotes = Result<(Experiment, Vec<Note>), Error>;
+type ExperimentWithNotes = Result<(Experiment, Vec<Diagnostic>), Error>;
 
 /// A study file, and the problems found in it so far.
 type Reader<'a> = Document<'a, Study>;

@@ -5,12 +5,12 @@ use super::super::document::Named;
 use super::super::entry::Entry;
 use super::super::overrides::AUTO;
 use super::super::write::quoted;
-use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice};
+use super::{Base, Reader, StudyChanges, advice, links, not_varied, set_twice, values_before};
 use spunlaid_experiment::{
     Design, Factor, Link, MOST_REPLICATES, Point, Quantity, Replicates, Study, StudyClaim,
 };
 use spunlaid_fibre::case::keys::{self, Kind};
-use spunlaid_ground::{Fault, FileKind, Finding};
+use spunlaid_ground::{Diagnostic, Fault, FileKind};
 use spunlaid_simulation::layers::full_names::replaced_by;
 use toml::de::DeValue;
 
@@ -123,7 +123,7 @@ impl Reader<'_> {
                 let message = format!("= {asked} are asked for");
                 let fault = Fault::new(message, format!("ask for 1 to {MOST_REPLICATES}"));
                 let (place, key) = (self.key_values.whole(), "replicates".to_owned());
-                self.key_values.problems.push(Finding { place, key, value: None, what: fault });
+                self.key_values.problems.push(Diagnostic { place, key, ..fault.into() });
             }
             replicates = Replicates::fixed(asked);
         }
@@ -137,7 +137,7 @@ impl Reader<'_> {
             return None;
         }
         let order = links::order(&links).ok()?;
-        let values: Vec<f64> = factors.iter().map(|factor| base.value(&factor.key)).collect();
+        let values = values_before(base, &factors);
         self.combination(design, &factors, &values);
         if self.problems() == 0 {
             self.size(design.count(&factors, &values), changes.points, replicates.at_most);

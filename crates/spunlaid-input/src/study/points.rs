@@ -2,20 +2,19 @@
 
 use super::super::Resources;
 use super::plan::Plan;
-use super::{Base, links};
+use super::{Base, links, values_before};
 use spunlaid_experiment::Point;
 use spunlaid_experiment::study::seed_of_point;
-use spunlaid_fibre::Note;
 use spunlaid_fibre::case::keys::VariedKey;
-use spunlaid_ground::Error;
 use spunlaid_ground::error::Place;
+use spunlaid_ground::{Diagnostic, Error, Severity};
 use std::fmt;
 
 /// A remark that applies to one or more points of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyNote {
     /// The remark on the first of them.
-    pub note: Note,
+    pub note: Diagnostic,
     /// Number of points.
     pub points: u64,
     /// Whether it applies to all points.
@@ -23,9 +22,9 @@ pub struct StudyNote {
 }
 
 impl StudyNote {
-    /// The remarks that go with results, see [`Remark::notes_of_results`].
+    /// The notes that go with results, see [`Diagnostic::notes_of_results`].
     pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
-        notes.iter().filter(|remark| !remark.note.what.is_choice()).map(Self::to_string).collect()
+        notes.iter().filter(|note| note.note.severity > Severity::Choice).map(Self::to_string).collect()
     }
 }
 
@@ -53,7 +52,7 @@ impl Resolver<'_> {
     /// All points, or the problems of all of them.
     pub(super) fn points(&self) -> Result<(Vec<Point>, Vec<StudyNote>), Error> {
         let Plan { factors, design, seed, .. } = self.plan;
-        let base: Vec<f64> = factors.iter().map(|factor| self.base.value(&factor.key)).collect();
+        let base = values_before(self.base, factors);
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
         let (mut points, mut problems, mut notes) =
@@ -71,11 +70,11 @@ impl Resolver<'_> {
         if problems.is_empty() { Ok((points, notes.finish(count))) } else { Err(problems.into()) }
     }
 
-    fn point(&self, index: u64, mut values: Vec<f64>) -> Result<(Point, Vec<Note>), Error> {
+    fn point(&self, index: u64, mut values: Vec<f64>) -> Result<(Point, Vec<Diagnostic>), Error> {
         let Plan { factors, links, order, seed, common_phases, .. } = self.plan;
         let known = |name: &str| match factors.iter().position(|factor| factor.key.name == name) {
             Some(i) => values.get(i).copied(),
-            None => Some(self.base.value(&self.base.numeric(name).ok()?)),
+            None => self.base.value(&self.base.numeric(name).ok()?),
         };
         let linked = links::values(self.base, links, order, &known);
         values.extend(linked);
@@ -101,8 +100,8 @@ impl Resolver<'_> {
 pub(super) struct Notes(Vec<StudyNote>);
 
 impl Notes {
-    pub(super) fn add(&mut self, note: Note) {
-        let same = |other: &&mut StudyNote| other.note.what.is_like(&note.what) && other.note.key == note.key;
+    pub(super) fn add(&mut self, note: Diagnostic) {
+        let same = |other: &&mut StudyNote| other.note.is_like(&note);
         match self.0.iter_mut().find(same) {
             Some(other) => other.points += 1,
             None => self.0.push(StudyNote { note, points: 1, all: false }),

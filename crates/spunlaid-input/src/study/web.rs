@@ -8,7 +8,7 @@ use super::{Base, ExperimentWithNotes, TAKE_A_NUMBER, written_at};
 use spunlaid_experiment::{Experiment, Point, Quantity, Study};
 use spunlaid_fibre::case::keys::{self, Value, VariedKey};
 use spunlaid_ground::error::{Place, nearest_word};
-use spunlaid_ground::{Error, Problem};
+use spunlaid_ground::{Diagnostic, Error};
 use spunlaid_simulation::layers::full_names::{full_name, replaced_by, value, web_key, without_numbers};
 use spunlaid_simulation::{SAME, WEB_KEYS, WebSpec};
 
@@ -52,7 +52,12 @@ impl WebBase {
         changes.iter_mut().for_each(|(name, _)| *name = self.short_name(name).to_owned());
         let no_layer = |(name, value): &(String, WrittenValue)| {
             let what = self.written.no_layer(name)?;
-            Some(Problem { place: at.clone(), key: name.clone(), value: value.shown.clone(), what })
+            Some(Diagnostic {
+                place: at.clone(),
+                key: name.clone(),
+                value: value.shown.clone(),
+                ..what.into()
+            })
         };
         match changes.iter().find_map(no_layer) {
             Some(problem) => Err(vec![problem].into()),
@@ -136,13 +141,13 @@ impl Base for WebBase {
         }
     }
 
-    fn value(&self, key: &VariedKey) -> f64 {
+    fn value(&self, key: &VariedKey) -> Option<f64> {
         let found = if is_of_case(&key.name, self.spec().flies()) {
             self.case_value(&key.name)
         } else {
             value(self.spec(), &key.name)
         };
-        found.and_then(|value| key.number(&value)).unwrap_or(f64::NAN)
+        found.and_then(|value| key.number(&value)).filter(|value| !value.is_nan())
     }
 
     fn seed_and_replicates(&self) -> (u64, u64) {

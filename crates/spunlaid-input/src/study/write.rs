@@ -163,7 +163,7 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
 
 /// `"air.velocity" = ["8 m/s", "10 m/s", "12.5 m/s"]`.
 fn line(key: &VariedKey, base: &dyn Base) -> Option<String> {
-    let value = Some(base.value(key)).filter(|value| *value > 0.0 && key.words().is_empty())?;
+    let value = base.value(key).filter(|value| *value > 0.0 && key.words().is_empty())?;
     let levels = LEVELS.map(|level| format!("\"{}\"", key.pretty(level * value)));
     Some(format!("\"{}\" = [{}]", key.name, levels.join(", ")))
 }

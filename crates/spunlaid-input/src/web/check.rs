@@ -2,9 +2,8 @@
 
 use super::read::{BELT_SPEED, WebParser};
 use spunlaid_experiment::plausible::implausible;
-use spunlaid_fibre::{BREAKDOWN, Note, Remark, STRONG};
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Fault};
+use spunlaid_fibre::{BREAKDOWN, STRONG};
+use spunlaid_ground::{Diagnostic, Dimension, Fault};
 use spunlaid_simulation::layers::keys::{NUMBERS, WEB};
 use spunlaid_simulation::layers::too_small;
 use spunlaid_simulation::{Flown, LaydownSource, LayerSpec, SAME, WantedError, WebKey, WebSpec};
@@ -134,7 +133,7 @@ impl WebParser<'_> {
         });
         for (what, key) in of_field.into_iter().flatten() {
             let (place, key) = (self.key_values.whole(), key.to_owned());
-            self.note(what.map(|what| Note { place, key, value: None, what }).into_iter().collect());
+            self.note(what.map(|what| Diagnostic { place, key, ..what }).into_iter().collect());
         }
         let fed = sheet.length * layer.feed_speed / layer.belt_speed;
         let density = layer.linear_density();
@@ -158,8 +157,8 @@ impl WebParser<'_> {
         for found in implausible(web) {
             let full = self.prefixes.get(found.layer).map(|prefix| format!("{prefix}{}", found.limit.key));
             let note = match full.filter(|full| self.is_written(full)) {
-                Some(key) => self.key_values.placed(Note { key, ..found.note(true) }),
-                None => Note { place: self.key_values.whole(), ..found.note(false) },
+                Some(key) => self.key_values.placed(Diagnostic { key, ..found.note(true) }),
+                None => Diagnostic { place: self.key_values.whole(), ..found.note(false) },
             };
             self.note(vec![note]);
         }
@@ -271,17 +270,13 @@ impl WebParser<'_> {
             );
             self.key_values.reject(&charge, fault);
         } else if estimate.edge_field > STRONG {
-            let note = Note {
-                place: Place::Code,
-                key: charge,
-                value: layer.charge.map(|charge| Dimension::SpecificCharge.pretty(charge)),
-                what: Remark::note(format!(
-                    "gives a field of about {field} at the edge of the curtain: air breaks down at {}, \
-                    and at edges of metal long before, so the charge is lost",
-                    Dimension::ElectricField.pretty(BREAKDOWN)
-                )),
-            };
-            self.note(vec![note]);
+            let note = Diagnostic::note(format!(
+                "gives a field of about {field} at the edge of the curtain: air breaks down at {}, \
+                and at edges of metal long before, so the charge is lost",
+                Dimension::ElectricField.pretty(BREAKDOWN)
+            ));
+            let value = layer.charge.map(|charge| Dimension::SpecificCharge.pretty(charge));
+            self.note(vec![note.with_key(charge, value)]);
         }
     }
 }

@@ -5,9 +5,9 @@
 use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::read::{CASE, THROUGHPUT, WebParser};
+use spunlaid_fibre::Case;
 use spunlaid_fibre::case::keys::{self, Value};
-use spunlaid_fibre::{Case, Note, Remark};
-use spunlaid_ground::{Dimension, Error, Fault, Problem};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
 use spunlaid_simulation::layers::full_names::layer_and_name;
 use spunlaid_simulation::layers::keys::{EITHER, WEB, WEB_FILE};
 use spunlaid_simulation::{LaydownSource, LayerSpec, WebKey};
@@ -173,11 +173,11 @@ impl WebParser<'_> {
 
     /// Problems with a case, where it stands among several layers by the full names of its keys.
     fn by_full_names(&self, prefix: &str, error: Error) -> Error {
-        let full = |problem: Problem| {
+        let full = |problem: Diagnostic| {
             let full = format!("{prefix}{}", problem.key);
             let is_there = |written_value: &WrittenValue| written_value.place == problem.place;
             let key = if self.key_values.get(&full).is_some_and(is_there) { full } else { problem.key };
-            Problem { key, ..problem }
+            Diagnostic { key, ..problem }
         };
         match error {
             Error::Rejected(problems) => problems.into_iter().map(full).collect::<Vec<_>>().into(),
@@ -201,8 +201,8 @@ impl WebParser<'_> {
             let [used, own] = [used, own].map(|value| dimension.pretty(value));
             let (case, of_case) = (path.display(), key.name);
             let what =
-                Remark::note(format!("is laid with {of_case} = {used} instead of the {own} of {case}"));
-            let note = Note { place: self.key_values.whole(), key: by, value: None, what };
+                Diagnostic::note(format!("is laid with {of_case} = {used} instead of the {own} of {case}"));
+            let note = Diagnostic { place: self.key_values.whole(), key: by, ..what };
             self.note(vec![self.key_values.placed(note)]);
         }
     }
@@ -224,7 +224,7 @@ impl WebParser<'_> {
     pub(super) fn fed_case(
         &mut self,
         key: &str,
-        read: Result<(Case, Vec<Note>), Error>,
+        read: Result<(Case, Vec<Diagnostic>), Error>,
     ) -> Result<Option<Arc<Case>>, Error> {
         let (mut case, notes) = match read {
             Ok(read) => read,
@@ -263,7 +263,7 @@ impl WebParser<'_> {
                 self.note(notes);
                 if let Some(what) = case.slows_only() {
                     let (place, key) = (self.key_values.whole(), of_air.to_owned());
-                    self.note(vec![self.key_values.placed(Note { place, key, value: None, what })]);
+                    self.note(vec![self.key_values.placed(Diagnostic { place, key, ..what })]);
                 }
                 // What is simulated is what is written and told.
                 case.air.lateral = case.air.lateral.in_one_air();

@@ -23,8 +23,7 @@ use super::written_values::{WrittenValue, WrittenValues};
 use super::{Overrides, Resources, Source, document, file};
 use read::CASE;
 use spunlaid_fibre::case::keys::{self, CASE as OF_CASE, Value};
-use spunlaid_fibre::{Note, Remark};
-use spunlaid_ground::{Error, Fault, FileKind, Problem};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind};
 use spunlaid_simulation::WebSpec;
 use spunlaid_simulation::layers::keys::{WEB, WEB_FILE};
 use spunlaid_simulation::layers::web_key;
@@ -37,7 +36,7 @@ pub struct WebFile {
     /// What is to be laid.
     pub spec: WebSpec,
     /// Notes and warnings about the cases that it names.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Diagnostic>,
     /// The file with every default written out.
     pub text: String,
 }
@@ -51,12 +50,12 @@ impl WebFile {
     /// # Errors
     /// If a number is outside of what is usual by a factor of ten or more; it says which unit was probably meant.
     pub fn within_reason(self) -> Result<Self, Error> {
-        if !self.notes.iter().any(|note| note.what.is_absurd()) {
+        if !self.notes.iter().any(|note| note.is_absurd) {
             return Ok(self);
         }
         // One that is less far outside may be why.
-        let unusual = self.notes.into_iter().filter(|note| note.what.is_unusual());
-        Err(unusual.map(Remark::problem).collect::<Vec<Problem>>().into())
+        let unusual = self.notes.into_iter().filter(|note| note.is_unusual);
+        Err(unusual.map(Diagnostic::into_error).collect::<Vec<Diagnostic>>().into())
     }
 }
 
@@ -86,7 +85,7 @@ pub(super) struct WrittenWeb {
 }
 
 /// The path of a case that a layer names, and what is written there.
-type NamedCase = (PathBuf, Result<WrittenValues, Vec<Problem>>);
+type NamedCase = (PathBuf, Result<WrittenValues, Vec<Diagnostic>>);
 
 impl WrittenWeb {
     /// * `set` – what is set from several places, each of which replaces those before it
@@ -184,7 +183,7 @@ pub(super) fn filament(
             "to lay the web, read the file as that of a web",
         );
         let what = fault.option("`spunlaid web`");
-        vec![Problem { place, key: "[laydown]".to_owned(), value: None, what }].into()
+        vec![Diagnostic { place, key: "[laydown]".to_owned(), ..what.into() }].into()
     })
 }
 
@@ -203,7 +202,7 @@ fn values(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<WrittenValues
                 "add [line] and [web], or read it as a case",
             );
             let what = fault.option("`spunlaid run`");
-            Err(vec![Problem { place, key: format!("[{table}]"), value: None, what }].into())
+            Err(vec![Diagnostic { place, key: format!("[{table}]"), ..what.into() }].into())
         }
         None => Ok(values),
     }

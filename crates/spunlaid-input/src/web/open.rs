@@ -7,8 +7,7 @@ use super::filament::Filament;
 use super::read::{CASE, WebParser, as_web};
 use super::{WrittenWeb, flies_none};
 use spunlaid_fibre::case::keys;
-use spunlaid_fibre::{Note, Remark};
-use spunlaid_ground::{Error, Fault};
+use spunlaid_ground::{Diagnostic, Error, Fault};
 use spunlaid_simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
 use spunlaid_simulation::{LaydownSource, LayerSpec, WebSpec};
 use spunlaid_web::map::Filaments;
@@ -56,7 +55,7 @@ impl OpenWeb<'_> {
     ///
     /// # Errors
     /// Every problem with any key.
-    pub(super) fn spec(self) -> Result<(WebSpec, Vec<Note>), Error> {
+    pub(super) fn spec(self) -> Result<(WebSpec, Vec<Diagnostic>), Error> {
         let Self { mut reading, mut web, layers } = self;
         let prefixes = reading.prefixes.clone();
         for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
@@ -90,10 +89,10 @@ impl OpenWeb<'_> {
             key_values.problems.push(key_values.placed(problem));
         }
         // Unusual values may be why the web cannot be laid.
-        let absurd = notes.into_iter().filter(|note| note.what.is_absurd());
+        let absurd = notes.into_iter().filter(|note| note.is_absurd);
         for note in absurd.chain(unusual) {
             if !key_values.problems.iter().any(|problem| problem.key == note.key) {
-                key_values.problems.push(Remark::problem(note));
+                key_values.problems.push(note.into_error());
             }
         }
         Err(sorted(key_values.problems).into())

@@ -3,10 +3,9 @@
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::NamedCase;
-use spunlaid_fibre::Note;
 use spunlaid_fibre::case::keys::Value;
 use spunlaid_fibre::case::unusual;
-use spunlaid_ground::{Fault, Finding};
+use spunlaid_ground::{Diagnostic, Fault};
 use spunlaid_simulation::layers::full_names::{DEFECTS, ROWS, web_key, without_numbers};
 use spunlaid_simulation::layers::keys::{NUMBERS, WEB, in_rows};
 use spunlaid_simulation::{LaydownSource, LayerSpec, WebKey, WebSpec};
@@ -30,7 +29,7 @@ pub(super) struct WebParser<'a> {
     pub(super) named: BTreeMap<String, NamedCase>,
     /// Files and tensions of the cases.
     pub(super) resources: &'a Resources,
-    pub(super) notes: Vec<Note>,
+    pub(super) notes: Vec<Diagnostic>,
     /// What comes before the names of each layer's keys: `layer.2.`, or nothing in a file without `[[layer]]`.
     pub(super) prefixes: Vec<String>,
     /// The full name of the key that gives the basis weight, of one of the layers; empty if there is none.
@@ -46,7 +45,7 @@ pub(super) fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
 
 impl WebParser<'_> {
     /// Warnings about written values that are most likely slips.
-    pub(super) fn unusual(&self) -> Vec<Note> {
+    pub(super) fn unusual(&self) -> Vec<Diagnostic> {
         let entry = |(full, written_value): (&str, &WrittenValue)| {
             let key = web_key(full)?;
             let (dimension, usual) = (key.kind.dimension()?, key.usual?);
@@ -56,18 +55,14 @@ impl WebParser<'_> {
                 _ => return None,
             };
             let what = values.iter().find_map(|value| unusual(dimension, usual, *value))?;
-            Some(Note {
-                place: written_value.place.clone(),
-                key: full.to_owned(),
-                value: written_value.shown.clone(),
-                what,
-            })
+            let place = written_value.place.clone();
+            Some(Diagnostic { place, ..what.with_key(full, written_value.shown.clone()) })
         };
         self.key_values.all().filter_map(entry).collect()
     }
 
     /// Keeps the notes about a case, each once.
-    pub(super) fn note(&mut self, notes: Vec<Note>) {
+    pub(super) fn note(&mut self, notes: Vec<Diagnostic>) {
         for note in notes {
             if !self.notes.contains(&note) {
                 self.notes.push(note);
@@ -77,10 +72,8 @@ impl WebParser<'_> {
 
     /// Records a problem with a value, which may be a default.
     pub(super) fn refuse(&mut self, key: &str, value: String, what: Fault) {
-        let finding =
-            Finding { place: self.key_values.whole(), key: key.to_owned(), value: Some(value), what };
-        let problem = self.key_values.placed(finding);
-        self.key_values.problems.push(problem);
+        let problem = Diagnostic::from(what).with_key(key, Some(value));
+        self.key_values.problems.push(self.key_values.placed(problem));
     }
 
     /// Whether a key is written, with a value that can be read or not.

@@ -6,7 +6,7 @@ use super::measured::Statistics;
 use super::start::adapt_to_clock;
 use super::tension::TensionSearch;
 use crate::board::PageId;
-use crate::message::{Answer, Command, KeyValue, Receives, complaints};
+use crate::message::{Answer, Command, KeyValue, Receives, diagnostics};
 use crate::save;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
 use spunlaid::ground::Dimension;
@@ -48,7 +48,7 @@ impl Receives for Session {
                 self.step();
             }
             Command::Reset {} => {
-                self.fibres.reset().map_err(|error| Answer::rejected(complaints(&error)))?;
+                self.fibres.reset().map_err(|error| Answer::rejected(diagnostics(&error)))?;
                 self.since = 0.0;
                 self.restart_statistics();
             }
@@ -103,7 +103,7 @@ impl Session {
         let refused = Answer::rejected;
         let read = document.read().map_err(refused)?;
         let (since, waits) = (self.now(), read.case.waits_for_flights());
-        let anew = self.fibres.become_of(read.case).map_err(|error| refused(complaints(&error)))?;
+        let anew = self.fibres.become_of(read.case).map_err(|error| refused(diagnostics(&error)))?;
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
         // A search for the tension of the case before is of no use any more.
         self.search = waits.then(|| TensionSearch::begin(&self.document));

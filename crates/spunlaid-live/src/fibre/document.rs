@@ -1,10 +1,9 @@
 //! The case as text: keys are changed in it, comments stay, and it is saved.
 
-use crate::message::{Complaint, complaint, complaints};
+use crate::message::{PageDiagnostic, diagnostic, diagnostics};
 use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys::{self, Key, Kind};
-use spunlaid::ground::error::Place;
-use spunlaid::ground::{Dimension, Error};
+use spunlaid::ground::{Diagnostic, Dimension, Error};
 use spunlaid::input::{CaseWithNotes, LARGEST_FILE, Overrides, Resources, read_case, write_case};
 use spunlaid_results::command::{beside_of, quoted};
 use std::collections::BTreeSet;
@@ -60,9 +59,9 @@ impl Document {
     ///
     /// # Errors
     /// What is wrong with it, by line.
-    pub(super) fn read(&self) -> Result<LoadedCase, Vec<Complaint>> {
+    pub(super) fn read(&self) -> Result<LoadedCase, Vec<PageDiagnostic>> {
         if self.text.len() as u64 > LARGEST_FILE {
-            return Err(complaint("the case is larger than a case file may be"));
+            return Err(diagnostic("the case is larger than a case file may be"));
         }
         if let Ok(document) = self.text.parse::<DocumentMut>()
             && let Some(other) = files_of(document).difference(&self.files).next()
@@ -71,23 +70,20 @@ impl Document {
                 "\"{other}\": a page may not name other files than the case that the program was started with; start \
                  `spunlaid live` with a case that names it"
             );
-            return Err(complaint(text));
+            return Err(diagnostic(text));
         }
-        let (case, notes) = self.case(&Resources::default()).map_err(|error| complaints(&error))?;
+        let (case, notes) = self.case(&Resources::default()).map_err(|error| diagnostics(&error))?;
         let memory = case.flight_memory();
         let memory = memory.chain + memory.turbulence + memory.synthesis;
         if memory > MOST_MEMORY {
-            return Err(complaint(format!(
+            return Err(diagnostic(format!(
                 "eight fibres of this case take {:.0} MB of memory, and a page can use {:.0} MB; give longer \
                  elements, longer eddies or fewer harmonics",
                 memory * 1e-6,
                 MOST_MEMORY * 1e-6
             )));
         }
-        let warnings = notes.into_iter().filter(|note| note.what.is_warning()).map(|mut note| {
-            note.place = Place::Code;
-            note.to_string()
-        });
+        let warnings = notes.iter().filter(|note| note.is_warning()).map(Diagnostic::without_place);
         Ok(LoadedCase { case, warnings: warnings.collect() })
     }
 
@@ -111,15 +107,15 @@ impl Document {
     ///
     /// # Errors
     /// The text is not TOML.
-    pub(super) fn with(&self, key: &Key, to: Option<Value>) -> Result<Self, Vec<Complaint>> {
+    pub(super) fn with(&self, key: &Key, to: Option<Value>) -> Result<Self, Vec<PageDiagnostic>> {
         // Where the text is not TOML, reading it says why, in the words of all commands.
-        let untold = |error: toml_edit::TomlError| complaint(format!("not valid TOML: {}", error.message()));
+        let untold = |error: toml_edit::TomlError| diagnostic(format!("not valid TOML: {}", error.message()));
         let parsed = self.text.parse::<DocumentMut>();
         let mut document = parsed.map_err(|error| self.read().err().unwrap_or_else(|| untold(error)))?;
         let mut table: &mut dyn TableLike = document.as_table_mut();
         for name in key.table().split('.') {
             let inner = table.entry(name).or_insert(toml_edit::table());
-            let not_a_table = || complaint(format!("{} is not a table", key.table()));
+            let not_a_table = || diagnostic(format!("{} is not a table", key.table()));
             table = inner.as_table_like_mut().ok_or_else(not_a_table)?;
         }
         match (to, table.get_mut(key.short()).and_then(Item::as_value_mut)) {

@@ -24,7 +24,7 @@ pub(super) use document::Document;
 pub(super) use start::begin;
 
 use crate::board::{Board, PageId};
-use crate::message::{Complaint, PageRequest, Receives, at_once, complaints};
+use crate::message::{PageDiagnostic, PageRequest, Receives, at_once, diagnostics};
 use clock::Clock;
 use fibres::Fibres;
 use frame::{Frame, RecentMotion};
@@ -78,10 +78,10 @@ impl Session {
     ///
     /// # Errors
     /// The case cannot be read or simulated.
-    fn new(document: Document, remark: Option<String>, folder: PathBuf) -> Result<Self, Vec<Complaint>> {
+    fn new(document: Document, remark: Option<String>, folder: PathBuf) -> Result<Self, Vec<PageDiagnostic>> {
         let read = document.read()?;
         let search = read.case.waits_for_flights().then(|| TensionSearch::begin(&document));
-        let fibres = Fibres::new(read.case).map_err(|error| complaints(&error))?;
+        let fibres = Fibres::new(read.case).map_err(|error| diagnostics(&error))?;
         let recent_motion = RecentMotion::new();
         let board = Arc::new(Board::new(Frame::new(fibres.snapshot(), &recent_motion)));
         let now = Instant::now();

@@ -2,7 +2,7 @@
 
 use super::Session;
 use super::document::Document;
-use crate::message::Complaint;
+use crate::message::PageDiagnostic;
 use spunlaid::fibre::case::keys;
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::ground::Dimension;
@@ -22,13 +22,13 @@ const ERROR_TOLERANCE: f64 = 0.012;
 pub(crate) fn begin(
     document: Document,
     folder: PathBuf,
-) -> Result<(Session, Option<String>), Vec<Complaint>> {
+) -> Result<(Session, Option<String>), Vec<PageDiagnostic>> {
     let (document, remark) = adapt_to_clock(document)?;
     Ok((Session::new(document, remark.clone(), folder)?, remark))
 }
 
 /// The case with the scheme and the step that keep up with the clock, and what is to be said of it.
-pub(super) fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<Complaint>> {
+pub(super) fn adapt_to_clock(document: Document) -> Result<(Document, Option<String>), Vec<PageDiagnostic>> {
     let run = document.read()?.case.run;
     if run.scheme == Scheme::ImplicitTension {
         return Ok((document, None));

@@ -3,7 +3,7 @@
 
 use super::Session;
 use super::document::Document;
-use crate::message::complaints;
+use crate::message::diagnostics;
 use spunlaid::ground::{Error, Isa, RunContext};
 use spunlaid::input::{CaseWithNotes, Resources};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -56,15 +56,15 @@ impl Session {
     pub(super) fn take_tension(&mut self) {
         let Some(ended) = self.search.as_ref().and_then(TensionSearch::ended) else { return };
         self.search = None;
-        let found = ended.map_err(|error| complaints(&error)).map(|(case, _)| {
+        let found = ended.map_err(|error| diagnostics(&error)).map(|(case, _)| {
             let document = self.document.with_tension_of_flights(&case);
             document.map_or(Ok(()), |document| self.become_of(document))
         });
         let why = match found {
             Ok(Ok(())) => None,
             Ok(Err(answer)) => Some(answer.words()),
-            Err(complaints) => {
-                Some(complaints.into_iter().map(|one| one.text).collect::<Vec<_>>().join("; "))
+            Err(diagnostics) => {
+                Some(diagnostics.into_iter().map(|one| one.text).collect::<Vec<_>>().join("; "))
             }
         };
         if why.is_some() {

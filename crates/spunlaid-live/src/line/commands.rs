@@ -6,7 +6,7 @@ use super::known_web::KnownWeb;
 use super::plan::Air;
 use super::show::of_plant;
 use crate::board::PageId;
-use crate::message::{Answer, Command, KeyValue, Receives, complaints};
+use crate::message::{Answer, Command, KeyValue, Receives, diagnostics};
 use crate::save;
 use spunlaid::experiment::plant_numbers;
 use spunlaid::ground::Error;
@@ -111,7 +111,7 @@ impl Session {
 
     /// The present line with another value of a knob, and how its knobs are turned then.
     fn turned(&self, name: &str, value: &KeyValue) -> Result<(Vec<Turn>, TurnedLine), Answer> {
-        let refused = |error: Error| Answer::rejected(complaints(&error));
+        let refused = |error: Error| Answer::rejected(diagnostics(&error));
         let knobs = &self.web(self.before).line.knobs;
         let Some(knob) = knobs.iter().find(|knob| knob.name == name) else {
             let names: Vec<&str> = knobs.iter().map(|knob| knob.name.as_str()).collect();

@@ -5,6 +5,7 @@ use super::plan::Air;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 use spunlaid::ground::Difference;
+use spunlaid::web::map::uniformity::PatchCv;
 
 /// Probability with which a look finds no change where there is none. Some looks in a row then find none in 95 %.
 const SURE: f64 = 0.987;
@@ -17,8 +18,8 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, Serialize, PartialEq)]
 pub(super) struct Cv {
     pub(super) cv: f64,
-    /// Null where it is not known.
-    pub(super) standard_error: f64,
+    /// None where it is not known.
+    pub(super) standard_error: Option<f64>,
     /// Whether it is that of `spunlaid web`.
     pub(super) is_complete: bool,
 }
@@ -41,8 +42,8 @@ impl CvChange {
     /// What becomes of a CV.
     fn of(self, before: Cv) -> Cv {
         let cv = before.cv * (1.0 + self.value);
-        let error = (before.standard_error * (1.0 + self.value)).hypot(before.cv * self.standard_error);
-        Cv { cv, standard_error: error, is_complete: false }
+        let error = |error: f64| (error * (1.0 + self.value)).hypot(before.cv * self.standard_error);
+        Cv { cv, standard_error: before.standard_error.map(error), is_complete: false }
     }
 }
 
@@ -50,7 +51,7 @@ impl CvChange {
 fn by_itself(web: &KnownWeb, side: f64) -> Option<Cv> {
     let is_it = |other: f64| (other / side - 1.0).abs() < SAME;
     if let Some(laid) = &web.laid {
-        let [cv, standard_error] = laid.patches.iter().find(|patch| is_it(patch.side))?.cv?;
+        let PatchCv { cv, standard_error, .. } = laid.patches.iter().find(|patch| is_it(patch.side))?.cv?;
         return Some(Cv { cv, standard_error, is_complete: true });
     }
     let of = web.coarse.as_ref()?.cvs.iter().find(|of| is_it(of.patch))?;

@@ -5,6 +5,7 @@ use super::known_web::{DIGITS, KnownWeb};
 use crate::message::KeyValue;
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::Change;
+use spunlaid::ground::units::rounded;
 use spunlaid::ground::{Effect, Fault};
 use spunlaid::input::Knob;
 
@@ -26,8 +27,7 @@ fn in_si(knob: &Knob, value: f64, unit: &str) -> Result<f64, Fault> {
 fn in_unit(knob: &Knob, value: f64, unit: &str) -> f64 {
     // Degrees Celsius do not begin at zero.
     let [zero, one] = [0.0, 1.0].map(|value| in_si(knob, value, unit).unwrap_or(value));
-    let exact = (value - zero) / (one - zero);
-    format!("{exact:.8e}").parse().unwrap_or(exact)
+    rounded((value - zero) / (one - zero), 8)
 }
 
 /// The value that a page sends for a knob [SI].

@@ -3,6 +3,7 @@
 use super::picture::MapBody;
 use spunlaid::simulation::FlownWeb;
 use spunlaid::web::map::Findings;
+use spunlaid::web::map::uniformity::PatchCv;
 use std::sync::Arc;
 
 /// A web that has been laid.
@@ -22,21 +23,20 @@ pub(crate) struct Laid {
 pub(crate) struct LaidPatch {
     /// Side of the patches [m].
     pub(super) side: f64,
-    /// The CV and its standard error by all causes, or by chance where another one is not known; the error is NaN where
-    /// none is known.
-    pub(super) cv: Option<[f64; 2]>,
+    /// The CV and its standard error by all causes, or the sampling error where another one is not known.
+    pub(super) cv: Option<PatchCv>,
 }
 
 impl Laid {
     pub(super) fn new(web: &FlownWeb, findings: &Findings) -> Self {
         let patch = |patch: &spunlaid::web::map::PatchFindings| LaidPatch {
             side: patch.map.patch,
-            cv: patch.with_total_error().map(|cv| [cv.cv, cv.standard_error.unwrap_or(f64::NAN)]),
+            cv: patch.with_total_error(),
         };
         let sheet = &web.web.sheet;
         Self {
             patches: findings.patches.iter().map(patch).collect(),
-            notes: web.doubts(findings).iter().map(ToString::to_string).collect(),
+            notes: web.warnings(findings).iter().map(ToString::to_string).collect(),
             map: Arc::new(MapBody::new(&findings.laid.map)),
             area: sheet.width * sheet.length,
         }

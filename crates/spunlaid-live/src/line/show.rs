@@ -9,8 +9,7 @@ use super::plan::{Air, Task};
 use crate::board::Topic;
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::PlantNumber;
-use spunlaid::fibre::Note;
-use spunlaid::ground::error::Place;
+use spunlaid::ground::Diagnostic;
 use spunlaid_results::command::{beside_of, quoted};
 
 /// A web that takes so many times as long as the one before has a price.
@@ -69,11 +68,7 @@ impl Session {
 
     /// Warnings about the line, and what must be known of its numbers.
     fn notes(&self, before: &KnownWeb, now: &KnownWeb) -> Vec<String> {
-        let of_line = now.line.notes.iter().filter(|note| note.what.is_warning()).map(|note: &Note| {
-            let mut note = note.clone();
-            note.place = Place::Code;
-            note.to_string()
-        });
+        let of_line = now.line.notes.iter().filter(|note| note.is_warning()).map(Diagnostic::without_place);
         let laid = now.laid.as_ref().or(before.laid.as_ref());
         let found = laid.into_iter().flat_map(|laid| laid.notes.iter().cloned());
         let no_sketch = self.no_sketch.iter().cloned().chain(too_small(before, now));

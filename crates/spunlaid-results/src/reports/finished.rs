@@ -5,7 +5,7 @@ use crate::Failure;
 use serde_json::Value as Json;
 use spunlaid::experiment::{MeasuredPatch, MeasuredWeb};
 use spunlaid::ground::{Error, Fault};
-use spunlaid::web::scan::Doubt;
+use spunlaid::web::scan::ScanWarning;
 use std::fs;
 use std::path::Path;
 
@@ -75,7 +75,7 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
         _ if scan.is_null() => None,
         Json::Null if scan.get("assumed").is_some() => None,
         guess => {
-            let known = Doubt::GUESSES.into_iter().find(|(name, _)| guess.as_str() == Some(name));
+            let known = ScanWarning::GUESSES.into_iter().find(|(name, _)| guess.as_str() == Some(name));
             let known = known
                 .ok_or_else(|| refused("it was analysed by another version; analyse it again".to_owned()));
             Some(known?.1)

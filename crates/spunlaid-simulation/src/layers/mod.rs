@@ -14,8 +14,7 @@ pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid_fibre::Case;
 use spunlaid_fibre::body::linear_density;
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Error, Fault, Finding, Problem};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
 use spunlaid_web::map::{Filaments, inlets};
 use spunlaid_web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
 use std::path::{Path, PathBuf};
@@ -311,10 +310,9 @@ impl WebSpec {
     /// # Errors
     /// If a side that is closed to a ring is shorter than eight standard deviations.
     pub fn check_spreads(&self, spreads: [f64; 2]) -> Result<(), Error> {
-        let problems: Vec<Problem> = too_small(&self.sheet, spreads)
+        let problems: Vec<Diagnostic> = too_small(&self.sheet, spreads)
             .map(|(key, side, what)| {
-                let value = Some(Dimension::Length.pretty(side));
-                Finding { place: Place::Code, key: key.to_owned(), value, what }
+                Diagnostic::from(what).with_key(key, Some(Dimension::Length.pretty(side)))
             })
             .collect();
         if problems.is_empty() { Ok(()) } else { Err(problems.into()) }

@@ -52,8 +52,8 @@ pub(super) fn across(web: &Web) -> SheetPosition {
 
 /// What is expected of patches of one side.
 pub(super) struct PatchExpectation {
-    /// CV and its standard error.
-    pub(super) cv: (f64, f64),
+    /// CV and its standard error; None for a single fibre.
+    pub(super) cv: (f64, Option<f64>),
     /// CV of straight fibres of the same mass.
     pub(super) straight_fibres: f64,
     /// Of each layer, what each of its single fibres says of its part of CV².
@@ -67,8 +67,8 @@ pub struct ExpectedCv {
     pub patch: f64,
     /// The CV.
     pub cv: f64,
-    /// Its standard error over the fibres; NaN for a single one.
-    pub standard_error: f64,
+    /// Its standard error over the fibres; None for a single one.
+    pub standard_error: Option<f64>,
     /// Degrees of freedom of the error.
     degrees: f64,
     /// What each fibre says of CV², those of all layers together; empty if the layers have different numbers of fibres.
@@ -78,8 +78,8 @@ pub struct ExpectedCv {
 impl ExpectedCv {
     /// That of a map, or of a few filaments, which no other one has anything in common with.
     ///
-    /// * `standard_error` – of the CV; not a number where it is not known
-    pub const fn alone(patch: f64, cv: f64, standard_error: f64) -> Self {
+    /// * `standard_error` – of the CV; None where it is not known
+    pub const fn alone(patch: f64, cv: f64, standard_error: Option<f64>) -> Self {
         Self { patch, cv, standard_error, degrees: f64::INFINITY, parts: Vec::new() }
     }
 
@@ -98,7 +98,8 @@ impl ExpectedCv {
             };
             Estimate::new(self.parts.iter().zip(&other.parts).map(part).collect()).standard_error
         } else {
-            Some((self.standard_error / self.cv).hypot(other.standard_error / other.cv))
+            let errors = self.standard_error.zip(other.standard_error);
+            errors.map(|(own, others)| (own / self.cv).hypot(others / other.cv))
         };
         let standard_error = ratio * error.unwrap_or(f64::NAN);
         let degrees = self.degrees.min(other.degrees).max(1.0);
@@ -197,7 +198,7 @@ pub(super) fn expected(
         let of_places = sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
         let mut by = vec![0.0; columns.start];
         by.extend(sums.iter().map(|value| 2.0 * (value - 1.0) / count as f64));
-        let (mut square, mut error, mut straight, mut parts) = (0.0, 0.0, 0.0, Vec::new());
+        let (mut square, mut error, mut straight, mut parts) = (0.0, Some(0.0), 0.0, Vec::new());
         for (number, ((layer, found), (_, weight))) in layers.iter().zip(&found).zip(&weights).enumerate() {
             let share = weight / whole;
             let scale = share * share * layer.linear_density / weight;
@@ -209,14 +210,14 @@ pub(super) fn expected(
             let weight_of_all = layer.basis_weight(sheet) / whole;
             let of_fibre = |(value, move_): (&f64, f64)| scale * value + weight_of_all * move_;
             let of_fibres = Estimate::new(by_chance.values.iter().zip(moves).map(of_fibre).collect());
-            error += of_fibres.standard_error.unwrap_or(f64::NAN).powi(2);
+            error = error.zip(of_fibres.standard_error).map(|(sum, error)| sum + error.powi(2));
             parts.push(of_fibres.values);
             let patch = sides[i] as f64 * sheet.cell;
             straight += (share * straight_fibres(weight / layer.linear_density, patch)).powi(2);
         }
         square += of_places;
         PatchExpectation {
-            cv: (square.sqrt(), error.sqrt() / (2.0 * square.sqrt())),
+            cv: (square.sqrt(), error.map(|error: f64| error.sqrt() / (2.0 * square.sqrt()))),
             straight_fibres: straight.sqrt(),
             parts,
         }

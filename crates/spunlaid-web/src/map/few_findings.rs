@@ -106,8 +106,8 @@ pub struct SubsampleEstimate {
     /// Distance of all filaments in a row [m]; zero where it is not known.
     pub pitch_of_all: f64,
     /// Correlation of the places where filaments at this distance and equal depth come down, in the direction
-    /// in which it is smaller; not a number where it was not looked for.
-    pub correlation: f64,
+    /// in which it is smaller; None where it was not looked for.
+    pub correlation: Option<f64>,
     /// Part of the variance of a filament between them that they do not give, in machine and in cross direction.
     pub missing: [f64; 2],
     /// CV over patches of each size.
@@ -141,8 +141,8 @@ impl SubsampleEstimate {
 
     /// Why they do not give the CV over patches of a side; None if they do.
     pub fn doubt_over(&self, patch: f64) -> Option<SubsampleWarning> {
-        if self.correlation < TOGETHER {
-            return Some(SubsampleWarning::Neighbours(self.correlation));
+        if let Some(correlation) = self.correlation.filter(|correlation| *correlation < TOGETHER) {
+            return Some(SubsampleWarning::Neighbours(correlation));
         }
         let cv = self.cvs.iter().find(|cv| cv.patch == patch)?;
         let is_clear = cv.by_pitch < UNCLEAR * cv.cv;

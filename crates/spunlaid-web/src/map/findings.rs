@@ -2,7 +2,6 @@
 
 use super::basis_weight::Map;
 use super::clouds::{Clouds, autocorrelation};
-use super::doubt::Doubt;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{SubsampleCv, SubsampleEstimate, SubsampleWarning};
 use super::laid_web::{Evidence, LaidWeb, LayerFlown};
@@ -10,6 +9,7 @@ use super::lay::lay;
 use super::one_fibre::{OneFibre, straight_fibres};
 use super::orientation::{Orientation, orientation};
 use super::uniformity::{PatchCv, nearest_to_seen, unevenness_at, variance_of_mean};
+use super::warning::WebWarning;
 use super::waves::Places;
 use super::{Layer, Web};
 use crate::surrogate::Surrogate;
@@ -89,7 +89,7 @@ pub struct PatchFindings {
     pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
     /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
-    pub single_fibres: Option<(f64, f64)>,
+    pub single_fibres: Option<(f64, Option<f64>)>,
     /// Of straight fibres in all directions of the same mass.
     pub straight_fibres: f64,
     /// From what it is known. In independent turbulence, filaments in shared turbulence would give
@@ -351,35 +351,38 @@ const OF_MAP: f64 = 0.05;
 
 impl Findings {
     /// What must be known of these numbers before they are believed.
-    pub fn doubts(&self, web: &Web) -> Vec<Doubt> {
+    pub fn warnings(&self, web: &Web) -> Vec<WebWarning> {
         let laid = &self.laid;
-        let mut doubts = match laid.evidence() {
+        let mut warnings = match laid.evidence() {
             Evidence::Known if self.patches.is_empty() => Vec::new(),
-            Evidence::Known => vec![Doubt::NothingFlown],
+            Evidence::Known => vec![WebWarning::NothingFlown],
             _ => [lost(web, laid), few_filaments(web, self), unsure(laid), charged(laid)].concat(),
         };
         if laid.cut > 0.0 {
             let whole = laid.map.total() as f64 * laid.map.quantum + laid.cut;
-            doubts.push(Doubt::CutOff { share: laid.cut / whole });
+            warnings.push(WebWarning::CutOff { share: laid.cut / whole });
         }
         if self.margins != [0.0; 2] {
-            doubts.push(Doubt::ThinEdges { margins: self.margins });
+            warnings.push(WebWarning::ThinEdges { margins: self.margins });
         }
         let unsure = self.patches.iter().filter_map(PatchFindings::reported);
         let unsure = unsure.filter(|map| map.standard_error.is_none());
-        doubts.extend(of_sides(unsure.map(|map| map.patch), |sides| Doubt::NoError { sides }));
-        doubts
+        warnings.extend(of_sides(unsure.map(|map| map.patch), |sides| WebWarning::NoError { sides }));
+        warnings
     }
 }
 
 /// A doubt about patches of these sides [m]; none if there are none.
-fn of_sides(sides: impl Iterator<Item = f64>, doubt: impl FnOnce(Vec<f64>) -> Doubt) -> Option<Doubt> {
+fn of_sides(
+    sides: impl Iterator<Item = f64>,
+    doubt: impl FnOnce(Vec<f64>) -> WebWarning,
+) -> Option<WebWarning> {
     let sides: Vec<f64> = sides.collect();
     (!sides.is_empty()).then(|| doubt(sides))
 }
 
 /// Filaments of a web in shared turbulence that were lost.
-fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
+fn lost(web: &Web, laid: &LaidWeb) -> Vec<WebWarning> {
     let count = |(layer, simulated): (&Layer, &LayerFlown)| {
         simulated.few.as_ref().map_or_else(|| layer.count(&web.sheet), |few| few.filaments + few.lost)
     };
@@ -388,36 +391,36 @@ fn lost(web: &Web, laid: &LaidWeb) -> Vec<Doubt> {
     let lost = laid.simulated.iter().map(|layer| layer.lost).sum::<u64>()
         + laid.few().map(|few| few.lost_on_other_sheets).sum::<u64>();
     let lost = Some(lost).filter(|lost| *lost > 0);
-    lost.map(|filaments| Doubt::Lost { filaments, of }).into_iter().collect()
+    lost.map(|filaments| WebWarning::Lost { filaments, of }).into_iter().collect()
 }
 
 /// Layers whose CV is not known to the wanted error.
-fn unsure(laid: &LaidWeb) -> Vec<Doubt> {
+fn unsure(laid: &LaidWeb) -> Vec<WebWarning> {
     let of_layer = |few: &SubsampleEstimate| {
         let number = nearest_to_seen(few.cvs.iter().map(|cv| cv.patch))?;
         let (wanted, cv) = (few.wanted?, few.cvs[number]);
         let reached = cv.by_chance?.hypot(cv.by_pitch) / cv.cv;
-        (reached > WITHIN * wanted).then_some(Doubt::Unsure { wanted, reached, area: few.area })
+        (reached > WITHIN * wanted).then_some(WebWarning::Unsure { wanted, reached, area: few.area })
     };
     laid.few().filter_map(of_layer).collect()
 }
 
 /// Whether charged filaments would keep their charge.
-fn charged(laid: &LaidWeb) -> Vec<Doubt> {
+fn charged(laid: &LaidWeb) -> Vec<WebWarning> {
     let field = laid.charged().map(|(_, charged)| charged.edge_field).fold(0.0, f64::max);
-    (field > STRONG).then_some(Doubt::StrongField { field }).into_iter().collect()
+    (field > STRONG).then_some(WebWarning::StrongField { field }).into_iter().collect()
 }
 
 /// Whether the few filaments that were simulated are enough for what is reported of all.
-fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
+fn few_filaments(web: &Web, findings: &Findings) -> Vec<WebWarning> {
     let few = || findings.laid.few();
     let too_few = few().filter_map(|few| {
         let why = few.doubt()?;
         let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
         let (pitch, enough) = (few.pitch, few.enough_per_metre());
-        Some(Doubt::Subsample { sides: sides.collect(), why, pitch, enough })
+        Some(WebWarning::Subsample { sides: sides.collect(), why, pitch, enough })
     });
-    let mut doubts: Vec<Doubt> = too_few.collect();
+    let mut warnings: Vec<WebWarning> = too_few.collect();
     let missing = few().flat_map(|few| few.missing).fold(0.0, f64::max);
     let apart = |patch: &PatchFindings| Some((patch.map.patch, patch.of_map / patch.reported()?.cv - 1.0));
     let apart: Vec<(f64, f64)> = findings.patches.iter().filter_map(apart).collect();
@@ -427,12 +430,16 @@ fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
     match is_whole(web, &findings.laid) {
         // Pieces make clouds of their own.
         false => {
-            doubts.extend((!sides.is_empty()).then_some(Doubt::Pieces { sides, apart }));
+            warnings.extend((!sides.is_empty()).then_some(WebWarning::Pieces { sides, apart }));
             let sides = Vec::new();
-            doubts.extend((missing > MISSING).then_some(Doubt::FilledIn { missing, sides, apart: 0.0 }));
+            warnings.extend((missing > MISSING).then_some(WebWarning::FilledIn {
+                missing,
+                sides,
+                apart: 0.0,
+            }));
         }
         true if missing > MISSING || !sides.is_empty() => {
-            doubts.push(Doubt::FilledIn { missing, sides, apart });
+            warnings.push(WebWarning::FilledIn { missing, sides, apart });
         }
         true => {}
     }
@@ -440,6 +447,6 @@ fn few_filaments(web: &Web, findings: &Findings) -> Vec<Doubt> {
         matches!((patch.evidence, patch.few, patch.doubt), (Evidence::FewInOneAir, None, None))
     };
     let of_map = findings.patches.iter().filter(is_of_map).map(|patch| patch.map.patch);
-    doubts.extend(of_sides(of_map, |sides| Doubt::SmallSheet { sides }));
-    doubts
+    warnings.extend(of_sides(of_map, |sides| WebWarning::SmallSheet { sides }));
+    warnings
 }

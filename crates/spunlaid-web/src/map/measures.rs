@@ -63,7 +63,7 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         .figure(&figure("cv_one_fibre", "CV expected from single fibres", "expected CV"))
         .short("single fibres")
         .shown_if(|patch| patch.evidence == Evidence::Known)
-        .errors(&[share("cv_one_fibre_standard_error", "", |patch| Some(of_known(patch)?.1))
+        .errors(&[share("cv_one_fibre_standard_error", "", |patch| of_known(patch)?.1)
             .meaning("its standard error")
             .role(OfOne)]),
     share("cv_straight_fibres", "CV of straight fibres", |patch| Some(patch.straight_fibres))
@@ -154,6 +154,6 @@ const fn share(
 }
 
 /// What is expected of filaments of known numbers, with its error.
-fn of_known(patch: &PatchFindings) -> Option<(f64, f64)> {
+fn of_known(patch: &PatchFindings) -> Option<(f64, Option<f64>)> {
     patch.single_fibres.filter(|_| patch.evidence == Evidence::Known)
 }

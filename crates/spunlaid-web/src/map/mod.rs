@@ -12,7 +12,7 @@
 //! | which of the filaments were simulated | `few_filaments` | (83d), (83e), "The error of few filaments" |
 //! | the mean over filaments that share eddies | `shared_error` | (72a) |
 //! | the curves of single fibres, of a web of independent filaments | `expected` | scatter between the fibres |
-//! | when neighbours come down together | `simulation::one_air` | "The error of a correlation of neighbours" |
+//! | when neighbours come down together | `simulation::shared_turbulence` | "The error of a correlation of neighbours" |
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
@@ -21,7 +21,6 @@ mod basis_weight;
 mod canvas;
 mod clouds;
 mod defects;
-mod doubt;
 mod expected;
 mod few_filaments;
 mod few_findings;
@@ -36,6 +35,7 @@ mod orientation;
 mod plan;
 mod shared_error;
 pub mod uniformity;
+mod warning;
 mod waves;
 mod window;
 
@@ -45,7 +45,6 @@ pub use canvas::{CanvasPart, DepositionGrid, NO_CORNERS, widen};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
 pub use defects::{Depositor, Titres, holes, inlets};
-pub use doubt::Doubt;
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub use few_filaments::{
     Arrangement, FEWEST as FEWEST_OF_FEW, FilledMaps, Subsample, blocks_on, small_patch,
@@ -67,6 +66,7 @@ pub use one_fibre::{OneFibre, SingleFibres, one_fibre, straight_fibres};
 pub use orientation::{Orientation, orientation};
 use std::sync::Arc;
 pub use uniformity::nearest_to_seen;
+pub use warning::WebWarning;
 pub use waves::{Places, Streaks};
 pub use window::{Window, WindowCurve};
 pub use window::{WindowCurves, WindowOnSheet};

@@ -125,13 +125,13 @@ impl Sample {
         self.filaments.iter().filter_map(|stretches| Self::of_filament(stretches)).collect()
     }
 
-    /// Standard error of the mean over filaments of a sum of the three moments; NaN if it is not known.
-    fn error(&self, factors: [f64; 3]) -> f64 {
+    /// Standard error of the mean over filaments of a sum of the three moments; None if it is not known.
+    fn error(&self, factors: [f64; 3]) -> Option<f64> {
         let sum =
             |moments: [f64; 3]| moments.iter().zip(factors).map(|(of, factor)| of * factor).sum::<f64>();
         let Some(groups) = &self.groups else {
             let values = self.filaments().into_iter().map(sum).collect();
-            return Estimate::new(values).standard_error.unwrap_or(f64::NAN);
+            return Estimate::new(values).standard_error;
         };
         let of_filament = |stretches: &Vec<DirectionSums>| {
             let whole: f64 = stretches.iter().map(|of| of.pieces).sum();
@@ -140,7 +140,7 @@ impl Sample {
             stretches.iter().map(part).collect()
         };
         let parts: Vec<Vec<Part>> = self.filaments.iter().map(of_filament).collect();
-        SharedError::of(&parts, groups).standard_error
+        SharedError::of(&parts, groups).map(|error| error.standard_error)
     }
 }
 
@@ -174,8 +174,8 @@ impl Orientation {
             }
         }
         let error = |factors: [f64; 3]| {
-            let squares = samples.iter().map(|of| (of.weight / whole * of.error(factors)).powi(2));
-            Some(squares.sum::<f64>().sqrt()).filter(|error| error.is_finite())
+            let squares = samples.iter().map(|of| Some((of.weight / whole * of.error(factors)?).powi(2)));
+            squares.sum::<Option<f64>>().map(f64::sqrt).filter(|error| error.is_finite())
         };
         // Each value stands for its layer's share of the mass.
         let count = filaments.iter().map(Vec::len).min().unwrap_or(0);

@@ -18,7 +18,7 @@ pub(super) struct Part {
 /// A standard error with its degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SharedError {
-    /// The standard error; NaN if too little was laid to know it.
+    /// The standard error.
     pub(super) standard_error: f64,
     /// Degrees of freedom; they need not be whole.
     pub(super) degrees: f64,
@@ -58,7 +58,7 @@ impl SharedError {
     ///
     /// * `parts` – of each filament, in order across the web; all have as many stretches
     /// * `groups` – of each filament the number of its group of neighbours, from 0
-    pub(super) fn of(parts: &[Vec<Part>], groups: &[usize]) -> Self {
+    pub(super) fn of(parts: &[Vec<Part>], groups: &[usize]) -> Option<Self> {
         let filaments = parts.len() as f64;
         let stretches = parts.first().map_or(0, Vec::len);
         let count = groups.iter().max().map_or(0, |last| last + 1);
@@ -99,11 +99,11 @@ impl SharedError {
         // It is a difference of large sums, and would be too large on average if it were cut off at zero.
         let by_places = of_places.max(-0.5 * by_chance);
         if degrees < 1.0 || known <= 0.0 || filaments < FOUND {
-            return Self { standard_error: f64::NAN, degrees: f64::NAN };
+            return None;
         }
         let variance = by_chance + by_places;
         let shares = by_chance * by_chance / degrees + by_places * by_places / (filaments - 1.0);
-        Self { standard_error: variance.sqrt(), degrees: variance * variance / shares }
+        Some(Self { standard_error: variance.sqrt(), degrees: variance * variance / shares })
     }
 }
 
@@ -160,7 +160,7 @@ mod tests {
             let parts = parts(seed, of_place, kept);
             let sums =
                 Estimate::new(parts.iter().map(|fibre| fibre.iter().map(|part| part.value).sum()).collect());
-            let SharedError { standard_error, degrees } = SharedError::of(&parts, &groups);
+            let SharedError { standard_error, degrees } = SharedError::of(&parts, &groups).unwrap();
             let alone = student_t_95_at(FILAMENTS as f64 - 1.0) * sums.standard_error.unwrap();
             let halves = [student_t_95_at(degrees) * standard_error, alone];
             for (held, half) in held.iter_mut().zip(halves) {
@@ -190,6 +190,6 @@ mod tests {
     #[test]
     fn too_little_fibre_has_no_error() {
         let one = vec![vec![Part { value: 1.0, length: 1.0 }]; 4];
-        assert!(SharedError::of(&one, &[0; 4]).standard_error.is_nan());
+        assert_eq!(SharedError::of(&one, &[0; 4]), None);
     }
 }

@@ -11,7 +11,7 @@ use super::picture::Picture;
 use super::spots::{ForeignParts, Spots};
 use super::streaks::search;
 use super::weigh::{Correction, Light, WeighedPicture, beside, weigh};
-use super::{Doubt, FEWEST};
+use super::{FEWEST, ScanWarning};
 use crate::map::uniformity::PatchCv;
 use crate::map::{Clouds, autocorrelation};
 use spunlaid_ground::units::shortest;
@@ -99,11 +99,15 @@ fn with_level_beside(light: Light, picture: &Picture, lamp: Option<&Picture>, ba
 }
 
 /// Why the numbers of a picture cannot be believed, whatever the lamp was.
-fn doubt(picture: &Picture, lamp: Option<&Picture>, settings: &Settings) -> Option<(Option<Doubt>, Fault)> {
+fn doubt(
+    picture: &Picture,
+    lamp: Option<&Picture>,
+    settings: &Settings,
+) -> Option<(Option<ScanWarning>, Fault)> {
     match settings.light {
         Light::Weight { mean } => {
             let fault = grey_levels(picture, mean, settings.light_is_assumed)?;
-            Some((settings.light_is_assumed.then_some(Doubt::GreyLevels), fault))
+            Some((settings.light_is_assumed.then_some(ScanWarning::GreyLevels), fault))
         }
         _ => lamp_doubt(picture, lamp?).map(|(doubt, fault)| (Some(doubt), fault)),
     }
@@ -115,7 +119,7 @@ fn patches(
     masked: &[bool],
     sides: &[usize],
     settings: &Settings,
-    guess: Option<Doubt>,
+    guess: Option<ScanWarning>,
 ) -> Result<Vec<PatchFindings>, Fault> {
     let map = &weighed.map;
     let given = settings.noise.map(|noise| noise * weighed.per_noise);
@@ -140,8 +144,8 @@ fn patches(
         let few = FEWEST * side > map.columns.min(map.rows);
         let (cv, [low, high]) = (found.cv(), found.interval());
         let doubt = guess
-            .or(blur.is_some_and(|blur| blur >= SHARP).then_some(Doubt::Blur))
-            .or((few || !high.is_finite()).then_some(Doubt::Few));
+            .or(blur.is_some_and(|blur| blur >= SHARP).then_some(ScanWarning::Blur))
+            .or((few || !high.is_finite()).then_some(ScanWarning::Few));
         // Noise that is not taken out is at most in the CV, and what a pixel of blur takes away is missing.
         let low = if given.is_some() { low } else { (low * low - noise * noise).max(0.0).sqrt() };
         let interval = doubt.map_or(Ok([low, high * (1.0 + blur.unwrap_or(0.0).max(0.0))]), Err);

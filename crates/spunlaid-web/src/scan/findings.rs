@@ -1,6 +1,6 @@
 //! Everything that is found out about a scanned web.
 
-use super::Doubt;
+use super::ScanWarning;
 use super::picture::Picture;
 use super::spots::ForeignParts;
 use super::streaks::StreakSearch;
@@ -69,7 +69,7 @@ pub struct Findings {
     pub pixels: Pixels,
     /// What is only an assumed value about the lamp or the numbers, if anything: then nothing that depends on it has an
     /// interval.
-    pub guess: Option<Doubt>,
+    pub guess: Option<ScanWarning>,
     /// The parts of the picture that are not web and were left out.
     pub aside: ForeignParts,
     /// How uneven it is, patch by patch.
@@ -92,7 +92,7 @@ pub struct PatchFindings {
     /// [`interval`](Self::interval) has none.
     pub patch_cv: PatchCv,
     /// The 95 % confidence interval of the CV of the web, of which this is a piece, or why none can be given.
-    pub interval: Result<[f64; 2], Doubt>,
+    pub interval: Result<[f64; 2], ScanWarning>,
     /// CV of the noise of the camera over such patches: as given and taken out, or at most.
     pub noise: f64,
     /// Share by which one more pixel of blur lowers the CV; none of a map of basis weight, which no camera has

@@ -1,6 +1,6 @@
 //! Whether the picture of the lamp can be believed.
 
-use super::Doubt;
+use super::ScanWarning;
 use super::levels::per_cent;
 use super::picture::Picture;
 use spunlaid_ground::Fault;
@@ -21,7 +21,7 @@ const STRONGER: f64 = 1.05;
 const MANY: f64 = 0.01;
 
 /// Why a picture of the lamp cannot be believed, and what to do about it.
-pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(Doubt, Fault)> {
+pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(ScanWarning, Fault)> {
     if let Some((level, share)) = clipped(lamp) {
         let message = format!(
             "the image of the lamp is clipped: {} of its pixels have its largest level, {}, where the \
@@ -31,7 +31,7 @@ pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(Doubt, Fa
         );
         let remedy = "choose so short an exposure that no pixel of the lamp has the largest level, and \
             take both images with it";
-        return Some((Doubt::ClippedLamp, Fault::new(message, remedy)));
+        return Some((ScanWarning::ClippedLamp, Fault::new(message, remedy)));
     }
     let scale = STRONGER * lamp.scale_to(picture);
     let pairs =
@@ -45,7 +45,7 @@ pub(super) fn lamp_doubt(picture: &Picture, lamp: &Picture) -> Option<(Doubt, Fa
             per_cent(share)
         );
         let remedy = "take both images at the same exposure, from the same place, with the same lamp";
-        (Doubt::DarkLamp, Fault::new(message, remedy))
+        (ScanWarning::DarkLamp, Fault::new(message, remedy))
     })
 }
 

@@ -3,7 +3,7 @@
 use super::picture::Picture;
 use crate::map::Map;
 use spunlaid_ground::Fault;
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 
 /// One pixel in so many may be filled in.
 pub(super) const FILLED: usize = 100;
@@ -147,8 +147,7 @@ pub(super) fn mean_of(values: &[f64]) -> f64 {
 
 /// `0.25 %`.
 pub(super) fn per_cent(share: f64) -> String {
-    let digits: f64 = format!("{:.1e}", 100.0 * share).parse().unwrap_or(f64::NAN);
-    format!("{} %", shortest(digits))
+    format!("{} %", shortest(rounded(100.0 * share, 1)))
 }
 
 /// Powers of the place across and along the picture, term by term.

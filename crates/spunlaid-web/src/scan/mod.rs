@@ -96,7 +96,7 @@ pub const FEWEST: usize = 4;
 named! {
     /// Why the true CV over patches of a size cannot be known from a picture.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Doubt {
+    pub enum ScanWarning {
         /// The level of the lamp without web is an assumed value: all CVs may be wrong by the same factor.
         White = "the level of the lamp is an assumed value",
         /// The shading of the lamp is an assumed value: a polynomial took it out, with what the web varies as smoothly.
@@ -114,13 +114,13 @@ named! {
     }
 }
 
-impl fmt::Display for Doubt {
+impl fmt::Display for ScanWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
 }
 
-impl Doubt {
+impl ScanWarning {
     /// What makes all numbers of a picture doubtful, by its name in files.
     pub const GUESSES: [(&'static str, Self); 5] = [
         ("lamp", Self::White),

@@ -1,12 +1,12 @@
 //! What a reader of the results must know about the picture.
 
-use super::Doubt;
+use super::ScanWarning;
 use super::findings::{PatchFindings, Settings};
 use super::levels::per_cent;
 use super::picture::Picture;
 use super::spots::ForeignParts;
 use super::weigh::{Light, WeighedPicture};
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 use spunlaid_ground::{Dimension, Fault};
 
 /// A larger difference between two sides of a pixel is not one of rounding.
@@ -111,7 +111,7 @@ pub(super) fn notes(
             },
         ));
     }
-    if let Some(few) = patches.iter().find(|patch| patch.interval == Err(Doubt::Few)) {
+    if let Some(few) = patches.iter().find(|patch| patch.interval == Err(ScanWarning::Few)) {
         let side = Dimension::Length.pretty(few.patch_cv.patch);
         let message =
             format!("this sheet holds too few patches of {side} or more, so no interval is given there");
@@ -264,6 +264,5 @@ fn odd_pixels(picture: &Picture, weighed: &WeighedPicture) -> Vec<Fault> {
 
 /// `12 mm²`.
 fn square(area: f64) -> String {
-    let digits: f64 = format!("{:.2e}", 1e6 * area).parse().unwrap_or(f64::NAN);
-    format!("{} mm²", shortest(digits))
+    format!("{} mm²", shortest(rounded(1e6 * area, 2)))
 }

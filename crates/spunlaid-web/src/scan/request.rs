@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::read::{LEAST_SIDE, is_picture, read};
 use super::weigh::Light;
 use spunlaid_ground::statistics::median;
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 use spunlaid_ground::{Fault, FileError, FileKind, Table};
 use std::fs::File;
 use std::io::{self, Read};
@@ -120,7 +120,7 @@ fn weights_in_kilograms(picture: &Picture) -> Result<(), Fault> {
     if mean.is_nan() || mean <= HEAVIEST {
         return Ok(());
     }
-    let mean = shortest(format!("{mean:.3e}").parse().unwrap_or(f64::NAN));
+    let mean = shortest(rounded(mean, 3));
     Err(Fault::new(
         format!(
             "holds numbers of about {mean}, which are not basis weights in kg/m²: no web has {mean} kg/m²"

@@ -1,6 +1,6 @@
 //! Turns a picture into a map of basis weight.
 
-use super::Doubt;
+use super::ScanWarning;
 use super::levels::{Shading, above_zero, believed_shading, logs, mean_of, unusable, white_level};
 use super::picture::Picture;
 use super::spots::{Spots, spots};
@@ -65,12 +65,12 @@ pub(super) struct WeighedPicture {
 
 impl WeighedPicture {
     /// What is only an assumed value about the lamp, if anything.
-    pub(super) fn guess(&self, light: Light) -> Option<Doubt> {
+    pub(super) fn guess(&self, light: Light) -> Option<ScanWarning> {
         let is_white =
             matches!(light, Light::Transmitted { white: None, .. } | Light::Reflected { white: None, .. })
                 && self.white.is_some();
-        let shading = self.shading.is_some().then_some(Doubt::Shading);
-        if is_white { Some(Doubt::White) } else { shading }
+        let shading = self.shading.is_some().then_some(ScanWarning::Shading);
+        if is_white { Some(ScanWarning::White) } else { shading }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::scans::{DENSITY, Lamp, PIXEL, beside, exposed, file, lens, light, pie
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use spunlaid::web::map::uniformity::patch_cv;
-use spunlaid::web::scan::{Doubt, Findings, analyse, parse};
+use spunlaid::web::scan::{Findings, ScanWarning, analyse, parse};
 use spunlaid::web::{Light, Map, Picture, Settings};
 
 /// A spunbond web of 300 by 400 mm and about 19 g/m².
@@ -69,7 +69,7 @@ fn rendered_and_found(lamp: Lamp, pictured: bool, truth: impl Fn(&Map) -> Vec<f6
                     let [low, high] = match patch.interval {
                         Ok(interval) => interval,
                         Err(doubt) => {
-                            assert!(!pictured && doubt == Doubt::Shading, "{doubt}");
+                            assert!(!pictured && doubt == ScanWarning::Shading, "{doubt}");
                             [0.0, f64::INFINITY]
                         }
                     };
@@ -223,9 +223,9 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
         scanned(&scan, &Settings { keep_shading, patches: vec![10e-3, 80e-3], ..Settings::new(light) })
     };
     for (white, keep_shading, doubt) in [
-        (None, false, Some(Doubt::White)),
-        (None, true, Some(Doubt::White)),
-        (Some(52_000.0), false, Some(Doubt::Shading)),
+        (None, false, Some(ScanWarning::White)),
+        (None, true, Some(ScanWarning::White)),
+        (Some(52_000.0), false, Some(ScanWarning::Shading)),
         // Who says that the lamp is even, must know.
         (Some(52_000.0), true, None),
     ] {
@@ -234,7 +234,7 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
         assert_eq!((found.guess, small.interval.err()), (doubt, doubt));
         assert_eq!(small.patch_cv.standard_error.is_none(), doubt.is_some());
         // Three patches of 80 mm beside each other say nothing in any case.
-        assert_eq!(large.interval, Err(doubt.unwrap_or(Doubt::Few)));
+        assert_eq!(large.interval, Err(doubt.unwrap_or(ScanWarning::Few)));
         let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
         assert_eq!(
             told.iter().any(|note| note.contains("so no interval is given; take an image of the lamp")),
@@ -255,7 +255,7 @@ fn without_the_lamp_the_cv_is_a_lower_bound() {
         let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
         let light = Light::Transmitted { mean: None, white: None };
         let found = scanned(&scan, &Settings { patches, ..Settings::new(light) });
-        assert_eq!(found.guess, Some(Doubt::White));
+        assert_eq!(found.guess, Some(ScanWarning::White));
         for (patch, truth) in found.patches.iter().zip(&truth) {
             let ratio = patch.patch_cv.cv / truth;
             println!("{name} {} {truth} {ratio}", patch.patch_cv.patch);

@@ -15,7 +15,7 @@ fn rejects_every_bad_study_with_its_message() {
 #[test]
 fn rejects_unreadable_files() {
     let refusal = |path: &str| match read_study(Path::new(path), None) {
-        Err(Error::File(problem)) => problem.what.to_string(),
+        Err(Error::File(problem)) => problem.cause.to_string(),
         other => panic!("{other:?}"),
     };
     assert_eq!(refusal("no/such/study.toml"), "there is no such file; name a study file");

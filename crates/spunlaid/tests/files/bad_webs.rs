@@ -25,7 +25,7 @@ fn rejects_a_web_without_a_filament_that_is_read_as_a_case() {
 #[test]
 fn rejects_what_is_no_readable_file() {
     let fault = |path: &Path| match read_web(path, &[]).unwrap_err() {
-        Error::File(problem) => problem.what.to_string(),
+        Error::File(problem) => problem.cause.to_string(),
         other => panic!("{other}"),
     };
     assert_eq!(fault(Path::new("no/such/web.toml")), "there is no such file; name the file of a web");

@@ -6,6 +6,7 @@ use spunlaid::air::record::{analyse, read_record};
 use spunlaid::air::{Air, Flow, Layout, Settings};
 use spunlaid::fibre::chain::Scheme;
 use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
+use spunlaid::ground::Severity;
 use spunlaid::input::{read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
@@ -24,7 +25,7 @@ fn identical_every_case_of_the_repository() {
             continue;
         }
         let (case, notes) = read_case(&path, &[]).unwrap();
-        assert!(!notes.iter().any(|note| note.what.is_warning()), "{}: {notes:?}", path.display());
+        assert!(!notes.iter().any(|note| note.is_warning()), "{}: {notes:?}", path.display());
         assert_eq!(bits(&read_again(&case)), bits(&case));
         seen += 1;
     }
@@ -34,7 +35,7 @@ fn identical_every_case_of_the_repository() {
 #[test]
 fn identical_starter_table_1_and_the_starter_with_its_defaults_spelt_out() {
     let (starter, notes) = read_case((starter_case(), "starter.toml"), &[]).unwrap();
-    assert!(notes.iter().all(|note| note.what.is_choice()), "{notes:?}");
+    assert!(notes.iter().all(|note| note.severity == Severity::Choice), "{notes:?}");
     let (table1, _) = read_case(Path::new("../../cases/table1.toml"), &[]).unwrap();
     // The starter has the law across that measurements support, and elements and a scheme that resolve the
     // motion; Table 1 those of the paper.

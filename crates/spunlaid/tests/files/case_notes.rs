@@ -118,8 +118,8 @@ fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_th
     let warnings = |set: &[(&str, &str)]| {
         let set: Vec<_> = set.iter().map(|(key, value)| ((*key).to_owned(), (*value).to_owned())).collect();
         let (_, notes) = read_case(Path::new("../../cases/spunbond.toml"), &set).unwrap();
-        let warnings = notes.into_iter().filter(|note| note.what.is_warning());
-        warnings.map(|note| format!("{} {}", note.key, note.what)).collect::<Vec<_>>()
+        let warnings = notes.into_iter().filter(|note| note.is_warning());
+        warnings.map(|note| format!("{} {}", note.key, note.cause)).collect::<Vec<_>>()
     };
     // 10 % of 35.0 m/s, the mean of the table on the way to the belt, over 18 µm.
     let low = "fibre.diameter has Reynolds numbers of about 4.2 across the fibre. There drag.across = \

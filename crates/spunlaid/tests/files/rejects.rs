@@ -14,7 +14,7 @@ fn refusal(path: &Path, overrides: &[(&str, &str)]) -> Error {
 
 fn fault(path: &Path) -> String {
     match refusal(path, &[]) {
-        Error::File(problem) => problem.what.to_string(),
+        Error::File(problem) => problem.cause.to_string(),
         other => panic!("{other}"),
     }
 }

@@ -21,7 +21,7 @@ fn said(path: &str, set: Set<'_>) -> Result<Vec<String>, Error> {
         "fed" => read_case((starter_case_of_fed(), "fed.toml"), &owned(set)),
         path => read_case(Path::new(&format!("../../cases/{path}.toml")), &owned(set)),
     }?;
-    Ok(notes.iter().filter(|note| note.what.is_warning()).map(ToString::to_string).collect())
+    Ok(notes.iter().filter(|note| note.is_warning()).map(ToString::to_string).collect())
 }
 
 fn all_of(said: Result<Vec<String>, impl Display>) -> String {
@@ -235,9 +235,8 @@ fn in_field(table: &str) -> String {
     let text = lines.collect::<Vec<_>>().join("\n").replace("[air]", "[air]\nfield = \"duct.csv\"");
     let path = folder.path().join("case.toml");
     fs::write(&path, text).unwrap();
-    let said = read_case(&path, &[]).map(|(_, notes)| {
-        notes.iter().filter(|note| note.what.is_warning()).map(ToString::to_string).collect()
-    });
+    let said = read_case(&path, &[])
+        .map(|(_, notes)| notes.iter().filter(|note| note.is_warning()).map(ToString::to_string).collect());
     all_of(said)
 }
 

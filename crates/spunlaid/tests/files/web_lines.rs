@@ -2,7 +2,7 @@
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
 use spunlaid::air::Lateral;
-use spunlaid::ground::Dimension;
+use spunlaid::ground::{Dimension, Severity};
 use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, read_case, read_fit, read_web};
 use spunlaid::web::Fibres;
 use spunlaid::web::map::Filaments;
@@ -215,7 +215,11 @@ fn assert_reads_back_beside_cases(file: &WebFile) {
 fn doubted(file: &WebFile) -> Vec<&'static str> {
     let words =
         ["basis weight", "spinning speed", "speed of the belt", "throughput of a hole", "titre", "filament"];
-    let all = file.notes.iter().filter(|note| note.what.is_doubt()).map(|note| note.what.to_string());
+    let all = file
+        .notes
+        .iter()
+        .filter(|note| note.severity == Severity::Implausible)
+        .map(|note| note.cause.to_string());
     let word = |text: String| {
         words.into_iter().find(|word| text.starts_with(&format!("is outside the usual range: a {word} of ")))
     };
@@ -401,7 +405,9 @@ fn numbers_that_no_spunbond_line_has_are_doubted() {
     let mut found = doubted(&read_web((&text, "beams.toml"), &[]).unwrap());
     found.sort_unstable();
     assert_eq!(found, [belt, speed, speed]);
-    let note = |file: &WebFile| file.notes.iter().find(|note| note.what.is_doubt()).unwrap().to_string();
+    let note = |file: &WebFile| {
+        file.notes.iter().find(|note| note.severity == Severity::Implausible).unwrap().to_string()
+    };
     let said = note(&read_line(&[("line.throughput", "2 g/min")]));
     assert!(
         said.ends_with(

@@ -2,9 +2,9 @@
 //! settles the file flies it.
 
 use spunlaid::air::Lateral;
+use spunlaid::fibre::Case;
 use spunlaid::fibre::case::keys;
-use spunlaid::fibre::{Case, Note};
-use spunlaid::ground::{Dimension, Error, Isa, RunContext};
+use spunlaid::ground::{Diagnostic, Dimension, Error, Isa, RunContext};
 use spunlaid::input::{
     CaseWithNotes, Overrides, Resources, StudyFile, parse_study, read_case, read_spinline, read_web,
 };
@@ -86,8 +86,11 @@ fn identical_tension_when_the_rounds_are_flown_by_hand_and_for_any_number_of_thr
     assert_eq!(settled_case(3, &[]), (case.clone(), notes.clone()));
     let (file, _) = settled(2, |known| read_spinline((&self::case(), NAME), known));
     assert_eq!(Some(&file.spec.spinline), case.spinline.as_deref());
-    let said =
-        notes.iter().map(Note::to_string).find(|note| note.contains("was found by simulation")).unwrap();
+    let said = notes
+        .iter()
+        .map(Diagnostic::to_string)
+        .find(|note| note.contains("was found by simulation"))
+        .unwrap();
     assert!(
         said.starts_with("../../cases/case.toml:8: spinline.end_tension was found by simulation"),
         "{said}"

@@ -5,7 +5,7 @@ mod closed_loops;
 
 use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, read, scanned};
 use spunlaid::experiment::study::seed_of_point;
-use spunlaid::experiment::{Journal, KeyDoubt, MeasuredPatch, MeasuredWeb, Target};
+use spunlaid::experiment::{Journal, KeyWarning, MeasuredPatch, MeasuredWeb, Target};
 use spunlaid::ground::statistics::student_t_95;
 use spunlaid::input::{Overrides, read_fit};
 use spunlaid::web::Map;
@@ -64,7 +64,7 @@ fn a_key_without_effect_is_named() {
     let file = read(&text, &["line.slot_gap", "line.filaments_per_metre"]);
     let scan = scanned(&laid(&file, &[0.01, 350.0], 1000));
     let found = fitted(&file, &scan, false, 8, &mut Journal::in_memory()).unwrap();
-    assert_eq!(found.keys[0].doubt, Some(KeyDoubt::NoEffect), "{found:?}");
+    assert_eq!(found.keys[0].warning, Some(KeyWarning::NoEffect), "{found:?}");
     assert!(found.keys[0].interval.is_err());
     let [low, high] = found.keys[1].interval.clone().unwrap();
     assert!(low < 350.0 && 350.0 < high, "{found:?}");

@@ -132,7 +132,8 @@ fn stat_edges_that_cut_do_not_count() {
     for (whole, cut) in whole.patches.iter().zip(&cut.patches) {
         let [(expected, of_expected), (wanted, own)] =
             [whole, cut].map(|patch| patch.single_fibres.expect("known numbers"));
-        let error = cut.map.standard_error.expect("an error");
+        let [error, own, of_expected] =
+            [cut.map.standard_error, own, of_expected].map(|error| error.expect("an error"));
         assert!((cut.map.cv - wanted).abs() < 4.0 * error.hypot(own), "{cut:?}");
         // The edges add 0.14 % of the mean at most, to 2 % or more.
         let both = own.hypot(of_expected);

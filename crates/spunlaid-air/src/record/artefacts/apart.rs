@@ -1,7 +1,7 @@
 //! Finds dropouts: samples of one value that lies apart from all others.
 
 use super::Robust;
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 
 /// Distance from the median where the tail of a distribution begins, in standard deviations.
 const TAIL: f64 = 3.0;
@@ -115,7 +115,7 @@ impl Group<'_> {
 
 /// A number as the file has it, if it stands for a missing value.
 fn sentinel(written: f64) -> Option<String> {
-    let number = shortest(format!("{written:.6e}").parse().unwrap_or(written));
+    let number = shortest(rounded(written, 6));
     let plain = number.trim_start_matches('-');
     (SENTINELS.contains(&plain) || written.abs() > HUGE).then_some(number)
 }

@@ -10,8 +10,7 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::air::Lateral;
-use spunlaid::fibre::Remark;
-use spunlaid::ground::{Fault, FileError, Problem};
+use spunlaid::ground::{Diagnostic, Fault, FileError};
 use spunlaid::input::Resources;
 use spunlaid_results::reports::air::{AirFolder, AirViews, Slices};
 use std::sync::atomic::AtomicU64;
@@ -36,14 +35,14 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
              eddies in space",
             "take the numbers and the spectrum of the record (spunlaid analyse) instead of it",
         );
-        return Err(FileError::from(Problem::with_path(&air.source.case, fault)).into());
+        return Err(FileError::from(Diagnostic::with_path(&air.source.case, fault)).into());
     }
     let is_uniform = case.air.lateral == Lateral::Uniform;
     let more = is_uniform.then(|| ("air.lateral", "von-karman".to_owned()));
     let read = |resources: &Resources| air.source.read(more.as_slice(), resources);
     let (case, notes) = settled_with(&mut resources, air.threads, air.output.quiet, read)?;
     notes.iter().for_each(say::note);
-    let mut remarks = Remark::notes_of_results(&notes);
+    let mut remarks = Diagnostic::notes_of_results(&notes);
     if is_uniform {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());

@@ -4,7 +4,7 @@ use crate::args::Air;
 use crate::failure::Failure;
 use crate::file::check_file;
 use crate::say;
-use spunlaid::ground::{Error, Problem};
+use spunlaid::ground::{Diagnostic, Error};
 use spunlaid::input::{Resources, read_points};
 use spunlaid_results::reports::air::{outside, points_csv};
 use std::fs;
@@ -33,7 +33,7 @@ pub(super) fn points(air: &Air, file: &Path) -> Result<(), Failure> {
 /// The error with the file of the places.
 fn at(file: &Path, error: Error) -> Error {
     match error {
-        Error::Flight(fault) => Error::File(Box::new(Problem::with_path(file, fault))),
+        Error::Flight(fault) => Error::File(Box::new(Diagnostic::with_path(file, fault))),
         other => other,
     }
 }

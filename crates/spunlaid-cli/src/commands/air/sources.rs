@@ -7,7 +7,7 @@ use crate::delivery::Delivery;
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::fibre::Case;
-use spunlaid::ground::{Error, Fault, FileKind, Problem};
+use spunlaid::ground::{Diagnostic, Error, Fault, FileKind};
 use spunlaid::input::{WebSpec, kind_of, read_web};
 use spunlaid::simulation::{LineFilaments, Sources};
 use spunlaid_results::files::kept_input::Input;
@@ -16,7 +16,7 @@ use std::sync::atomic::AtomicU64;
 
 pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
     let (path, quiet) = (&air.source.case, air.output.quiet);
-    let refuse = |fault: Fault| Error::File(Box::new(Problem::with_path(path, fault)));
+    let refuse = |fault: Fault| Error::File(Box::new(Diagnostic::with_path(path, fault)));
     let (web, alone);
     let (input, case, curtain, notes) = if !is_standard(path) && kind_of(path) == FileKind::Web {
         let set = overrides(&air.source.set);

@@ -9,8 +9,7 @@ use crate::commands::stem;
 use crate::control::settled_with;
 use crate::failure::Failure;
 use crate::say;
-use spunlaid::fibre::Note;
-use spunlaid::ground::{Error, FileKind};
+use spunlaid::ground::{Diagnostic, Error, FileKind, Severity};
 use spunlaid::input::{Resources, kind_of};
 
 pub(crate) fn check(check: &Check) -> Result<(), Failure> {
@@ -37,8 +36,14 @@ fn looked_at<T>(read: impl Fn(&Resources) -> Result<T, Error>) -> Result<T, Erro
 /// output is such a file.
 ///
 /// * `notes` – of the file; one may doubt that it is meant
-fn show(kind: &str, (text, notes): (&str, &[Note]), comments: &[String], command: &str, source: &CaseSource) {
-    let is_doubtful = notes.iter().any(|note| note.what.is_doubt());
+fn show(
+    kind: &str,
+    (text, notes): (&str, &[Diagnostic]),
+    comments: &[String],
+    command: &str,
+    source: &CaseSource,
+) {
+    let is_doubtful = notes.iter().any(|note| note.severity == Severity::Implausible);
     say::line(&format!("# the {kind} with every default"));
     say::text(text);
     say::line("");

@@ -51,11 +51,11 @@ pub struct Rankings {
 pub struct Ranking {
     /// Index into [`Study::quantities`].
     pub measure: usize,
-    /// Value in the middle of all ranges; NaN for one-at-a-time designs, whose lines have no common middle.
-    pub middle: f64,
-    /// Fraction of the variation between points that straight lines explain (adjusted R²); NaN if there are too few
-    /// points to tell.
-    pub explained: f64,
+    /// Value in the middle of all ranges; None for one-at-a-time designs, whose lines have no common middle.
+    pub middle: Option<f64>,
+    /// Fraction of the variation between points that straight lines explain (adjusted R²); None if there are too few
+    /// points to know it.
+    pub explained: Option<f64>,
     /// The effects. The error of one is not a number if neither replicates nor residuals tell it.
     pub effects: Vec<Effect<Contrast>>,
     /// The terms of the fit with their coefficients, without the constant.
@@ -101,8 +101,8 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
             fit.terms.iter().copied().zip(solution.coefficients[measure].iter().skip(1).copied())
         });
         let middle = match solved.as_slice() {
-            [one] if study.design != Design::OneAtATime => one.coefficients[measure][0],
-            _ => f64::NAN,
+            [one] if study.design != Design::OneAtATime => Some(one.coefficients[measure][0]),
+            _ => None,
         };
         Ranking {
             measure,
@@ -138,8 +138,8 @@ impl Ranking {
     }
 }
 
-/// Adjusted R² of the straight lines.
-fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> f64 {
+/// Adjusted R² of the straight lines; None if there are too few points to know it.
+fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> Option<f64> {
     let (mut from_lines, mut from_mean, mut free, mut all) = (0.0, 0.0, 0.0, 0.0);
     for (fit, solution) in fits.iter().zip(solved) {
         let lines = fit.terms.iter().filter(|term| term.is_main()).count() as f64;
@@ -150,7 +150,7 @@ fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> f6
         all += points - 1.0;
     }
     let explained = 1.0 - (from_lines / free) / (from_mean / all);
-    if free > 0.0 && from_mean > 0.0 { explained.max(0.0) } else { f64::NAN }
+    (free > 0.0 && from_mean > 0.0).then(|| explained.max(0.0))
 }
 
 /// Why the factors of a study are not ranked.

@@ -24,8 +24,7 @@ pub use value::{Content, DataFile, Kind, Sign, Value};
 pub use varied::VariedKey;
 
 use super::Case;
-use spunlaid_ground::error::Place;
-use spunlaid_ground::{Dimension, Fault, Finding, Problem, Removed};
+use spunlaid_ground::{Diagnostic, Dimension, Fault, Removed};
 
 /// The tables of a case file, in order.
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
@@ -142,7 +141,7 @@ const fn is_same(one: &str, other: &str) -> bool {
 ///
 /// # Errors
 /// If no key has the name. The problem suggests a similar key.
-pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
+pub fn named(name: &str) -> Result<&'static Key, Box<Diagnostic>> {
     find(name).ok_or_else(|| {
         let (table, _) = name.split_once('.').unwrap_or(("", name));
         let known: Vec<&str> = keys_of_table(table).map(Key::short).collect();
@@ -155,7 +154,7 @@ pub fn named(name: &str) -> Result<&'static Key, Box<Problem>> {
         let unknown = || Fault::unknown("is not a key of a case file", nearest, &takes, &known);
         let what = Removed::Key.fault(name).unwrap_or_else(unknown);
         let key = spunlaid_ground::units::excerpt(name, 60);
-        Box::new(Finding { place: Place::Code, key, value: None, what })
+        Box::new(Diagnostic { key, ..what.into() })
     })
 }
 
@@ -170,13 +169,13 @@ pub fn like(name: &str) -> Vec<&'static Key> {
     CASE.like(table, key)
 }
 
-/// A finding about the value of a key, in SI units. The place where the value was written is not known here.
-pub fn finding<W>(key: &str, value: f64, what: W) -> Finding<W> {
+/// A diagnostic about the value of a key, in SI units. The place where the value was written is not known here.
+pub fn diagnostic(key: &str, value: f64, cause: impl Into<Diagnostic>) -> Diagnostic {
     let value = find(key).map_or_else(
         || spunlaid_ground::units::shortest(value),
         |key| key.kind.pretty(&Value::Number(value)),
     );
-    Finding { place: Place::Code, key: key.to_owned(), value: Some(value), what }
+    cause.into().with_key(key, Some(value))
 }
 
 /// The keys of a table.
@@ -219,7 +218,7 @@ impl<T> Key<T> {
     ///
     /// # Errors
     /// If the key does not take this value, or has no meaning for this case.
-    pub fn set(&self, input: &mut T, value: impl Into<Value>) -> Result<(), Box<Problem>> {
+    pub fn set(&self, input: &mut T, value: impl Into<Value>) -> Result<(), Box<Diagnostic>> {
         let value = value.into();
         let shown = self.kind.pretty(&value);
         let is_word = matches!(&value, Value::Text(word) if self.words.contains(&word.as_str()));
@@ -235,10 +234,9 @@ impl<T> Key<T> {
             None if is_word => Ok(value),
             None => self.kind.accept(value).map_err(|fault| fault.or_words(self.words)),
         });
-        accepted.and_then(|value| (self.set)(input, &value)).map_err(|what| {
-            let (place, key) = (Place::Code, self.name.to_owned());
-            Box::new(Finding { place, key, value: Some(shown), what })
-        })
+        accepted
+            .and_then(|value| (self.set)(input, &value))
+            .map_err(|what| Box::new(Diagnostic::from(what).with_key(self.name, Some(shown))))
     }
 
     /// Sets a value that has been checked already.

@@ -2,6 +2,7 @@
 
 use super::{Kind, Sign, Value};
 use spunlaid_ground::Fault;
+use spunlaid_ground::units::rounded;
 
 /// A change of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +51,7 @@ impl Relative {
             Self::Amount(amount) => before + amount,
         };
         // 0.2 m and a half of it are 0.3 m, not 0.30000000000000004 m.
-        let after = format!("{after:.14e}").parse().unwrap_or(after);
+        let after = rounded(after, 14);
         kind.accept(match kind {
             Kind::Whole(..) => Value::Whole(after.round().max(0.0) as u64),
             _ => Value::Number(after),

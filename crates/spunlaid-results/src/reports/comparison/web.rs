@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use spunlaid::ground::statistics::difference_of_logarithms;
 use spunlaid::ground::{Difference, Estimate, NORMAL_95};
 use spunlaid::web::FEWEST;
-use spunlaid::web::scan::Doubt;
+use spunlaid::web::scan::ScanWarning;
 use std::path::{Path, PathBuf};
 
 /// The results of a web.
@@ -141,7 +141,7 @@ impl Web {
             Ok(map) if side < map.cell && !are_alike(side, map.cell) => {
                 format!("smaller than a cell of the map ({name})")
             }
-            Ok(map) if FEWEST as f64 * side > shorter(map) => format!("{} ({name})", Doubt::Few),
+            Ok(map) if FEWEST as f64 * side > shorter(map) => format!("{} ({name})", ScanWarning::Few),
             _ => format!("no such patches ({name}): give both the same with web.patches or --patches"),
         }
     }

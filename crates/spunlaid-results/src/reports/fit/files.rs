@@ -7,7 +7,7 @@ use crate::files::versioned_json;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
 use spunlaid::experiment::{
-    Fit, FittedKey, FittedNumber, IntervalEnd, KeyDoubt, Parameter, Target, Texture, USUAL_WEBS,
+    Fit, FittedKey, FittedNumber, IntervalEnd, KeyWarning, Parameter, Target, Texture, USUAL_WEBS,
 };
 
 /// The text of `fit.json`.
@@ -27,7 +27,7 @@ pub(super) fn fit_json(fit: &Fit, target: &Target, [web, scan]: &[String; 2], no
             "interval": key.interval.as_ref().ok(),
             "no_interval": key.interval.as_ref().err(),
             "ends": key.ends.map(name_of_end),
-            "doubt": key.doubt.map(doubt),
+            "doubt": key.warning.map(warning),
             "profile": profile,
         })
     };
@@ -93,11 +93,11 @@ pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
 }
 
 /// Why the value of a key is not to be trusted, in words.
-pub fn doubt(doubt: KeyDoubt) -> &'static str {
-    match doubt {
-        KeyDoubt::NoEffect => "it changes nothing of what is compared",
-        KeyDoubt::Unknown => "the scan does not determine it: every value of the range will do",
-        KeyDoubt::AtEnd => "it lies at an end of its range",
+pub fn warning(warning: KeyWarning) -> &'static str {
+    match warning {
+        KeyWarning::NoEffect => "it changes nothing of what is compared",
+        KeyWarning::Unknown => "the scan does not determine it: every value of the range will do",
+        KeyWarning::AtEnd => "it lies at an end of its range",
     }
 }
 
@@ -168,21 +168,21 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
     });
     for key in &fit.keys {
         let name = &key.parameter.key.name;
-        if let Some(found) = key.doubt {
+        if let Some(found) = key.warning {
             let advice = match found {
-                KeyDoubt::NoEffect => "do not seek it",
-                KeyDoubt::Unknown => {
+                KeyWarning::NoEffect => "do not seek it",
+                KeyWarning::Unknown => {
                     "leave it at a value that you know, or compare the spectrum too (--spectrum)"
                 }
-                KeyDoubt::AtEnd => "give it a wider range, if values beyond it make sense",
+                KeyWarning::AtEnd => "give it a wider range, if values beyond it make sense",
             };
-            all.push(format!("{name}: {}; {advice}.", doubt(found)));
+            all.push(format!("{name}: {}; {advice}.", warning(found)));
         }
         let Ok(interval) = &key.interval else { continue };
         for (end, value) in key.ends.iter().zip(interval) {
             let value = pretty(&key.parameter, *value);
             match end {
-                IntervalEnd::OfRange if key.doubt.is_none() => all.push(format!(
+                IntervalEnd::OfRange if key.warning.is_none() => all.push(format!(
                     "{name}: {value} is the end of its range, not that of its interval. Values beyond it may \
                     look like the scan as well; give it a wider range if they make sense."
                 )),

@@ -20,8 +20,7 @@ use spunlaid::experiment::fit::{fit, identity};
 use spunlaid::experiment::{
     Fit, Header, Journal, JournalState, MOST_TRIALS, Question, Target, WebInProgress,
 };
-use spunlaid::fibre::Remark;
-use spunlaid::ground::{Error, Fault, RunContext};
+use spunlaid::ground::{Diagnostic, Error, Fault, RunContext};
 use spunlaid::input::{FitFile, WebFile, WebSpec};
 use spunlaid::simulation::{Flights, Flyer};
 use std::path::Path;
@@ -71,7 +70,7 @@ impl FitInput<'_> {
     }
 
     fn notes(&self) -> Vec<String> {
-        Remark::notes_of_results(&self.file.start.notes)
+        Diagnostic::notes_of_results(&self.file.start.notes)
     }
 
     fn identity(&self) -> u32 {

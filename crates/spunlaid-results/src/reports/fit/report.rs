@@ -1,11 +1,11 @@
 //! The report of a fit: the values, what they are worth, the figures.
 
-use super::files::{doubt, pretty, refused, sentences as sentences_of, value_and_interval};
+use super::files::{pretty, refused, sentences as sentences_of, value_and_interval, warning};
 use crate::numbers::{plus_minus, significant};
 use crate::page::document::{Report, Section};
 use crate::page::methods::{MOMENTS, methods, of_web};
 use crate::page::table::{Row, Table};
-use spunlaid::experiment::{Fit, FittedKey, FittedNumber, KeyDoubt, Target, Texture};
+use spunlaid::experiment::{Fit, FittedKey, FittedNumber, KeyWarning, Target, Texture};
 use spunlaid::ground::Dimension;
 use spunlaid::simulation::WebSpec;
 use spunlaid_charts::Figure;
@@ -85,8 +85,8 @@ fn title(fit: &Fit) -> String {
         .map(|key| {
             let [value, interval] = value_and_interval(key);
             let name = &key.parameter.key.name;
-            match (key.doubt, &key.interval) {
-                (Some(KeyDoubt::Unknown | KeyDoubt::NoEffect), _) => format!("{name} is not determined"),
+            match (key.warning, &key.interval) {
+                (Some(KeyWarning::Unknown | KeyWarning::NoEffect), _) => format!("{name} is not determined"),
                 (_, Ok(_)) => format!("{name} = {value} ({interval})"),
                 (_, Err(_)) => format!("{name} = {value}"),
             }
@@ -102,7 +102,7 @@ fn row(key: &FittedKey) -> Row {
     let pretty = |value: f64| pretty(parameter, value);
     let [low, high] = parameter.range.map(pretty);
     let remark =
-        key.doubt.map_or_else(|| format!("sought from {low} to {high}"), |found| doubt(found).to_owned());
+        key.warning.map_or_else(|| format!("sought from {low} to {high}"), |found| warning(found).to_owned());
     Row::new(&parameter.key.name, [pretty(parameter.start), value, interval, remark])
 }
 

@@ -28,8 +28,8 @@ use crate::reports::spinline::files::{SpinResults, write_stations};
 use figures::run_figures;
 use report::run_report;
 use simulated::Tables;
-use spunlaid::fibre::{Case, Note, Remark};
-use spunlaid::ground::{Isa, RunContext, WIDTH};
+use spunlaid::fibre::Case;
+use spunlaid::ground::{Diagnostic, Isa, RunContext, WIDTH};
 use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
 use spunlaid::simulation::{
     FinerChecks, FinerPlans, KeepShapes, LostFibre, Recorded, Recorder, Results, RunPaths,
@@ -158,13 +158,13 @@ impl RunFolder {
     /// * `started` – when the flights began
     pub fn new(
         name: String,
-        (mut case, notes): (Arc<Case>, &[Note]),
+        (mut case, notes): (Arc<Case>, &[Diagnostic]),
         (results, replicates, is_whole): (Results, u64, bool),
         plans: &FinerPlans,
         started: Instant,
         by: RunContext<'_>,
     ) -> Self {
-        let mut notes = Remark::notes_of_results(notes);
+        let mut notes = Diagnostic::notes_of_results(notes);
         let checks = if is_whole { plans.before_flight() } else { plans.stopped() };
         if !is_whole {
             let asked = case.run.replicates;

@@ -20,7 +20,7 @@ use crate::reports::web::report::scale::Judged;
 use spunlaid::ground::{Measure, Measured, measure};
 use spunlaid::web::map::nearest_to_seen;
 use spunlaid::web::map::uniformity::PatchCv;
-use spunlaid::web::scan::{Doubt, Findings, PatchFindings, StreakLimit};
+use spunlaid::web::scan::{Findings, PatchFindings, ScanWarning, StreakLimit};
 use spunlaid::web::{
     Fabric, Map, SCAN_MEASURES, SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES,
     STREAK_LIMIT_MEASURES,
@@ -100,8 +100,8 @@ fn title(findings: &Findings) -> String {
         |by: &str| format!("CV {by} {} over {} patches: {guess}.", rough(patch), millimetres(patch.patch));
     match guess {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
-        Doubt::White => varies("at least"),
-        Doubt::Shading => varies("about"),
+        ScanWarning::White => varies("at least"),
+        ScanWarning::Shading => varies("about"),
         _ => format!("CV not known: {guess}."),
     }
 }

@@ -14,7 +14,8 @@ use files::openfoam::{OPENFOAM, write_openfoam};
 use files::vtk::VTK;
 use files::{outside_of_cells, unsteady};
 use report::sources_report;
-use spunlaid::fibre::{Case, Note, Remark};
+use spunlaid::fibre::Case;
+use spunlaid::ground::Diagnostic;
 use spunlaid::simulation::Sources;
 use spunlaid_charts::Figure;
 
@@ -35,11 +36,15 @@ pub struct SourcesFolder<'a> {
 impl<'a> SourcesFolder<'a> {
     /// * `name` – what the line is called: the name of its file
     /// * `input` – what it is from, the case that was simulated, and notes about both
-    pub fn new(name: String, (input, case, notes): (Input<'a>, &'a Case, &[Note]), sources: Sources) -> Self {
+    pub fn new(
+        name: String,
+        (input, case, notes): (Input<'a>, &'a Case, &[Diagnostic]),
+        sources: Sources,
+    ) -> Self {
         let lost = lost(&sources.lost, case.run.replicates);
         let lacking: Vec<String> = lost.into_iter().chain(unsteady(case, &sources)).collect();
         let found = Vec::from_iter(outside_of_cells(&sources));
-        let notes = [&Remark::notes_of_results(notes)[..], &lacking, &found].concat();
+        let notes = [&Diagnostic::notes_of_results(notes)[..], &lacking, &found].concat();
         Self { name, case, input, sources, lacking, found, notes }
     }
 }

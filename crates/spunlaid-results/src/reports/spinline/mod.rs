@@ -20,8 +20,8 @@ use figures::{SPINLINE, spinline_figures};
 use files as spinline;
 use files::{STATIONS, remarks, write_stations};
 use report::spinline_report;
-use spunlaid::fibre::{Drag, NormalLaw, Remark};
-use spunlaid::ground::Error;
+use spunlaid::fibre::{Drag, NormalLaw};
+use spunlaid::ground::{Diagnostic, Error};
 use spunlaid::input::SpinFile;
 
 /// Everything of a spinline that goes into the files.
@@ -50,7 +50,7 @@ impl SpinFolder {
 
     /// Notes for the reader.
     fn notes(&self) -> Vec<String> {
-        [Remark::notes_of_results(&self.file.notes), self.found.clone()].concat()
+        [Diagnostic::notes_of_results(&self.file.notes), self.found.clone()].concat()
     }
 }
 

@@ -350,10 +350,9 @@ fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: Contrast) 
 
 fn explained(rankings: &[Ranking], quantities: &[usize]) -> Vec<String> {
     let explained = |quantity: &usize| {
-        ranking_of(rankings, *quantity).filter(|ranking| ranking.explained.is_finite()).map_or_else(
-            || "–".to_owned(),
-            |ranking| format!("{}{THIN}%", number((ranking.explained * 100.0).round())),
-        )
+        ranking_of(rankings, *quantity)
+            .and_then(|ranking| ranking.explained)
+            .map_or_else(|| "–".to_owned(), |share| format!("{}{THIN}%", number((share * 100.0).round())))
     };
     quantities.iter().map(explained).collect()
 }

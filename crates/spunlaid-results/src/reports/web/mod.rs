@@ -27,8 +27,8 @@ use report::effects::Advised;
 use report::spinlines::LayerSpinline;
 use report::web_report;
 use spunlaid::experiment::Advice;
-use spunlaid::fibre::{Case, Load, Remark, Solution};
-use spunlaid::ground::{Isa, RunContext};
+use spunlaid::fibre::{Case, Load, Solution};
+use spunlaid::ground::{Diagnostic, Isa, RunContext};
 use spunlaid::input::{LayerSpec, WebFile, WebSpec};
 use spunlaid::simulation::FlownWeb;
 use spunlaid::web::map::{Filaments, Findings, strands};
@@ -81,7 +81,7 @@ impl WebFolder {
     ) -> Self {
         let fabric = file.spec.fabric(&simulated.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
-        let notes = [Remark::notes_of_results(&file.notes), notes(&simulated, &findings)];
+        let notes = [Diagnostic::notes_of_results(&file.notes), notes(&simulated, &findings)];
         let (advice, assumed_values, awaited) = (None, None, false);
         Self {
             name,
@@ -257,7 +257,7 @@ fn spinlines(spec: &WebSpec) -> Vec<LayerSpinline> {
 
 /// What a reader must know of what was found.
 fn notes(simulated: &FlownWeb, findings: &Findings) -> Vec<String> {
-    let mut notes: Vec<String> = simulated.doubts(findings).iter().map(ToString::to_string).collect();
+    let mut notes: Vec<String> = simulated.warnings(findings).iter().map(ToString::to_string).collect();
     if findings.laid.map.cells.len() > files::MOST_CELLS {
         notes.push(
             "the map is only in map.npy, because it has more cells than a table or a picture can hold"

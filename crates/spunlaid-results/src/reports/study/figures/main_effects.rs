@@ -65,6 +65,7 @@ pub(super) fn figure(
 /// The line of best fit over the factor's range, the other factors in the middle of theirs.
 fn line(factor: &Factor, rankings: &[Ranking], measure: usize, index: usize) -> Option<Vec<(f64, f64)>> {
     let ranking = rankings.iter().find(|ranking| ranking.measure == measure)?;
+    let middle = ranking.middle.unwrap_or(f64::NAN);
     let effect = ranking.effects.iter().find(|effect| effect.of.factor == index)?;
     if !factor.key.words().is_empty() {
         return None;
@@ -72,7 +73,7 @@ fn line(factor: &Factor, rankings: &[Ranking], measure: usize, index: usize) -> 
     let (least, greatest) = factor.ends();
     let at = |i: usize| {
         let x = least + (greatest - least) * i as f64 / FINE as f64;
-        (x, ranking.middle + 0.5 * effect.difference.value * factor.place(x))
+        (x, middle + 0.5 * effect.difference.value * factor.place(x))
     };
     Some((0..=FINE).map(at).collect())
 }

@@ -46,11 +46,10 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
     };
     let explained: Vec<String> = shown
         .iter()
-        .filter(|(ranking, _)| ranking.explained.is_finite())
-        .map(|(ranking, label)| {
+        .filter_map(|(ranking, label)| {
             let whose =
                 if label.is_empty() { String::new() } else { format!(" in {}", label.replace('*', "")) };
-            format!("{:.0} %{whose}", 100.0 * ranking.explained)
+            Some(format!("{:.0} %{whose}", 100.0 * ranking.explained?))
         })
         .collect();
     let explained = if explained.is_empty() {

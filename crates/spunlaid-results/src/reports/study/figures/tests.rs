@@ -49,8 +49,8 @@ fn rankings(study: &Study) -> Vec<Ranking> {
     let effects: Vec<Effect<Contrast>> = (0..study.factors.len()).map(effect).collect();
     let ranking = |measure| Ranking {
         measure,
-        middle: 0.1,
-        explained: 0.9,
+        middle: Some(0.1),
+        explained: Some(0.9),
         effects: effects.clone(),
         terms: Vec::new(),
     };

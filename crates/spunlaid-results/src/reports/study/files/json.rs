@@ -19,10 +19,9 @@ pub fn write_json(
     (rankings, claims): (&Rankings, &[Claim]),
 ) -> std::io::Result<()> {
     let ranking = |ranking: &Ranking| {
-        let explained = Some(ranking.explained).filter(|share| share.is_finite());
         let effects: Json = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
         // `explained`: share of the variation between points that straight lines explain.
-        let told = json!({"explained": explained, "effects": effects});
+        let told = json!({"explained": ranking.explained, "effects": effects});
         (study.quantities[ranking.measure].column.clone(), told)
     };
     // By the columns of the results; empty if the factors cannot be ranked.

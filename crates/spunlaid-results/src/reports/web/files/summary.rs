@@ -14,7 +14,7 @@ use spunlaid::fibre::Load;
 use spunlaid::ground::statistics::interval_of_deviation;
 use spunlaid::ground::{Estimate, Measure};
 use spunlaid::web::map::Findings;
-use spunlaid::web::scan::Doubt;
+use spunlaid::web::scan::ScanWarning;
 use spunlaid::web::{
     ChargedCurtain, Clouds, Edges, Fabric, Map, NeighbourCorrelation, PATCH_MEASURES, SCAN_MEASURES,
     SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES,
@@ -164,7 +164,7 @@ pub fn summary_of_scan(
     if !findings.mean_known {
         web["basis_weight_kg_m2"] = Json::Null;
     }
-    let guess = Doubt::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
+    let guess = ScanWarning::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
     let about = json!({"file": file, "assumed": guess.map(|(name, _)| name)});
     let parts = json!({
         "web": web,

@@ -7,7 +7,7 @@ use std::fmt::{Display, Formatter, Result};
 
 /// A reason to doubt numbers of a web, or to read them with care. It is shown as a sentence without a full stop.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Doubt {
+pub enum WebWarning {
     /// Filaments were lost in flight, of so many.
     Lost {
         /// Number of lost ones.
@@ -81,7 +81,7 @@ pub enum Doubt {
     },
 }
 
-impl Display for Doubt {
+impl Display for WebWarning {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Lost { filaments, of } => write!(
@@ -242,7 +242,7 @@ mod tests {
     fn doubts_are_sentences_with_their_numbers() {
         let few = |enough: Option<f64>| {
             let (sides, why) = (vec![0.01, 0.02], SubsampleWarning::Halves(0.02, -0.08));
-            Doubt::Subsample { sides, why, pitch: 0.002, enough }.to_string()
+            WebWarning::Subsample { sides, why, pitch: 0.002, enough }.to_string()
         };
         let said = few(Some(1000.0));
         assert!(
@@ -255,18 +255,21 @@ mod tests {
             "{said}"
         );
         assert!(few(None).ends_with("Simulate all of them, web.simulated = \"all\""), "{}", few(None));
-        let filled = |sides: Vec<f64>| Doubt::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
+        let filled =
+            |sides: Vec<f64>| WebWarning::FilledIn { missing: 0.12, sides, apart: 0.131 }.to_string();
         let said = filled(vec![0.01, 0.02]);
         assert!(
             said.contains("has too high a CV over patches of 10 and 20 mm, by up to 13 % of the CV"),
             "{said}"
         );
         assert!(filled(Vec::new()).contains("has too high a CV over small patches; the CV"));
-        let pieces = Doubt::Pieces { sides: vec![0.05], apart: -0.07 }.to_string();
+        let pieces = WebWarning::Pieces { sides: vec![0.05], apart: -0.07 }.to_string();
         assert!(
             pieces.contains("and has too low a CV over patches of 50 mm, by up to 7 % of the CV; image"),
             "{pieces}"
         );
-        assert!(Doubt::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost"));
+        assert!(
+            WebWarning::Lost { filaments: 1, of: 40 }.to_string().starts_with("1 of 40 filaments was lost")
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! All filaments of a layer in one air: a beam, simulated together and laid on a sheet as they come down.
+//! All filaments of a layer in shared turbulence: a beam, simulated together and laid on a sheet as they land.
 //!
 //! ```text
 //! places → packs of eight neighbours → flights, which advance together by a block of time

@@ -12,7 +12,7 @@ use super::sampled::FlownSheet;
 use super::two_levels::{FineSheet, LayerSheets};
 use crate::{Flown, LaydownSource, WebSpec};
 use spunlaid_ground::{Error, RunContext};
-use spunlaid_web::map::{Doubt, Findings, blocks_on, find_laid, inner_columns, lay, pieces};
+use spunlaid_web::map::{Findings, WebWarning, blocks_on, find_laid, inner_columns, lay, pieces};
 use spunlaid_web::{DepositionGrid, Depositor, Fibres, FlownCurves, LaidWeb, Map, TRIED, TimeSpent, Web};
 use std::mem::take;
 use std::sync::Arc;
@@ -121,8 +121,8 @@ impl Flyer<'_> {
 
 impl FlownWeb {
     /// What must be known of the numbers of this web before they are believed.
-    pub fn doubts(&self, findings: &Findings) -> Vec<Doubt> {
-        findings.doubts(&self.web)
+    pub fn warnings(&self, findings: &Findings) -> Vec<WebWarning> {
+        findings.warnings(&self.web)
     }
 
     /// Pieces of filaments that are still to be laid.

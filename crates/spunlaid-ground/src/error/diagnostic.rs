@@ -1,8 +1,10 @@
-//! A problem: what is wrong with something that a user gave, where it was written, and what to do about it.
+//! A diagnostic: an error, a warning or a note about something that a user gave, with the place where it was written.
 
 use super::Fault;
 use super::words::{Printable, excerpt};
+use std::borrow::Cow;
 use std::fmt::{self, Write};
+use std::panic::Location;
 use std::path::Path;
 
 /// A position in a file.
@@ -113,30 +115,129 @@ impl fmt::Display for Place {
     }
 }
 
-/// A finding about a value. It is shown as `cases/a.toml:12: run.time_step = "50 µs" ` and a text.
+/// How much a diagnostic matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// A choice of the program, which is no flaw: the input with every default written out has it.
+    Choice,
+    /// For example on rounding.
+    Note,
+    /// The results may mislead.
+    Warning,
+    /// A warning about a number that nothing real is known to have.
+    Implausible,
+    /// The input cannot be used.
+    Error,
+}
+
+/// From how many times outside of what is usual on a number is taken for a slip.
+const ABSURD: f64 = 10.0;
+
+/// An error, a warning or a note about something that a user gave.
+///
+/// It is shown as `cases/a.toml:12: run.time_step = "50 µs" ` and its cause.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding<W> {
+pub struct Diagnostic {
+    /// How much it matters.
+    pub severity: Severity,
     /// The place where the value was written.
     pub place: Place,
-    /// Key in the file, `run.time_step`. Empty if the finding is not about a key.
+    /// Key in the file, `run.time_step`. Empty if it is not about a key.
     pub key: String,
     /// The value as written, or formatted for people. None if there is no value.
     pub value: Option<String>,
-    /// What was found.
-    pub what: W,
+    /// What is wrong or worth a note, and what to do about it.
+    pub cause: Fault,
+    /// Whether its number is outside of the usual range.
+    pub is_unusual: bool,
+    /// Whether its number is outside of the usual range by a factor of ten or more, as after a slip of a unit.
+    pub is_absurd: bool,
+    /// Where in the program a note or a warning arises: all from there are of one kind.
+    pub origin: Option<&'static Location<'static>>,
 }
 
-/// A reason why something that a user gave cannot be used.
-pub type Problem = Finding<Fault>;
-
 /// A problem with a file, as readers return it: `wire.csv:12: column u_m_s: "x" is not a number…`.
-pub type FileError = Box<Problem>;
+pub type FileError = Box<Diagnostic>;
 
-impl Problem {
+impl Diagnostic {
     /// A problem with a whole file or folder.
-    pub fn with_path(path: &Path, what: Fault) -> Self {
+    pub fn with_path(path: &Path, cause: Fault) -> Self {
         let place = Place::in_file(&path.display().to_string(), Position::Whole);
-        Self { place, ..what.into() }
+        Self { place, ..cause.into() }
+    }
+
+    /// A choice of the program, without its place.
+    #[track_caller]
+    pub fn choice(text: impl Into<Cow<'static, str>>) -> Self {
+        Self::remark(Severity::Choice, text)
+    }
+
+    /// A note, without its place.
+    #[track_caller]
+    pub fn note(text: impl Into<Cow<'static, str>>) -> Self {
+        Self::remark(Severity::Note, text)
+    }
+
+    /// A warning, without its place.
+    #[track_caller]
+    pub fn warning(text: impl Into<Cow<'static, str>>) -> Self {
+        Self::remark(Severity::Warning, text)
+    }
+
+    /// A warning about a number that nothing real is known to have, without its place.
+    #[track_caller]
+    pub fn implausible(text: impl Into<Cow<'static, str>>) -> Self {
+        Self::remark(Severity::Implausible, text)
+    }
+
+    #[track_caller]
+    fn remark(severity: Severity, text: impl Into<Cow<'static, str>>) -> Self {
+        Self { severity, origin: Some(Location::caller()), ..Fault::plain(text).into() }
+    }
+
+    /// The same of a number that is so many times outside of what is usual.
+    #[must_use]
+    pub fn outside_by(self, times: f64) -> Self {
+        Self { is_unusual: times > 0.0, is_absurd: times >= ABSURD, ..self }
+    }
+
+    /// The same about a key: `run.time_step`.
+    #[must_use]
+    pub fn with_key(self, key: impl Into<String>, value: Option<String>) -> Self {
+        Self { key: key.into(), value, ..self }
+    }
+
+    /// The same as an error: where something else is wrong with the input, a warning may be its cause.
+    #[must_use]
+    pub fn into_error(self) -> Self {
+        Self { severity: Severity::Error, ..self }
+    }
+
+    /// The same about one file of several.
+    #[must_use]
+    pub fn of_file(mut self, file: &str) -> Self {
+        self.cause.message = format!("{file}: {}", self.cause.message).into();
+        self
+    }
+
+    /// The text without the place, for a reader who sees the value.
+    pub fn without_place(&self) -> String {
+        Self { place: Place::Code, ..self.clone() }.to_string()
+    }
+
+    /// Whether the results may mislead. Otherwise it is a note, for example on rounding.
+    pub fn is_warning(&self) -> bool {
+        self.severity >= Severity::Warning
+    }
+
+    /// Whether another one says the same about the same key, perhaps with other numbers.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.origin == other.origin && self.key == other.key
+    }
+
+    /// The notes that go with results: all but choices.
+    pub fn notes_of_results(notes: &[Self]) -> Vec<String> {
+        notes.iter().filter(|note| note.severity > Severity::Choice).map(Self::to_string).collect()
     }
 
     /// Changes what is known of the place in the file.
@@ -209,23 +310,32 @@ impl Problem {
     }
 }
 
-impl From<Fault> for Problem {
-    fn from(what: Fault) -> Self {
-        Self { place: Place::Code, key: String::new(), value: None, what }
+impl From<Fault> for Diagnostic {
+    fn from(cause: Fault) -> Self {
+        Self {
+            severity: Severity::Error,
+            place: Place::Code,
+            key: String::new(),
+            value: None,
+            cause,
+            is_unusual: false,
+            is_absurd: false,
+            origin: None,
+        }
     }
 }
 
-impl From<Fault> for Box<Problem> {
-    fn from(what: Fault) -> Self {
-        Self::new(what.into())
+impl From<Fault> for FileError {
+    fn from(cause: Fault) -> Self {
+        Self::new(cause.into())
     }
 }
 
 /// The fault of a key that names a file which cannot be used.
-impl From<Box<Problem>> for Fault {
-    fn from(problem: Box<Problem>) -> Self {
+impl From<FileError> for Fault {
+    fn from(error: FileError) -> Self {
         // Options of the program are for a file that is named on the command line.
-        let Problem { place, key, value, what: Self { message, remedy, .. } } = *problem;
+        let Diagnostic { place, key, value, cause: Self { message, remedy, .. }, .. } = *error;
         let named = match (key.as_str(), value) {
             ("", _) => String::new(),
             (key, Some(value)) => format!("{key} = {value} "),
@@ -235,9 +345,9 @@ impl From<Box<Problem>> for Fault {
     }
 }
 
-impl<W: fmt::Debug + fmt::Display> std::error::Error for Finding<W> {}
+impl std::error::Error for Diagnostic {}
 
-impl<W: fmt::Display> fmt::Display for Finding<W> {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut f = Printable(f);
         write!(f, "{}{}", self.place, self.key)?;
@@ -247,6 +357,6 @@ impl<W: fmt::Display> fmt::Display for Finding<W> {
         if !self.key.is_empty() {
             f.write_str(" ")?;
         }
-        write!(f, "{}", self.what)
+        write!(f, "{}", self.cause)
     }
 }

@@ -231,15 +231,14 @@ impl SubsamplePlan {
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
         let with_pitches = |told: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..told };
         let Some(curves) = curves else {
-            let told = filaments.estimate(None, by.0)?;
-            return Ok(with_pitches(SubsampleEstimate { correlation: f64::NAN, ..told }));
+            return Ok(with_pitches(filaments.estimate(None, by.0)?));
         };
         let covariances = Covariances::fit(curves, by.0);
         let filled =
             self.filled((sheet, simulated.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
         let told = filaments.estimate(Some(&filled), by.0)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
-        Ok(with_pitches(SubsampleEstimate { correlation: correlation[0].min(correlation[1]), ..told }))
+        Ok(with_pitches(SubsampleEstimate { correlation: Some(correlation[0].min(correlation[1])), ..told }))
     }
 
     /// Maps in which the filaments between the simulated ones have been filled in.

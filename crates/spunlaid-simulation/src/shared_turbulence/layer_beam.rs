@@ -6,10 +6,9 @@ use crate::{LaydownSource, LayerSpec, WebSpec};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use spunlaid_fibre::{Case, LaidPoint};
-use spunlaid_ground::error::Place;
 use spunlaid_ground::place::Inlet;
 use spunlaid_ground::threads::par_map;
-use spunlaid_ground::{Dimension, Error, Estimate, Fault, Problem};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Estimate, Fault};
 use spunlaid_web::curtain::drawing::draw;
 use spunlaid_web::curtain::lay_with;
 use spunlaid_web::map::inlets;
@@ -283,7 +282,7 @@ impl WebSpec {
     }
 
     /// The problem of a web in shared turbulence whose field of eddies does not fit into the memory that it may take.
-    pub fn air_beyond_memory(&self) -> Option<Problem> {
+    pub fn air_beyond_memory(&self) -> Option<Diagnostic> {
         let beams = (0..self.layers.len()).filter_map(|number| beam_on(self, number, None).ok());
         let largest = beams
             .map(|layer| (layer.beam().memory_of_air(&layer.sheet, f64::INFINITY), layer.case.air.lateral))
@@ -314,8 +313,7 @@ impl WebSpec {
                 ),
             },
         );
-        let value = Some(memory(self.memory_limit));
-        Some(Problem { place: Place::Code, key: "web.memory_limit".to_owned(), value, what })
+        Some(Diagnostic::from(what).with_key("web.memory_limit", Some(memory(self.memory_limit))))
     }
 }
 
