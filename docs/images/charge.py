@@ -59,7 +59,7 @@ def main():
         parts.append(f'<text x="{LEFT - 8}" y="{y + 4}" text-anchor="end">{1e3 * belt * share:g}</text>')
     middle = TOP + HEIGHT / 2
     parts.append(f'<text transform="translate(14 {middle}) rotate(-90)" text-anchor="middle">Distance from the inlet (mm)</text>')
-    parts.append(f'<text x="{(LEFT + width) / 2}" y="{TOP + HEIGHT + 42}" text-anchor="middle">Place in machine direction (mm)</text>')
+    parts.append(f'<text x="{(LEFT + width) / 2}" y="{TOP + HEIGHT + 42}" text-anchor="middle">Position in machine direction (mm)</text>')
     size = f'width="{width}" height="{TOP + HEIGHT + 54}"'
     with open(out, "w", encoding="utf-8") as file:
         file.write(f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="sans-serif" font-size="13">\n')

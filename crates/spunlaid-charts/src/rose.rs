@@ -186,7 +186,7 @@ mod tests {
             name: words("rose"),
             title: words("Rose"),
             classes,
-            reference: Some((1.0, words("as often in all directions"))),
+            reference: Some((1.0, words("isotropic"))),
             sides: ["right", "up", "left", "down"].map(words),
             columns: ["direction_degrees", "share"].map(words),
             series: words("fibre"),

@@ -35,7 +35,7 @@ class Controls {
     }
     this.controls.clear();
     this.form.replaceChildren();
-    this.group(this.form, "What matters most", settings.filter((s) => s.first));
+    this.group(this.form, "Main settings", settings.filter((s) => s.first));
     const rest = settings.filter((s) => !s.first);
     for (const table of new Set(rest.map((s) => s.table))) {
       const more = element("details");
@@ -57,7 +57,7 @@ class Controls {
     const about = element("details");
     const name = element("summary", { id: `${id}-name`, title: `${setting.meaning} ${setting.about}` });
     labelled(name, setting.label === setting.key ? this.plain(setting.key) : setting.label);
-    const effect = setting.in_flight ? "It changes at once." : "The fibres start anew with it.";
+    const effect = setting.in_flight ? "It changes at once." : "The fibres start again with it.";
     about.append(name, element("p", { textContent: `${setting.meaning.replace(/`/g, "")} ${setting.about} ${effect}` }));
     const head = element("div", { className: "head" });
     row.append(head);
@@ -127,7 +127,7 @@ class Controls {
   /** Marks a value that was written and cannot be simulated, and says why beside it. The box keeps it. */
   refuse(key, value, why) {
     const { text, wrong } = this.controls.get(key);
-    [text.value, wrong.textContent, wrong.hidden] = [value, `${why}. The setting before flies on; Escape brings it back.`, false];
+    [text.value, wrong.textContent, wrong.hidden] = [value, `${why}. The simulation continues with the previous value; Escape restores it.`, false];
     text.setAttribute("aria-invalid", "true");
     text.setAttribute("aria-describedby", wrong.id);
   }

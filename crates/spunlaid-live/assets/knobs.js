@@ -3,7 +3,7 @@
 const NOTCHES = 400;
 /** How long a thumb rests until its value counts [ms]. */
 const REST = 150;
-const GROUPS = [["running", "While the line runs"], ["stopped", "At a stop"], ["rebuilt", "Built"]];
+const GROUPS = [["running", "While the line runs"], ["stopped", "While the line is stopped"], ["rebuilt", "Fixed by the design"]];
 
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
@@ -244,7 +244,7 @@ class Knobs {
     this.moves();
     control.text.value = typeof control.asked === "number" ? this.written(control.knob, control.asked) : control.asked;
     control.asked = null;
-    control.wrong.textContent = `${why.replace(/\.$/, "")}. The line before goes on; Escape brings it back.`;
+    control.wrong.textContent = `${why.replace(/\.$/, "")}. The simulation continues with the previous line; Escape restores it.`;
     control.wrong.hidden = false;
     control.was.textContent = "";
     control.text.setAttribute("aria-invalid", "true");

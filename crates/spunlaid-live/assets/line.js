@@ -96,7 +96,7 @@ const link = new Link({
   },
   saved: ({ name }) => saved(`saved as ${name}`, false),
   exists({ name }) {
-    if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
+    if (confirm(`${name} already exists. Replace it?`)) link.ask({ do: "save", name, replace: true });
   },
 }, readLineFrame);
 
@@ -117,8 +117,8 @@ async function offline() {
   if (connection.open) return;
   note(
     moved
-      ? "The program was started again and has another address. Open the new address that it printed."
-      : "The program does not answer; the page tries again. The numbers are the last ones.",
+      ? "The program was started again and has another address. Open the new address that it has printed."
+      : "The program does not answer; the page keeps trying. The numbers are the last ones received.",
   );
   status();
 }
@@ -272,7 +272,7 @@ function headline(best, generation) {
   const doubt = change?.is_sure || isOld ? "" : ", not significant";
   // After the last look there is none that could still come.
   const isDone = page.isTurned && !["before", "sketch"].includes(page.state.work?.stage);
-  const none = isDone ? "change not known: the sample of filaments does not give it" : "";
+  const none = isDone ? "change not known: the sample of filaments is too small" : "";
   say("change", change ? `${changeText(change)} against before${doubt}` : none);
   place.className = !change || isOld ? "old" : verdict(change);
   const { confirmed } = best;
@@ -287,7 +287,7 @@ function showConfirm({ confirmation }) {
   const isKnown = page.isTurned && [...page.patches.values()].some((p) => p.change && p.changeOf === page.state.generation);
   button.hidden = !isKnown;
   button.disabled = Boolean(confirmation);
-  const words = confirmation?.is_done ? "Simulated again with seed" : "Is simulated again with seed";
+  const words = confirmation?.is_done ? "Simulated again with seed" : "Being simulated again with seed";
   say("confirm", confirmation ? `${words} ${confirmation.seed}` : "Confirm in other turbulence");
 }
 
@@ -295,7 +295,7 @@ function showConfirm({ confirmation }) {
 function showWork(work) {
   for (const item of byId("stages").children) {
     const order = STAGES.indexOf(item.dataset.stage);
-    // What the knobs do is tried when all is complete; a confirmation comes between sketch and complete, or after all.
+    // Testing the effect of each setting when all is complete; a confirmation comes between sketch and complete, or after all.
     const isBetween = work?.stage === "confirm" && !judged()?.now?.is_complete;
     const at = isBetween ? 1.5 : STAGES.includes(work?.stage) ? STAGES.indexOf(work.stage) : STAGES.length;
     item.hidden = item.dataset.stage === "sketch" && !page.isTurned;
@@ -308,12 +308,12 @@ function showWork(work) {
 
 function status() {
   const { state: now } = page;
-  if (!connection.open) return say("status", "No connection with the program.");
+  if (!connection.open) return say("status", "No connection to the program.");
   if (!now) return say("status", "Connecting …");
   const best = judged();
   const isComplete = page.isTurned ? best?.now?.is_complete && best.of === now.generation : best?.before?.is_complete;
   const parts = [isComplete ? "Complete: spunlaid web gives bit-identical numbers for this line." : ""];
-  if (now.stands) parts.push("It stands: press Go.");
+  if (now.stands) parts.push("Paused: press Go.");
   else if (now.work) parts.push(`${now.work.words}.`);
   if (now.price) parts.push(`This value ${now.price}.`);
   say("status", parts.filter(Boolean).join(" "));

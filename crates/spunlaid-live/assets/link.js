@@ -72,7 +72,7 @@ function copies(button, place) {
       button.textContent = "Copied";
     } catch {
       getSelection().selectAllChildren(place);
-      button.textContent = "Marked: press Ctrl+C";
+      button.textContent = "Selected: press Ctrl+C";
     }
     setTimeout(() => (button.textContent = textContent), 2500);
   });

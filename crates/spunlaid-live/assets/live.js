@@ -58,7 +58,7 @@ const link = new Link({
     saved(`saved as ${name}`, false);
   },
   exists({ name }) {
-    if (confirm(`${name} is there already. Replace it?`)) link.ask({ do: "save", name, replace: true });
+    if (confirm(`${name} already exists. Replace it?`)) link.ask({ do: "save", name, replace: true });
   },
 }, readFrame);
 
@@ -81,7 +81,7 @@ function state(told) {
   if (Boolean(page.state?.belt) !== fed || !page.state) {
     document.querySelectorAll(".of-fixed").forEach((e) => (e.hidden = fed));
     document.querySelectorAll(".of-fed").forEach((e) => (e.hidden = !fed));
-    byId("settling-title").textContent = `${fed ? "Spread σ" : "Amplitude"} as it settles, ± one standard error`;
+    byId("settling-title").textContent = `Convergence of ${fed ? "σ" : "the amplitude"}, ± one standard error`;
     page.before = null;
   }
   if (other) {
@@ -97,11 +97,11 @@ function state(told) {
   document.title = `${told.title} – spunlaid live`;
   byId("command").textContent = told.command;
   byId("pace").value = told.pace;
-  byId("step").title = `Go on by one recorded instant (${told.instant})`;
+  byId("step").title = `Advance by one recorded instant (${told.instant})`;
   const play = byId("play");
   play.textContent = told.stands ? "Go" : "Pause";
   play.setAttribute("aria-pressed", String(!told.stands));
-  const notes = [...(told.trouble ? [`The fibres were lost: ${told.trouble}. They are straight again and stand. Change what was too much for them, then press Go.`] : []), ...told.notes];
+  const notes = [...(told.trouble ? [`The simulation failed: ${told.trouble}. The fibres are straight again and the time is stopped. Change the setting that caused this, then press Go.`] : []), ...told.notes];
   byId("remark").textContent = told.remark ? `${told.remark[0].toUpperCase()}${told.remark.slice(1)}.` : "";
   byId("filament").hidden = told.filament.length === 0;
   byId("filament").replaceChildren(...told.filament.map(sentence));
@@ -147,7 +147,7 @@ function measured(told) {
   const since = byId("since");
   since.textContent =
     told.settling > 0
-      ? `The fibres settle: ${told.settling.toFixed(2)} s are left out.`
+      ? `The fibres are settling: another ${told.settling.toFixed(2)} s are left out.`
       : `${told.duration.toFixed(2)} s of eight fibres.`;
   const list = byId("numbers");
   if (list.children.length !== told.numbers.length) {
@@ -175,18 +175,18 @@ function status() {
   let [text, pace] = [line.textContent, ""];
   if (!connected) {
     text = page.moved
-      ? "The program has been started again and has another address. Open the new address, which it has printed."
-      : "The program does not answer. It may have ended; the page tries again. If you have started it again, open the new address, which it has printed.";
+      ? "The program was started again and has another address. Open the new address that it has printed."
+      : "The program does not answer. It may have ended; the page keeps trying. If you have started it again, open the new address that it has printed.";
   } else if (!state) {
     text = "Connecting …";
   } else if (state.stands && state.trouble) {
-    text = "The time stands, because the fibres were lost. Press Go to fly on.";
+    text = "Paused, because the simulation failed. Press Go to continue.";
   } else if (state.stands) {
-    text = `The time stands. Steps of ${state.step}, ${state.scheme}.`;
+    text = `Paused. Steps of ${state.step}, ${state.scheme}.`;
   } else if (frame) {
     const speed = shown(frame.speed, 2);
     text = `Eight fibres, steps of ${state.step}, ${state.scheme}.`;
-    pace = frame.behind ? `${speed} of real time: this machine cannot keep the pace.` : `${speed} × real time.`;
+    pace = frame.behind ? `${speed} of real time: this computer is too slow for this pace.` : `${speed} × real time.`;
   }
   // A screen reader speaks what is new in this line; the pace, which always changes, stands beside it.
   if (line.textContent !== text) line.textContent = text;
@@ -234,7 +234,7 @@ function refusal(all) {
   const box = byId("refused");
   box.hidden = all.length === 0;
   const lines = all.map(({ text }) => element("p", { textContent: text }));
-  const kept = element("p", { textContent: "The setting before flies on." });
+  const kept = element("p", { textContent: "The previous setting stays in effect." });
   box.replaceChildren(...lines, kept);
 }
 
@@ -330,8 +330,8 @@ function tick(now) {
   page.drawn = frame;
   if (now - counted.at > 1000) {
     counted = { at: now, drawn: 0, rate: (1000 * counted.drawn) / (now - counted.at) };
-    const delay = seen.latency.length ? `, ${Math.round(seen.latency.at(-1))} ms from a slider to the picture` : "";
-    byId("cost").textContent = `${Math.round(counted.rate)} pictures a second${delay}`;
+    const delay = seen.latency.length ? `, ${Math.round(seen.latency.at(-1))} ms from slider to picture` : "";
+    byId("cost").textContent = `${Math.round(counted.rate)} pictures per second${delay}`;
     status();
   }
 }

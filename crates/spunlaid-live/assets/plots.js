@@ -318,7 +318,7 @@ class Plots {
       stroke(c, points.map(([, y, z]) => [cx + scale * y, cy - scale * z]));
     }
     c.globalAlpha = 1;
-    text(c, "the belt runs this way →", width - 10, 16, "right");
+    text(c, "belt direction →", width - 10, 16, "right");
     scaleBar(c, height, scale);
   }
 

@@ -27,8 +27,8 @@ impl Refusal {
     /// What is answered.
     pub(super) const fn text(self) -> &'static str {
         match self {
-            Self::Host => "Use this server only by its address 127.0.0.1.\n",
-            Self::Origin => "Pages of other servers may not talk to this one.\n",
+            Self::Host => "Use this server only at its address 127.0.0.1.\n",
+            Self::Origin => "Pages of other servers may not connect to this one.\n",
             Self::Token => "There is nothing here. Use the whole address that `spunlaid live` has printed.\n",
         }
     }

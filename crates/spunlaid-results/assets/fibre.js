@@ -143,7 +143,7 @@ if (canvas) {
     };
   } catch (error) {
     const message = byId("fibre-error");
-    message.textContent = `The moving picture cannot be shown: ${error.message}`;
+    message.textContent = `The animation cannot be shown: ${error.message}`;
     message.hidden = false;
     throw error;
   }

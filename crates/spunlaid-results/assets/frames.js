@@ -14,7 +14,7 @@ function readFrames(element) {
   if (data.belt) return { ...data, positions, ...readBelt(data) };
   const expected = data.replicates.length * data.times.length * data.nodes * 3;
   if (positions.length !== expected) {
-    throw new Error(`${positions.length} coordinates of the fibre where ${expected} belong`);
+    throw new Error(`${positions.length} coordinates of the fibre instead of ${expected}`);
   }
   return { ...data, positions };
 }

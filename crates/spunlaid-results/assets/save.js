@@ -45,7 +45,7 @@ function startCopying() {
         // Without leave to write the clipboard: show the text, for the reader's own copy key.
         if (command) prompt("Ctrl+C copies it", command);
         else getSelection().selectAllChildren(block);
-        said = command ? "Copy" : "Marked: press Ctrl+C";
+        said = command ? "Copy" : "Selected: press Ctrl+C";
       }
       button.textContent = said;
       setTimeout(() => (button.textContent = "Copy"), 2500);

@@ -38,7 +38,7 @@ pub(crate) fn half_replaced(staging: &Path, error: io::Error) -> Failure {
         format!(
             "holds results that were being replaced, whole, and they cannot be moved to their places: {error}"
         ),
-        "see to it that the folder above it may be written, and run the command again: it moves them first",
+        "make the folder above it writable and run the command again; it moves them first",
     );
     Error::folder(staging, fault)
 }
@@ -81,8 +81,8 @@ pub(crate) fn other_version(folder: &Path, version: &str) -> Failure {
     let this = env!("CARGO_PKG_VERSION");
     let fault = Fault::new(
         format!(
-            "holds a study of spunlaid {version}, and this is {this}; their numbers may differ in the last \
-            bits and are not mixed. The results there can still be read"
+            "holds a study of spunlaid {version}, and this is {this}; their numbers may differ by rounding and are \
+            not mixed. The results there can still be read"
         ),
         format!("continue with spunlaid {version}, name another folder, or start again"),
     );

@@ -180,7 +180,7 @@ fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
         "\n#   the web: about ",
         "\n#   advice, ",
         "--set line.slot_gap=\"20 mm\"\n",
-        "#   What the filaments do to their air can be found with the size of the slot: line.slot_gap",
+        "#   The force of the filaments on the air can be computed from the size of the slot: line.slot_gap",
         "fed at 50 m/s; 16.7 m of filament on each metre of belt",
     ] {
         assert!(said.contains(part), "{part}\n{said}");

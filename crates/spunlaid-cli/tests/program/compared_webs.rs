@@ -150,7 +150,7 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     }
     let found = compared(&desk, "laid scan");
     assert_eq!(desk.entries("both/figures"), names(&["web_cv.csv", "web_cv.png", "web_cv.svg"]));
-    assert!(!page(&desk).contains("Next to each other") && found["notes"].as_array().unwrap().len() == 2);
+    assert!(!page(&desk).contains("Pictures at the same scale") && found["notes"].as_array().unwrap().len() == 2);
     let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
     assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
 }

@@ -114,7 +114,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     assert!(fabric["patches"][2]["lighter_than_80_percent_per_m2"].is_object(), "{fabric}");
     assert!(fabric.get("bare_area").is_none() && fabric["patches"][2].get("formation").is_none());
     assert_eq!(fabric["notes"].as_array().unwrap().len(), 1, "{fabric}");
-    assert!(said.contains("What a buyer counts\n") && said.contains("a scan does not show"), "{said}");
+    assert!(said.contains("Defects per area\n") && said.contains("a scan does not show"), "{said}");
     success(&mut desk.spunlaid(&format!("{command} --weight 15gsm --titre 2.3dtex --out known")));
     let of_10_mm = |folder: &str| desk.summary(folder)["fabric"]["patches"][3]["formation"].take();
     let [one, other] = [of_10_mm("laid"), of_10_mm("known")];

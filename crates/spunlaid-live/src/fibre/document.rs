@@ -67,8 +67,8 @@ impl Document {
             && let Some(other) = files_of(document).difference(&self.files).next()
         {
             let text = format!(
-                "\"{other}\": a page may not name other files than the case that the program was started with; start \
-                 `spunlaid live` with a case that names it"
+                "\"{other}\": a page can use only the files of the case with which the program was started; start \
+                 `spunlaid live` with a case that names this file"
             );
             return Err(diagnostic(text));
         }
@@ -147,7 +147,7 @@ impl Document {
     /// The command that does the same run.
     pub(super) fn command(&self, replicates: usize) -> String {
         let Some((path, original)) = &self.file else {
-            return "save the case first; then this is the command that runs it".to_owned();
+            return "save the case first; this command then runs it".to_owned();
         };
         let changed = differences(original, &self.text);
         let set: String = changed

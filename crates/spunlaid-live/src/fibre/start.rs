@@ -50,8 +50,8 @@ pub(super) fn adapt_to_clock(document: Document) -> Result<(Document, Option<Str
     let step = read.case.run.time_step;
     let [asked_step, step] = [run.time_step, step].map(|step| Dimension::Time.pretty_to(step, 3));
     let note = format!(
-        "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to keep up with the clock, the \
-        fibres move with \"{}\" and {step}",
+        "the case asks for run.scheme = \"{}\" and steps of {asked_step}; to run in real time, the page uses \"{}\" \
+        and {step}",
         run.scheme.name(),
         Scheme::ImplicitTension.name()
     );

@@ -59,7 +59,7 @@ impl Receives for Session {
             Command::Back { to } => {
                 if !self.webs.iter().any(|web| web.number == *to) {
                     return Err(Answer::refused(
-                        "this answer is not remembered any more; turn the knobs again",
+                        "this answer is no longer stored; change the settings again",
                     ));
                 }
                 self.show_web(*to);
@@ -71,7 +71,7 @@ impl Receives for Session {
             | Command::Pace { .. }
             | Command::Step {}
             | Command::Forget {} => {
-                return Err(Answer::refused("the page of a line has no such message; that of a fibre does"));
+                return Err(Answer::refused("the page of a line has no such message; the page of a fibre does"));
             }
         }
         Ok(None)
@@ -88,7 +88,7 @@ impl Session {
         match self.web_mut(now).filter(|web| web.number != before && is_known(web)) {
             Some(web) => web.compare(Air::Other, before),
             None => {
-                let text = "there is no change to confirm; turn a knob and wait for the first change";
+                let text = "there is no change to confirm; change a setting and wait for the first result";
                 return Err(Answer::refused(text));
             }
         };

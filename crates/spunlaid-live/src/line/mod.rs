@@ -127,7 +127,7 @@ impl Session {
         let (file, line) = resources.resolve_tension(read, |resources| resources.fly(by))?;
         if !line.spec.flies() {
             let what = format!(
-                "{name} is a web of known numbers: nothing of it is simulated that a page could show"
+                "{name} gives the laydown as numbers, so no filaments are simulated that a page could show"
             );
             let remedy = format!(
                 "`spunlaid web {name}` lays it; `spunlaid new --web` writes a line that is simulated"
@@ -384,5 +384,5 @@ impl Session {
 
 /// Why a web is not compared, and what follows.
 fn no_sketch(error: &Error) -> String {
-    format!("there are no first numbers, those of the complete web will come: {error}")
+    format!("no first numbers; the complete web will give them: {error}")
 }

@@ -85,20 +85,20 @@ impl Session {
     fn work(&self) -> Option<Json> {
         let flying = self.flying.as_ref().filter(|flying| !flying.is_unwanted())?;
         let (stage, words) = match flying.task {
-            Task::Settle(_) => ("before", "Flights find the tension at the end of the spinline"),
+            Task::Settle(_) => ("before", "Finding the tension at the end of the spinline"),
             Task::Pin(_) => {
-                ("before", "A sample of filaments lays a coarse web, with which others are compared")
+                ("before", "Laying a coarse reference web from a sample of filaments")
             }
             Task::Compare { air: Air::OfFile, .. } => {
-                ("sketch", "The changed web is compared in the same turbulence")
+                ("sketch", "Comparing the changed web in the same turbulence")
             }
             Task::Compare { air: Air::Other, .. } => {
-                ("confirm", "Both webs are simulated again, in turbulence with another seed")
+                ("confirm", "Simulating both webs again, in turbulence with another seed")
             }
-            Task::Lay(_) if self.now == self.before => ("complete", "The web is laid in full"),
-            Task::Lay(web) if web == self.before => ("complete", "The web before is laid in full"),
-            Task::Lay(_) => ("complete", "The changed web is laid in full"),
-            Task::Try(_) => ("effects", "What the knobs do is tried"),
+            Task::Lay(_) if self.now == self.before => ("complete", "Laying the complete web"),
+            Task::Lay(web) if web == self.before => ("complete", "Laying the complete web before the change"),
+            Task::Lay(_) => ("complete", "Laying the complete changed web"),
+            Task::Try(_) => ("effects", "Testing the effect of each setting"),
         };
         Some(json!({"stage": stage, "words": words, "share": (100.0 * flying.share).floor() / 100.0}))
     }
@@ -124,7 +124,7 @@ impl Session {
     /// The command that lays the same web.
     fn command(&self, web: &KnownWeb) -> String {
         let Some(path) = &self.path else {
-            return "save the line first; then this is the command that lays its web".to_owned();
+            return "save the line first; this command then lays its web".to_owned();
         };
         let set: String = web
             .line
@@ -155,7 +155,7 @@ fn too_small(before: &KnownWeb, now: &KnownWeb) -> Option<String> {
         Some(look) => look.changes.is_empty(),
         None => before.laid.is_none() && before.coarse.as_ref().is_some_and(|look| look.cvs.is_empty()),
     };
-    let text = "the sample of filaments is too small for first numbers; those of the complete web will come";
+    let text = "the sample of filaments is too small for first numbers; the complete web will give them";
     says_nothing.then(|| text.to_owned())
 }
 

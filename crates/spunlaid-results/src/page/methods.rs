@@ -26,7 +26,7 @@ pub(crate) fn methods(command: &str, cited: Vec<Reference>, input: &str) -> Sect
     };
     let case = match input {
         "" => String::new(),
-        input => format!(" The input with all its numbers is {input}."),
+        input => format!(" The complete input is {input}."),
     };
     let text = format!("The numbers come from {} (spunlaid {command}){models}.{case}", PROGRAM.short);
     let full = works.iter().map(|work| work.full.to_owned());

@@ -20,7 +20,7 @@ pub fn read_summary_of_run(folder: &Path) -> Result<Json, Failure> {
     if summary.get("end_node").or_else(|| summary.get("laydown")).is_none() {
         let reason = match summary.get("spinline") {
             Some(_) => {
-                "it holds a spinline, which has no chance in it: read its numbers side by side".to_owned()
+                "it holds a spinline, which has no random part; compare its numbers directly".to_owned()
             }
             None => format!("{SUMMARY} is not that of a run"),
         };

@@ -9,10 +9,10 @@ use serde_json::Value as Json;
 use spunlaid::fibre::{Case, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
 use spunlaid::ground::{Measured, measure};
 
-const TITLE: &str = "What the filaments do to their air";
+const TITLE: &str = "Force of the filaments on the air";
 
 /// What is said where nothing of the way was seen.
-const NOT_SEEN: &str = "The force on the way to the belt is not known, because no filament was seen on it.";
+const NOT_SEEN: &str = "The force on the way to the belt is not known, because no filament was recorded on it.";
 
 /// Share of the momentum of the air from which on the given air is far from that of the line.
 const LARGE: f64 = 0.2;
@@ -61,7 +61,7 @@ pub(super) fn section_of_loads(loads: &[(Option<&str>, &Load)]) -> Option<Sectio
         };
     }
     let heat = match loads.iter().all(|(_, load)| load.heat.is_none()) {
-        true => " What heat they bring is not known, because they come from no spinline.",
+        true => " Their heat is not known, because they do not come from a spinline.",
         false => "",
     };
     Some(section.brief().caption(format!(
@@ -82,12 +82,12 @@ pub fn load_words(load: &Load) -> String {
     });
     let missing = load.air.is_none().then(|| match load.places.is_empty() {
         true => {
-            "What the filaments do to their air can be found with the size of the slot: line.slot_gap, next to \
-            line.filaments_per_metre."
+            "The force of the filaments on the air can be computed from the size of the slot: line.slot_gap, next \
+            to line.filaments_per_metre."
                 .to_owned()
         }
-        false => "How much this is of the momentum of the air is not known without the size of the slot; a web has it \
-        in line.slot_gap, next to line.filaments_per_metre."
+        false => "Its ratio to the momentum of the air is not known without the size of the slot; a web has it in \
+        line.slot_gap, next to line.filaments_per_metre."
             .to_owned(),
     });
     let on_way = load.at_belt().map(on_way);
@@ -109,10 +109,10 @@ fn on_way(belt: &LoadPlace) -> String {
         format!(", and between walls its pressure would change by {}{THIN}Pa", significant(rise, 2))
     });
     let verdict = if share.abs() > LARGE {
-        "That is so much that the given air can hardly be that of this line, unless it was measured or computed with \
-        its filaments."
+        "This is so large that the given air cannot be that of this line, unless it was measured or computed with \
+        the filaments."
     } else {
-        "The flights are in the air as it is given."
+        "The filaments are simulated in the given air."
     };
     format!("{force}, {} of its momentum flux: {effect}{pressure}. {verdict}", per_cent(share))
 }

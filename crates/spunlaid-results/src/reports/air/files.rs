@@ -242,8 +242,8 @@ pub fn outside(places: &[Vec3<f64>], found: &[Option<LocalAir>]) -> Option<Strin
     let outside = found.iter().filter(|air| air.is_none()).count();
     let (at, row) = places.iter().zip(1..).zip(found).find(|(_, air)| air.is_none())?.0;
     Some(format!(
-        "{outside} of {} places lie where the air is not known, the first of them in row {row} ({}, {}, {} m): their \
-         cells are empty",
+        "{outside} of {} positions are where the air is not known, the first of them in row {row} ({}, {}, {} m): \
+         their cells are empty",
         places.len(),
         at.x,
         at.y,

@@ -147,10 +147,9 @@ pub fn overlaid_webs(webs: &[(String, Vec<ComparedPatch>)]) -> Figure {
     }
     Figure::new(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and \
-        bands are 95 % intervals: they hold the CV of all such webs, with the error of the model where \
-        fibres were simulated. An open circle has no interval, so nothing is said about its difference; the \
-        table says why.",
+        "Standard deviation of the basis weight of square patches over its mean, for each web. Bars and bands are \
+        95 % intervals: they hold the CV of all such webs, with the error of the model where fibres were simulated. \
+        An open circle has no interval, so its difference is not judged; the table gives the reason.",
     )
 }
 

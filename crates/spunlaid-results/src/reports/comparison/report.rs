@@ -20,7 +20,7 @@ pub fn comparison_report<'a>(
     let title = title(comparisons);
     let beside = pictures.map(|webs| {
         let view = View::new(&Beside::new(webs), &[]);
-        Section::new("pictures", "Next to each other").view(view).caption(caption(&webs.pictures))
+        Section::new("pictures", "Pictures at the same scale").view(view).caption(caption(&webs.pictures))
     });
     Report::new("compare", title)
         .with_all(beside)
@@ -53,7 +53,7 @@ fn pair<'a>(number: usize, comparison: &Comparison) -> Section<'a> {
         .heading("Where the streaks may come from")
         .table(
             Table::new(["Streak"])
-                .sentences(["What the line says of it"])
+                .sentences(["Possible cause in the line"])
                 .rows(comparison.causes.iter().map(row)),
         )
         .caption(CAUSES)

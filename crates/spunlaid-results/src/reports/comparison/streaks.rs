@@ -128,8 +128,8 @@ fn of_streak(streak: &Streak, layers: &[Layer]) -> Cause {
         let (of, laid) = (&layer.of, millimetres(WIDTH * layer.sigma));
         let (cause, words) = if range[1] < layer.sigma {
             let words = format!(
-                "narrower than one filament{of} is laid, {laid}: no hole, pack or spacing of holes makes it. Look \
-                 behind the laydown, at rolls and belt, or at the scanner"
+                "narrower than one filament{of} is laid, {laid}: no hole, pack or spacing of holes can cause it. \
+                 Check the rolls and the belt after the laydown, or the scanner"
             );
             (None, words)
         } else if range[0] > layer.sigma {

@@ -53,10 +53,10 @@ fn patch_cv(fit: &Fit) -> Figure {
     );
     Figure::new(
         &curves(chart, &patches),
-        "Standard deviation of the basis weight of square patches over its mean, in pieces of web as large \
-        as the part of the scan that is compared. In the band lie 95 of 100 single simulated webs with the \
-        values that were found: a scan of such a web lies there too. It is about the piece itself, so it is \
-        lower for large patches than that of the whole web.",
+        "Standard deviation of the basis weight of square patches over its mean, in pieces of web as large as the \
+        part of the scan that is compared. The band contains 95 of 100 single simulated webs with the fitted \
+        values; a scan of such a web is expected there too. The CV is relative to the mean of the piece, so for \
+        large patches it is lower than that of the whole web.",
     )
 }
 
@@ -80,9 +80,8 @@ fn spectrum(fit: &Fit, direction: usize) -> Figure {
     Figure::new(
         &curves(chart, &bands),
         format!(
-            "Variance of the relative basis weight by its wavelength in {words} direction, of the scan and \
-            of the simulated webs. In the band lie 95 of 100 single simulated webs with the values that were \
-            found."
+            "Variance of the relative basis weight by its wavelength in {words} direction, of the scan and of the \
+            simulated webs. The band contains 95 of 100 single simulated webs with the fitted values."
         ),
     )
 }
@@ -106,9 +105,9 @@ fn residuals(fit: &Fit) -> Figure {
     let level = |height: f64| [(from, height), (to, height)];
     let mut chart = Chart::new(
         "fit_residuals",
-        "What the fit leaves",
+        "Residuals of the fit",
         Axis::logarithmic("Side of a patch, or wavelength (mm)").in_column("size_mm"),
-        Axis::linear("Scan less fit (standard deviations of a web)").in_column("residual"),
+        Axis::linear("Scan minus fit (standard deviations of a web)").in_column("residual"),
     )
     .band(Series::new("95 of 100 webs", GREY), [(from, -NORMAL_95, NORMAL_95), (to, -NORMAL_95, NORMAL_95)])
     .line(Series::new("", INK).unlabelled().adorning().width(1.0), level(0.0))
@@ -120,9 +119,9 @@ fn residuals(fit: &Fit) -> Figure {
     }
     Figure::new(
         &chart,
-        "The logarithm of the scan’s number over that of the fit, in standard deviations of that number from \
-        one simulated web to another. Neighbouring sizes go together, so several points on one side say \
-        little more than one.",
+        "The logarithm of the scan’s number over that of the fit, in standard deviations of that number from one \
+        simulated web to another. Neighbouring sizes are correlated, so several points on one side mean little more \
+        than one.",
     )
 }
 
@@ -160,9 +159,9 @@ fn profile(key: &FittedKey) -> Figure {
     Figure::new(
         &chart,
         format!(
-            "The smallest misfit for other values of {} than the fitted one, {}. Webs were laid with each of \
-            these values, and with the values of the other keys that suit it best. A flat curve means that \
-            the scan does not determine this key.",
+            "The smallest misfit for values of {} other than the fitted one, {}. Webs were laid with each of these \
+            values and the best values of the other keys for it. A flat curve means that the scan does not \
+            determine this key.",
             key.parameter.key.name,
             significant(key.value * factor, 4)
         ),

@@ -145,8 +145,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
     all.push(if worse > 0 && RARE * worse <= webs {
         format!(
             "Webs of these values can look like the scan, but it is an unusual piece: only {worse} of {webs} \
-            simulated webs differ more from the others than it does. A narrow interval may miss then; scan \
-            another piece before you believe it."
+            simulated webs differ more from the others than it does. A narrow interval may then miss the true \
+            value; scan another piece before you rely on it."
         )
     } else if worse > 0 {
         format!(
@@ -156,14 +156,13 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
     } else {
         let chance = significant(100.0 / (webs as f64 + 1.0), 2);
         let others = if webs < USUAL_WEBS {
-            format!("Ask again with --webs {USUAL_WEBS} or more before you believe it.")
+            format!("Repeat the fit with --webs {USUAL_WEBS} or more before you rely on this.")
         } else {
-            "Seek other keys, or look at the figure of what the fit leaves.".to_owned()
+            "Fit other keys, or look at the figure of the residuals.".to_owned()
         };
         format!(
-            "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs \
-            than any of them from the others. This happens with {chance} % of scans that such webs give. \
-            {others}"
+            "No value of these keys makes webs like the scan: it differs more from the {webs} simulated webs than \
+            any of them differs from the others. This happens with {chance} % of scans that such webs give. {others}"
         )
     });
     for key in &fit.keys {
@@ -207,8 +206,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
             "a change of the first with one of the second".to_owned()
         };
         all.push(format!(
-            "The scan cannot separate {} and {} (correlation {}): {how} leaves it almost as it is. Measure \
-            one of them in another way, write its value in the file, and do not seek it.",
+            "The scan cannot separate {} and {} (correlation {}): {how} changes the web very little. Measure one of \
+            them in another way, write its value in the file, and do not fit it.",
             one.key.name,
             other.key.name,
             significant(pair.correlation, 2)
@@ -216,7 +215,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
     }
     if !fit.settled {
         all.push(
-            "The search has not settled: better values may exist. Start it elsewhere, with --set KEY=VALUE."
+            "The search has not converged: better values may exist. Start it from another value, with --set \
+                KEY=VALUE."
                 .to_owned(),
         );
     }
@@ -228,5 +228,5 @@ pub fn refused(fit: &Fit) -> Option<String> {
     let (_, reason) = fit.refused.last()?;
     let count = fit.refused.len();
     let trials = if count == 1 { "1 trial".to_owned() } else { format!("{count} trials") };
-    Some(format!("The webs of {trials} could not be laid, and the search has gone on without: {reason}"))
+    Some(format!("The webs of {trials} could not be laid, and the search continued without them: {reason}"))
 }

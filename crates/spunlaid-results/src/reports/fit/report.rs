@@ -53,11 +53,10 @@ fn values(fit: &Fit) -> Section<'static> {
         .table(table.rows(fit.keys.iter().map(row)))
         .paragraphs(sentences_of(fit).into_iter().chain(refused(fit)))
         .caption(
-            "The interval is that of a scan of this size: each simulated web in turn replaced the scan, and \
-            the values found for it scatter as those for a real scan do. The noise and the \
-            blur of the camera, the sample of simulated fibres and the surrogate are in it, as far as they are known. \
-            That the model of the line is right is not: other settings of keys that were not sought give \
-            other values.",
+            "The interval is that of a scan of this size: each simulated web in turn replaced the scan, and the \
+            values fitted to it scatter like those of a real scan. It includes the noise and the blur of the \
+            camera, the sample of simulated fibres and the surrogate, as far as they are known. It excludes errors \
+            of the model of the line: other values of keys that were not fitted give other results.",
         )
         .table(Table::new(heads).rows(rows))
 }

@@ -46,8 +46,8 @@ pub fn spectrum(points: &[SpectrumPoint]) -> Figure {
     Figure::new(
         &chart,
         "Figure 3. The spectrum of the synthesised velocity (Welch’s estimate over components, eddies and \
-         replicates) and the flat model it is made from: constant up to the cut-off and zero above. What is \
-         seen above the cut-off comes from the window of the estimate."
+         replicates) and the flat model it is made from: constant up to the cut-off and zero above. The energy \
+         above the cut-off comes from the window of the estimate."
             .to_owned(),
     )
 }

@@ -55,7 +55,7 @@ impl PaperFolder<'_> {
     fn report(&self, toml: &str) -> Report<'_> {
         let holds = self.claims.iter().filter(|claim| claim.verdict == Verdict::Holds).count();
         let headline = match self.claims.len() {
-            0 => "The paper’s figures, drawn again".to_owned(),
+            0 => "The paper’s figures, reproduced".to_owned(),
             all => format!("{holds} of the paper’s {all} claims hold"),
         };
         let verdicts = "The program computes the verdicts from the data. A trend is almost linear if a straight line \
@@ -63,7 +63,7 @@ impl PaperFolder<'_> {
             step in the wrong direction counts against a trend if it is larger than 2.5 standard errors. “Nearly \
             constant” means a change of at most 10\u{202f}%. “Open” means that the errors are too large to decide; \
             more replicates would help.";
-        let sections = claim_sections(self.claims, "What the paper says", verdicts);
+        let sections = claim_sections(self.claims, "Statement of the paper", verdicts);
         let mut report = Report::new("reproduce", headline).lead(self.how).with_all(sections);
         if !self.choices.is_empty() {
             let heads = [

@@ -86,7 +86,7 @@ fn step_advice(check: &FinerCheck, results: &Results) -> String {
     let most = |error: Estimate| error.mean.abs() + error.standard_error.unwrap_or(0.0);
     let error = errors(check, change).into_iter().map(most).fold(0.0, f64::max);
     let Some(scatter) = scatter(statistic.measures, results) else {
-        return "If that matters to you, halve run.time_step; with more replicates the scatter would be known too"
+        return "If that matters to you, halve run.time_step; more replicates would also give the scatter"
             .to_owned();
     };
     let known = format!("standard error over the replicates is {} %", significant(100.0 * scatter, 2));
@@ -94,8 +94,8 @@ fn step_advice(check: &FinerCheck, results: &Results) -> String {
         format!("A shorter step would gain nothing: the {quantity}'s {known}")
     } else {
         format!(
-            "Halve run.time_step and see whether the results change by more than chance: the {quantity}'s \
-            {known}"
+            "Halve run.time_step and see whether the results change by more than the sampling error: the \
+            {quantity}'s {known}"
         )
     }
 }
@@ -131,7 +131,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
     if check.is_fed {
         return if surely > FINE_ENOUGH {
             let half = length(check.element_length);
-            format!("The elements are too long: write fibre.element_length = \"{half}\" and look again")
+            format!("The elements are too long: write fibre.element_length = \"{half}\" and run again")
         } else {
             "One halving does not show how far this is from very fine elements: a laid fibre folds more finely \
              than its elements, and each further halving may change as much again"
@@ -144,7 +144,7 @@ fn mesh_advice(check: &FinerCheck) -> String {
     let found = shares(0.0);
     if surely > FINE_ENOUGH || found > 2.0 * FINE_ENOUGH {
         return format!(
-            "The elements are too long: write fibre.element_length = \"{}\" and look again",
+            "The elements are too long: write fibre.element_length = \"{}\" and run again",
             length(finer_elements(check))
         );
     }
@@ -182,7 +182,7 @@ mod tests {
     fn advice_on_the_mesh_names_an_element_length() {
         let advice = |mean, error| mesh_advice(&check(Refinement::Elements, "frequency", mean, error));
         // 4/3 of 18.5 % is 25 %, of which a sixteenth is left at a quarter of 25 mm.
-        assert!(advice(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and look again"));
+        assert!(advice(0.185, 0.015).contains("fibre.element_length = \"6.25 mm\" and run again"));
         assert!(
             advice(-0.045, 0.007).contains("fibre.element_length = \"12.5 mm\""),
             "{}",

@@ -133,7 +133,7 @@ fn uneven(findings: &Findings) -> Section<'static> {
             if is_map {
                 ""
             } else {
-                " Where one more pixel of blur changes little, the camera’s own blur has changed little as well."
+                " Where one more pixel of blur changes little, the blur of the camera has also changed little."
             }
         ))
 }
@@ -149,8 +149,8 @@ fn streaks(findings: &Findings) -> Section<'static> {
     let section = Section::new("streaks", "Streaks along the machine");
     let Some(search) = &findings.streaks else {
         return section.paragraph(
-            "No streaks were looked for: the scan is too small, or it holds too few clouds along the machine, from \
-             which streaks differ. Scan a longer piece.",
+            "No streaks were searched for: the scan is too small, or it holds too few clouds along the machine, \
+             from which streaks could be distinguished. Scan a longer piece.",
         );
     };
     let least = |limit: &StreakLimit| {

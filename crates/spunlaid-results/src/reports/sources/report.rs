@@ -70,8 +70,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
     });
     let difference = match sources.are_steady() {
         true => {
-            "they differ by the sampling error and, with elements longer than a hundredth of the path, by what the \
-             belt does to the last of them"
+            "they differ by the sampling error and, with elements longer than a hundredth of the path, by the \
+             effect of the belt on the last elements"
         }
         false => "they differ significantly, so the motion is not steady and no fields are written",
     };
@@ -79,9 +79,9 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         .open()
         .table(Table::of_facts(forces.into_iter().chain(heats)))
         .caption(format!(
-            "Forces and heat per metre of width, ± one standard error. The force from the inlet to 95 % of the way is \
-             found in two ways from the same flights: from the drag on each element, and from what momentum the \
-             filaments have lost; {difference}."
+            "Forces and heat per metre of width, ± one standard error. The force from the inlet to 95 % of the way \
+             is found in two ways from the same flights: from the drag on each element, and from the momentum that \
+             the filaments have lost; {difference}."
         ))
         .printed();
     let openfoam = match has_order_of_openfoam(case) {
@@ -100,8 +100,8 @@ pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Rep
         Err(_) => "",
     };
     let computed = Section::new("methods", "How it was computed").paragraph(format!(
-        "The drag on each element counts in the cell in which its middle lies, theory (120). Filaments are taken to be \
-         the same everywhere across the width.{cooling}"
+        "The drag on each element counts in the cell in which its middle lies, theory (120). The filaments are \
+         assumed to be uniform across the width.{cooling}"
     ));
     let arrays_of_heat = if sources.heat.is_ok() { "Sh, ShT, heat, " } else { "" };
     let fields = format!(

@@ -204,8 +204,8 @@ fn model(spec: &SpinSpec) -> Vec<(&'static str, String)> {
         (
             "The air",
             format!(
-                "{air} It drags the thread by the friction law of the case (drag.along = {}), and cools it \
-                by the law of Kase and Matsuo for air along and across it.",
+                "{air} It drags the filament by the friction law of the case (drag.along = {}), and cools it by the \
+                law of Kase and Matsuo for air along and across it.",
                 spec.drag.along.name()
             ),
         ),

@@ -275,7 +275,7 @@ fn summary(study: &Study, results: &[PointResults]) -> String {
                 format!("{lost} {}s were", study.noun())
             },
             match study.noun() {
-                "spinline" => "it has no steady state, or its thread is not solid at the end",
+                "spinline" => "it has no steady state, or its filament is not solid at the end",
                 _ => "the computation diverged, or the fibre did not reach the belt",
             }
         );
@@ -303,7 +303,7 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
     let side = &study.quantities[quantity].series;
     (best != worst).then(|| {
         format!(
-            " Over patches of {side} the web is most even at {} and least even at {}.",
+            " Over patches of {side} the web is most uniform at {} and least uniform at {}.",
             words(best),
             words(worst)
         )
@@ -313,8 +313,8 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
 /// Where the confidence intervals of the effects come from.
 fn intervals(study: &Study) -> &'static str {
     if study.noun() == "spinline" {
-        "The intervals come from the scatter of the points about the straight lines. A spinline has no \
-        chance in it: they say how far straight lines are from the curves."
+        "The intervals come from the scatter of the points about the straight lines. A spinline has no random part, \
+        so they describe how far straight lines are from the curves."
     } else {
         "The intervals come from the differences between replicates; with common phases, each replicate of \
         all points is compared with the same replicate."

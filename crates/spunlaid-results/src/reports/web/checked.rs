@@ -182,7 +182,7 @@ fn place_in_field(placed: &PlacedField, filaments: &Filaments) -> String {
     let [_, machine, cross] = placed.axes().map(Axis::name);
     format!(
         "  the middle of the slot is at {} of the field (air.field_root); filaments are fed {fed} from there along the \
-        machine direction, {machine}. They hang side by side along the cross direction, {cross}, in the same \
+        machine direction, {machine}. They are side by side along the cross direction, {cross}, in the same \
         mean flow",
         PlacedField::in_words(placed.root)
     )
@@ -225,8 +225,8 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
     lines.push(format!("  the field takes {} of memory", Dimension::Memory.pretty_to(memory, 2)));
     if is_at_random(spec) {
         lines.push(
-            "  they come in one row, at random places of it; the slot of a line has a depth: --set \
-            line.slot_gap=\"20 mm\""
+            "  they come in one row, at random positions; the slot of a line has a gap: --set line.slot_gap=\"20 \
+            mm\""
                 .to_owned(),
         );
     }

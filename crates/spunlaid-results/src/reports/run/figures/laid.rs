@@ -128,7 +128,7 @@ fn draw_scale(picture: &mut Picture, scale: f64, y: f64, length: f64) {
 /// An arrow along the belt's run.
 fn draw_run_of_belt(picture: &mut Picture, right: f64, y: f64) {
     let style = Text { size: 14.0, colour: INK, anchor: Anchor::End, upright: true };
-    picture.text((right - 62.0, y + 5.0), "run of the belt (MD)", style);
+    picture.text((right - 62.0, y + 5.0), "belt travel (MD)", style);
     picture.line((right - 52.0, y), (right - 8.0, y), &Stroke::solid(INK, 1.8));
     picture.polygon(&[(right, y), (right - 12.0, y - 5.0), (right - 12.0, y + 5.0)], INK, 1.0, None);
 }
@@ -156,7 +156,7 @@ fn footprint(case: &Case, results: &Results) -> Figure {
     .when_empty("too little has been laid to be shown");
     let half = REACH * md.max(cd);
     if points.is_empty() || !(md > 0.0 && cd > 0.0 && half.is_finite()) {
-        return Figure::new(&chart, "Too little was laid after the spin-up to say where the fibre lands.");
+        return Figure::new(&chart, "Too little was laid after the spin-up to show where the fibre lands.");
     }
     let values = density(&points, half);
     let largest = values.iter().copied().fold(0.0, f64::max);
@@ -182,10 +182,10 @@ fn footprint(case: &Case, results: &Results) -> Figure {
         .path(Series::new("1 *σ*", VERMILION).width(1.8), ellipse(1.0))
         .path(Series::new("2 *σ*", VERMILION).width(1.8).dashed(&[7.0, 4.0]), ellipse(2.0));
     let caption = format!(
-        "Fraction of the fibre per square centimetre of belt, about the straight trace that a fibre \
-         would leave if it landed at one point; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the \
-         table: {} mm and {} mm in machine and cross direction for σ. Inside lie {} % and {} % of the fibre; of a \
-         normal distribution it would be 39.3 % and 86.5 %.",
+        "Fraction of the fibre per square centimetre of belt, about the straight trace that a fibre would leave if \
+         it landed at one point; {} of fibre from {}. The ellipses have the half axes σ and 2σ of the table: {} mm \
+         and {} mm in machine and cross direction for σ. They contain {} % and {} % of the fibre; for a normal \
+         distribution these are 39.3 % and 86.5 %.",
         format_args!("{} m", significant(points.len() as f64 * case.fibre.rest_length(), 3)),
         one_of(curves.len(), "replicate"),
         significant(md, 3),

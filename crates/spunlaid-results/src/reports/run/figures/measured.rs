@@ -148,7 +148,7 @@ fn rose(declared: &measure::Figure, curve: &Curve, replicates: usize) -> Figure 
         name: declared.name.to_owned(),
         title: "Directions of the laid fibre".to_owned(),
         classes: places.iter().map(|place| (place.mean, place.standard_error)).collect(),
-        reference: Some((1.0, "as often in all directions".to_owned())),
+        reference: Some((1.0, "isotropic".to_owned())),
         sides: ["MD", "CD", "against MD", "CD"].map(str::to_owned),
         columns: ["direction_degrees", "share_of_chords_times_classes"].map(str::to_owned),
         series: "laid fibre".to_owned(),

@@ -49,8 +49,8 @@ pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {
         SpectrumShape::Measured(_) => "measured",
     };
     let caption = format!(
-        "{what}, compared with the {shape} spectrum of the case (dashed); {rms}. There is no energy above {} \
-        Hz. The analysis blurs the lowest point and the edge at the cut-off.",
+        "{what}, compared with the {shape} spectrum of the case (dashed); {rms}. There is no energy above {} Hz. \
+        The analysis smooths the lowest point and the edge at the cut-off.",
         significant(cutoff, 3),
     );
     Figure::new(&chart.line(Series::reference("wanted"), &model), caption)

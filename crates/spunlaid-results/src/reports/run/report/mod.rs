@@ -52,8 +52,8 @@ pub fn run_report<'a>(
     let loads: Vec<_> = load.iter().map(|load| (None, load)).collect();
     let file = Section::new("case", "The case")
         .paragraph(
-            "With every default filled in. Save it as a case file and run it again: the same numbers \
-            come out, to the last digit.",
+            "With every default filled in. Save it as a case file and run it again: it gives the same numbers, to \
+            the last digit.",
         )
         .file("case-toml", toml);
     Ok(Report::new("run", headline)
@@ -83,8 +83,8 @@ fn motion(case: &Case, results: &Results) -> Result<Section<'static>, Failure> {
     };
     let remarks: String = frames.remarks.iter().map(|remark| format!(" {remark}")).collect();
     let caption = format!(
-        "{axes}; all axes in millimetres. So that the motion can be seen, the sideways scale (y and z) may \
-        be stretched against the length; the picture says by how much.{remarks}"
+        "{axes}; all axes in millimetres. The sideways scale (y and z) may be stretched against the length to make \
+        the motion visible; the picture gives the factor.{remarks}"
     );
     Ok(section.view(frames.view()).caption(caption))
 }
@@ -101,8 +101,7 @@ fn numbers(results: &Results, whole: &Whole<'_>, is_checked: bool) -> Section<'s
         let replicates = count(n, "replicate");
         (format!("Mean ± one standard error of the mean over {replicates}{contained}."), caption)
     } else {
-        let about = "From a single replicate, so without a standard error: run more to learn how sure these \
-            numbers are.";
+        let about = "From a single replicate, so without a standard error; run more replicates to get one.";
         (about.to_owned(), "")
     };
     let (table, unlisted) = replicate_table(results);
@@ -122,7 +121,7 @@ fn trust(checks: [Result<CheckWords, String>; 2]) -> Section<'static> {
     checks.into_iter().fold(Section::new("trust", "Can the computation be trusted?"), |section, check| {
         match check {
             Ok((name, all)) => section.heading(name).with(Part::List(all)),
-            Err(why) => section.paragraph(format!("{}. The error is not known, then.", capitalised(&why))),
+            Err(why) => section.paragraph(format!("{}. So the error is not known.", capitalised(&why))),
         }
     })
 }
@@ -140,22 +139,21 @@ fn energy(case: &Case, results: &Results) -> Section<'static> {
     let balance = (
         format!("Energy balance: {balance}{THIN}%"),
         format!(
-            "Kinetic and elastic energy must equal the work of gravity and air,{carried} minus what \
-            damping{scheme} took out. This is the difference, relative to the work of the air. It also finds \
-            errors in the forces. If it is above one per cent, halve `run.time_step` and see whether the \
-            results move."
+            "Kinetic and elastic energy must equal the work of gravity and air,{carried} minus what damping{scheme} \
+            took out. This is the difference, relative to the work of the air. It also finds errors in the forces. \
+            If it is above one per cent, halve `run.time_step` and see whether the results change."
         ),
     );
     let work = work_error.map(|error| {
         let name = format!("Work check: {}{THIN}%", number(error.value()));
-        let meaning = "The work of all forces must equal the kinetic energy. This is the difference, \
-            relative to the kinetic energy. It grows with the time step, and says nothing about the forces.";
+        let meaning = "The work of all forces must equal the kinetic energy. This is the difference, relative to \
+            the kinetic energy. It grows with the time step, and does not check the forces.";
         (name, meaning.to_owned())
     });
     let all = mesh(case).into_iter().chain([balance]).chain(work);
     Section::new("energy", "Mesh and energy").descriptions(all).caption(
-        "The energy errors are medians over time and replicates. All of this says how well the equations \
-        were solved, not how well they describe a fibre.",
+        "The energy errors are medians over time and replicates. These checks show how well the equations were \
+        solved, not how well they describe a fibre.",
     )
 }
 

@@ -55,7 +55,7 @@ fn found(case: &Case, estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
 fn found_of_laid(estimate: impl Fn(&str) -> Estimate) -> (String, bool) {
     let [md, cd] = ["sigma_md", "sigma_cd"].map(estimate);
     if !(md.mean.is_finite() && cd.mean.is_finite()) {
-        return ("Too little fibre was laid to say how wide it lies.".to_owned(), false);
+        return ("Too little fibre was laid to give its standard deviation.".to_owned(), false);
     }
     let sentence = format!(
         "The fibre lies {}{THIN}mm wide in machine direction and {}{THIN}mm in cross direction (standard deviation).",
@@ -80,15 +80,15 @@ pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
     let (fold, each) = (length(significant_of(scale)), length(element));
     let texture = if FINE * element <= scale {
         format!(
-            "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over \
-            arc in the table, and the finest bends in the pictures) is a result as well. Halve \
-            fibre.element_length to check it."
+            "The elements of {each} are fine enough for such folds, so the texture on the belt (chord over arc in \
+            the table, and the finest bends in the pictures) is a valid result. Halve fibre.element_length to check \
+            it."
         )
     } else {
         format!(
-            "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in \
-            the table, and the finest bends in the pictures) is that of the mesh and no result: with finer \
-            elements the fibre lies more closely folded."
+            "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in the \
+            table, and the finest bends in the pictures) depends on the mesh and is not a result: with finer \
+            elements the fibre is folded more closely."
         )
     };
     Some((

@@ -95,7 +95,7 @@ fn autocorrelation(coefficients: &[Vec<f64>; 2], cell: f64) -> Figure {
     .line(Series::new("cross direction", VERMILION).width(1.5), points(0));
     Figure::new(
         &chart,
-        "How alike the basis weights of two cells are that lie some distance apart. What stays in machine \
-        direction at large distances are streaks.",
+        "Correlation of the basis weights of two cells over the distance between them. Correlation that remains at \
+        large distances along the machine direction comes from streaks.",
     )
 }

@@ -18,7 +18,7 @@ pub(super) fn charge(laid: &LaidWeb) -> Option<Figure> {
         "web_charge",
         "The charged curtain from the side",
         Axis::linear("Distance from the inlet (mm)").in_column("x_mm").tight(),
-        Axis::linear("Place in machine direction (mm)").in_column("md_mm"),
+        Axis::linear("Position in machine direction (mm)").in_column("md_mm"),
     );
     for ((layer, curtain), colour) in charged.iter().zip(OF_LAYERS.into_iter().cycle()) {
         let heights =
@@ -33,9 +33,9 @@ pub(super) fn charge(laid: &LaidWeb) -> Option<Figure> {
     }
     Some(Figure::new(
         &chart,
-        "Positions of the filaments above the belt at the end of the simulation, as a mean over the time in \
-        which one lands. 95 % and half of the length of all filaments hang between these positions in machine \
-        direction, over the distance from the inlet. Their charge drives them apart.",
+        "Positions of the filaments above the belt at the end of the simulation, as a mean over the time in which \
+        one lands. 95 % and half of the length of all filaments are between these positions in machine direction, \
+        over the distance from the inlet. Their charge makes them repel each other.",
     ))
 }
 
@@ -73,10 +73,10 @@ pub(super) fn neighbours(layers: &[LayerFlown]) -> Option<Figure> {
     }
     Some(Figure::new(
         &chart,
-        "Correlation of the positions where two filaments of the web land at equal fed length, over the \
-        distance of their inlets in cross direction. It is one if they always land next to each other, and \
-        zero if their positions are independent. Filaments of one row are compared with those of the same \
-        row, those in a slot wherever they hang in its depth. Bars are one standard error, from the scatter \
-        between stretches of the fibre and from the places of the filaments.",
+        "Correlation of the positions where two filaments of the web land at equal fed length, over the distance of \
+        their inlets in cross direction. It is one if they always land next to each other, and zero if their \
+        positions are independent. Filaments of one row are compared with those of the same row, those in a slot at \
+        any position in its gap. Bars are one standard error, from the scatter between lengths of the fibre and \
+        from the positions of the filaments.",
     ))
 }

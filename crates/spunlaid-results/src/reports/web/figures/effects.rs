@@ -47,8 +47,8 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
         ),
     };
     let caption = format!(
-        "Change of the CV over patches of {side}, as a fraction of it, {what}. The bars are 95 % confidence \
-        intervals; if a bar crosses zero, there may be no effect."
+        "Relative change of the CV over patches of {side}, {what}. The bars are 95 % confidence intervals; if a bar \
+        crosses zero, there may be no effect."
     );
     let figure = EffectsFigure { name: name.to_owned(), title: title.to_owned(), panels: vec![panel] };
     Some(figure.figure(table, caption))

@@ -62,7 +62,7 @@ fn directions(findings: &Findings) -> Figure {
         name: "web_directions".to_owned(),
         title: "Directions of the fibres".to_owned(),
         classes: found.directions.iter().map(|share| (share * classes, None)).collect(),
-        reference: Some((1.0, "as often in all directions".to_owned())),
+        reference: Some((1.0, "isotropic".to_owned())),
         sides: ["MD", "CD", "against MD", "CD"].map(str::to_owned),
         columns: ["direction_degrees", "share_of_mass_times_classes"].map(str::to_owned),
         series: "web".to_owned(),

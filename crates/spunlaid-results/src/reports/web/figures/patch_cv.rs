@@ -31,10 +31,10 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
     let chart = joined(chart, Series::spots("this scan", BLUE), &found);
     Figure::new(
         &chart,
-        "Standard deviation of the basis weight of square patches over its mean. Bars are the sampling error of \
-         one piece of web (one standard error); there is none where it cannot be known. Dashed: the CV of the noise \
-         of the pixels alone, as it was given, or the most that neighbouring pixels allow. The finest structure of \
-         the web is in it.",
+        "Standard deviation of the basis weight of square patches over its mean. Bars are the sampling error of one \
+         piece of web (one standard error); it is missing where it cannot be known. Dashed: the CV of the noise of \
+         the pixels alone, as it was given, or its upper bound from neighbouring pixels, which includes the finest \
+         structure of the web.",
     )
 }
 
@@ -62,14 +62,14 @@ pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let spots = Series::spots(spots, BLUE);
     let chart = if is_shared { joined(chart, spots, &map) } else { chart.scatter(spots, &map) };
     let rows = web.layers.iter().any(|layer| !layer.filaments.are_at_random());
-    let places = if rows { "in their rows" } else { "at random places" };
+    let places = if rows { "in their rows" } else { "at random positions" };
     if is_shared {
         return Figure::new(&chart, shared_air(places, of_few));
     }
     let cut = if web.sheet.edges == Edges::Cut {
         "cut off at the edges in cross direction, and the strips at the edges, where the web is thinner, are left out"
     } else {
-        "closed to a ring both ways"
+        "periodic in both directions"
     };
     let tau = web.basis_weight() / web.layers.first().map_or(f64::NAN, |layer| layer.linear_density);
     let tenth = straight_fibres(tau, 0.01) * PER_CENT;
@@ -93,11 +93,10 @@ fn shared_air(places: &str, of_few: bool) -> String {
         false => "from the waves of the map",
     };
     format!(
-        "Standard deviation of the basis weight of square patches over its mean, on a stretch of belt on \
-        which every filament lies as it does after its start. Bars are one standard error {bars}. The curve \
-        below is what the same filaments {places} would give in independent turbulence: the sum of their \
-        own variances, without what neighbours do together. Straight fibres are those of the same \
-        mass in all directions at random."
+        "Standard deviation of the basis weight of square patches over its mean, on a length of belt after the \
+        start of every filament. Bars are one standard error {bars}. The curve below is what the same filaments \
+        {places} would give in independent turbulence: the sum of their own variances, without the correlation of \
+        neighbours. Straight fibres are those of the same mass in all directions at random."
     )
 }
 

@@ -60,7 +60,7 @@ pub(super) fn scanned(map: &Map, weights: Weights) -> Figure {
         label: "edge of the scan",
         words: "The dashed lines are the edges of the scan.".to_owned(),
     };
-    profiles(map, weights, "These are streaks, as far as the lamp was even.", &across)
+    profiles(map, weights, "These are streaks, if the lamp was uniform.", &across)
 }
 
 /// The streaks of a scan, with the band that chance fills.
@@ -87,8 +87,8 @@ pub(super) fn streaks(search: &StreakSearch) -> Figure {
     };
     let caption = format!(
         "Basis weight at a position across the web, averaged along the machine, over the mean. A narrow streak that \
-         leaves the grey band is significant at 95 %; a wider one is so from a smaller amplitude on. Red: streaks, as \
-         wide as at half of their amplitude.{waves}"
+         leaves the grey band is significant at 95 %; a wider one is significant at a smaller amplitude. Red: \
+         streaks, as wide as at half of their amplitude.{waves}"
     );
     Figure::new(&chart, caption)
 }
@@ -126,9 +126,9 @@ fn profiles(map: &Map, weights: Weights, streaks: &str, across: &SheetPosition) 
         significant(PER_CENT * (squares / points.len() as f64).sqrt(), 2)
     };
     let caption = format!(
-        "Above: the basis weight at a place across the web, averaged over the whole length of the sheet; it \
-        varies by {} %. {streaks} {} Below: the basis weight at a place along the web, averaged over the \
-        whole width; it varies by {} %. The grey lines are the mean.",
+        "Above: the basis weight at a position across the web, averaged over the whole length of the sheet; it \
+        varies by {} %. {streaks} {} Below: the basis weight at a position along the web, averaged over the whole \
+        width; it varies by {} %. The grey lines are the mean.",
         cv(&inner),
         across.words,
         cv(&profile)

@@ -66,7 +66,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
     let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
     let is_one_kind = kinds.clone().count() == 1;
     if is_one_kind && all.len() > 1 {
-        rows.push(row("Beams", format!("{}, alike", all.len())));
+        rows.push(row("Beams", format!("{}, identical", all.len())));
     }
     for kind in kinds.take(MOST_LAYERS).map(|i| &all[i]) {
         let alike = layers.iter().zip(&all).filter(|(_, other)| *other == kind);
@@ -115,7 +115,7 @@ const FASTER: f64 = 10.0;
 pub(crate) fn fabric(fabric: &Fabric) -> Card {
     let rows = fabric_rows(fabric).into_iter().map(|[name, value]| Row::new(name, [value])).collect();
     let (apart, words) = (Default::default(), fabric.notes.clone());
-    Card { id: "buyer", title: "What a buyer counts", rows, apart, words, summary: None }
+    Card { id: "buyer", title: "Defects per area", rows, apart, words, summary: None }
 }
 
 /// The scale as a card; without pictures if the web is too small for them.

@@ -35,7 +35,7 @@ fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
 pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
     let card = |[rows, apart]: [Vec<Row>; 2], words: String| {
         let apart = ("Not on the running line", apart);
-        let summary = Some("How these were found");
+        let summary = Some("How these were computed");
         Card { id: "change", title: "Change first", rows, apart, words: vec![words], summary }
     };
     let none = || [Vec::new(), Vec::new()];
@@ -81,9 +81,9 @@ pub(super) fn advice_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_
         advice.tried.len()
     );
     let mut words = match improvements.len() {
-        0 => format!("None lowers {about}, by more than 1{THIN}%, significantly."),
+        0 => format!("No change lowers {about} by more than 1{THIN}%, significantly."),
         _ if !improvements.iter().any(is_running) => {
-            format!("No setting of the running line lowers {about}, by more than 1{THIN}%, significantly.")
+            format!("No setting of the running line lowers {about} by more than 1{THIN}%, significantly.")
         }
         1 => format!("Change of {about}; no other lowers it by more than 1{THIN}%, significantly."),
         _ => format!("Change of {about}: what lowers it most."),
@@ -133,7 +133,7 @@ fn unconfirmed(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
     let words = |tried: &SensitivityRun| {
         let again = tried.on(patch).map_or_else(String::new, per_cent);
         format!(
-            " In a first simulation it seemed to fall with {} as well; in a second one the change was {again}{THIN}%.",
+            " In a first simulation {} seemed to lower it too; in a second one the change was {again}{THIN}%.",
             describe(&tried.change, spec)
         )
     };
@@ -156,7 +156,7 @@ fn clouds_apart(spec: &WebSpec, advice: &Advice, patch: f64) -> String {
     }
     format!(
         " With these changes the filaments land in other clouds, although the turbulence is the same, so only a \
-        large effect is seen: {}.",
+        large effect is significant: {}.",
         names.join("; ")
     )
 }
@@ -227,9 +227,9 @@ pub(super) fn effects_table(
         (advice.failed.iter()).map(|(change, why)| format!("{}: {why}", describe(change, spec))).collect();
     let in_same_air = |tried: &SensitivityRun| tried.effects.iter().any(|effect| effect.in_common.is_some());
     let mut error = if advice.tried.iter().any(in_same_air) {
-        "from blocks of both webs in the same turbulence, so the sampling error that both have in common does not count"
+        "from blocks of both webs in the same turbulence, so the sampling error that both have in common cancels"
     } else if findings.laid.evidence() != Evidence::Known {
-        "which counts both maps as independent"
+        "which treats both maps as independent"
     } else {
         "from paths with the same random numbers before and after; the laydown itself (σ MD, σ CD, A) is \
         taken as given, because no fibre was simulated"
@@ -239,7 +239,7 @@ pub(super) fn effects_table(
         error += "; the best ones were simulated once more in other turbulence";
     }
     let (what, held) = if are_assumed {
-        ("when an assumed value is another one".to_owned(), "All other numbers stay as they are")
+        ("when an assumed value changes".to_owned(), "All other numbers stay as they are")
     } else {
         let weight = grams(findings.within().basis_weight());
         let what = format!(
@@ -248,12 +248,12 @@ pub(super) fn effects_table(
         (
             what,
             "All other settings stay as they are; with another titre the throughput of a hole stays and the \
-            filament is fed slower or faster",
+            filament is fed at another speed",
         )
     };
     let mut caption = format!(
-        "Change of the CV as a fraction of it {what}: over patches of each size, ± one standard error, {error}. \
-        Grey values are not significant at 95 %. {held}. The command below each change lays that web."
+        "Relative change of the CV {what}: over patches of each size, ± one standard error, {error}. Grey values \
+        are not significant at 95 %. {held}. The command below each change lays that web."
     );
     if let Some(patch) = judged_by(findings, advice).filter(|_| !are_assumed) {
         caption += &clouds_apart(spec, advice, patch);
@@ -314,16 +314,16 @@ pub(super) fn assumed_card(spec: &WebSpec, findings: &Findings, tried: Advised<'
         (false, ends) => {
             let [from, to] = ends.map(|end| significant(PER_CENT * end * cv, 2));
             format!(
-                "The error excludes these assumed values: with half and twice of each, the CV {place} lies between \
-                {from} and {to}{THIN}%. The first one counts most."
+                "The error excludes these assumed values: with half and with twice of each, the CV {place} lies \
+                between {from} and {to}{THIN}%. The first one has the largest effect."
             )
         }
     };
     let unknown = match sorted.iter().all(|tried| tried.on(patch).is_some()) {
         true => "",
         false => {
-            " Where there is no number, too few filaments of that web were simulated: its command simulates as many as \
-             it takes."
+            " Where there is no number, too few filaments of that web were simulated: its command simulates as many \
+             as needed."
         }
     };
     card(rows, words + unknown + &failed_words(assumed_values))

@@ -35,11 +35,11 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let weights = places.iter().position(|measure| measure.unit == PERCENT).unwrap_or(places.len());
     let (places, weights) = places.split_at(weights);
     let sides: Vec<_> = fabric.patches.iter().map(|of| (shown(patch, of), of)).collect();
-    section = compare(section, ("Thin and thick places", patch.label), places, &sides);
+    section = compare(section, ("Thin and thick spots", patch.label), places, &sides);
     section = compare(section, ("Weight of patches over the mean", patch.label), weights, &sides);
     let thinnest: Vec<_> =
         (1..).zip(&fabric.marks.thinnest).map(|(i, place)| (i.to_string(), place)).collect();
-    let heading = format!("The thinnest places, patches of {}", millimetres(fabric.marks.patch));
+    let heading = format!("The thinnest spots, patches of {}", millimetres(fabric.marks.patch));
     section = compare(section, (&heading, "Place"), THINNEST_PATCH_MEASURES, &thinnest);
     let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
     let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();

@@ -111,7 +111,7 @@ pub(crate) fn marks_note(fabric: &Fabric) -> String {
             thin_of_all.to_string()
         };
         words.push(format!(
-            "orange, patches of {} that are lighter than 80 % of the mean, {all}, and outlined the thinnest places",
+            "orange, patches of {} that are lighter than 80 % of the mean, {all}; the thinnest spots are outlined",
             millimetres(*patch)
         ));
     }
@@ -119,9 +119,9 @@ pub(crate) fn marks_note(fabric: &Fabric) -> String {
         words.push("blue, strips, with their weakest section in orange".to_owned());
     }
     if !fabric.streaks.is_empty() {
-        words.push("pink, the bands over which the defects of the line are looked for".to_owned());
+        words.push("pink, the bands that are searched for the defects of the line".to_owned());
     }
-    if words.is_empty() { String::new() } else { format!(" Marked where chosen: {}.", words.join("; ")) }
+    if words.is_empty() { String::new() } else { format!(" Marks that can be switched on: {}.", words.join("; ")) }
 }
 
 /// Base64 of lengths in mm.

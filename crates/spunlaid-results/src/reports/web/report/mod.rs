@@ -138,7 +138,7 @@ fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
 /// What the web was made from.
 fn file(layers: &[Layer], toml: &str) -> Section<'static> {
     let heads =
-        ["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A", "Residual of the fit", "of which chance"];
+        ["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A", "Residual of the fit", "of which sampling error"];
     Section::new("file", "The web file")
         .table(Table::new(heads).rows(layers.iter().map(layer)))
         .file("web-toml", toml)
@@ -177,7 +177,7 @@ fn laid_weight(web: &Web, findings: &Findings) -> String {
         return String::new();
     }
     format!(
-        "The line makes {} on average, and this piece has {}: its ends and edges cut some clouds.",
+        "The line makes {} on average, and this piece has {}, because its ends and edges cut some clouds.",
         grams(made),
         grams_with_error(laid)
     )
@@ -236,23 +236,23 @@ pub(crate) fn below(judged: Option<Judged>) -> [String; 2] {
 fn air_sentence(findings: &Findings) -> String {
     let independent = findings.seen().and_then(|patch| Some((patch, patch.independent()?)));
     match (findings.laid.evidence(), independent) {
-        (Evidence::Known, _) => "This is a lower bound: in a line neighbours hang in the same eddies \
-            and land together, and σ and A of one filament do not say how. Name a case whose filament \
-            lies like this one (laydown.case) instead of the numbers to simulate them in shared turbulence."
+        (Evidence::Known, _) => "This is a lower bound: in a line, neighbours move in the same eddies and land \
+            together, and σ and A of one filament do not say how. Name a case whose filament lies like this one \
+            (laydown.case) instead of the numbers to simulate them in shared turbulence."
             .to_owned(),
         (_, Some((patch, independent))) if patch.doubt.is_some() => format!(
             "In independent turbulence the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
         ),
         (_, Some((patch, independent))) => format!(
-            "In independent turbulence the same filaments would give {}, {} times less. Here neighbours hang in \
-            the same eddies, which move them together and lay them in ropes and clouds.",
+            "In independent turbulence the same filaments would give {}, {} times less. Here neighbours are in the \
+            same eddies, which move them together and lay them in ropes and clouds.",
             per_cent(independent, None),
             significant(patch.map.cv / independent, 2)
         ),
         (Evidence::AllInOneAir, None) => "All filaments were simulated in shared turbulence.".to_owned(),
         (Evidence::FewInOneAir, None) => {
-            "All filaments hang in shared turbulence, in which a sample of them was simulated.".to_owned()
+            "All filaments are in shared turbulence; a sample of them was simulated.".to_owned()
         }
     }
 }
@@ -264,9 +264,8 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
         let last = charged.heights.last()?;
         let [behind, .., before] = last.places;
         Some(format!(
-            "Charged with {}, the filaments{} drive each other apart: 95 % of them hang within {} along the \
-            machine direction just above the belt. The field next to them is {} at most, and air breaks \
-            down at {}.",
+            "Charged with {}, the filaments{} repel each other: 95 % of their length is within {} along the machine \
+            direction just above the belt. The field next to them is {} at most, and air breaks down at {}.",
             Dimension::SpecificCharge.pretty(layer.charge?),
             if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() },
             Dimension::Length.pretty_to(before - behind, 3),
@@ -297,11 +296,14 @@ fn error_sentences(findings: &Findings) -> String {
                 .to_owned()
         }
         (Evidence::FewInOneAir, Some(_)) => {
-            format!("{}; they are too few for the CV of all, and the map is no better.", simulated(findings))
+            format!(
+                "{}; the sample is too small to give the CV of all filaments, and so is its map.",
+                simulated(findings)
+            )
         }
         (Evidence::FewInOneAir, None) => format!(
-            "{}; the web of all is estimated from them. The area contributes {} to the error, because it has \
-            few clouds, and the size of the sample {}.",
+            "{}; the web of all filaments is estimated from them. The area contributes {} to the error, because it \
+            has few clouds, and the size of the sample {}.",
             simulated(findings),
             part(error.chance),
             part(error.flight)
@@ -355,9 +357,9 @@ fn verdict(findings: &Findings) -> Vec<String> {
     let why = if is_shared {
         "filaments that land together make clouds"
     } else if ratio > 1.05 {
-        "each fibre returns to its own position again and again, which makes clouds"
+        "each fibre returns to its own position repeatedly, which makes clouds"
     } else {
-        "holes at a constant pitch make up for the variation of the loops"
+        "holes at a constant pitch compensate for the variation of the loops"
     };
     sentences.push(format!(
         "Over patches of {} the {}CV is {} times that of straight fibres of the same mass at random: {why}.",

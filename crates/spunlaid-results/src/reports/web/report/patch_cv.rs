@@ -12,9 +12,8 @@ use spunlaid::web::{Clouds, PATCH_MEASURES};
 pub(super) const PER_CENT: f64 = 100.0;
 
 /// What is said below every table of CVs.
-pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± \
-    one standard error, in percentage points as the CV is. The confidence interval holds the CV of all such webs in \
-    95 % of the cases.";
+pub(crate) const CV_OF_PATCHES: &str = "Coefficient of variation of the basis weight over square patches, ± one \
+    standard error in percentage points. The confidence interval contains the CV of all such webs in 95 % of cases.";
 
 /// * `is_bound` – whether its filaments are independent of each other, so that a real web is more uneven
 /// * `assumed` – what is to be said of assumed values, because the error is that of sampling alone

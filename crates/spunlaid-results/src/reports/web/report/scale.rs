@@ -89,7 +89,7 @@ impl Scale {
 pub(crate) fn words(Judged { patch, told, interval, chance, .. }: Judged) -> String {
     let size = millimetres(patch);
     let chance = chance.map_or_else(String::new, |cv| {
-        format!(" Chance alone, in straight fibres at random, gives {}{THIN}%.", significant(100.0 * cv, 3))
+        format!(" Straight fibres at random positions give {}{THIN}%.", significant(100.0 * cv, 3))
     });
     let Some((cv, error)) = told else {
         return format!("The CV of this web over patches of {size} is not known.{chance}");

@@ -62,7 +62,7 @@ fn choose(
     let coarsest = frequency.map(|f| 1.0 / (PER_SWING * f));
     if coarsest.is_some_and(|coarsest| interval > 4.0 * coarsest) {
         remarks.push(format!(
-            "The shape of the fibre was kept only every {}, which is too seldom to follow the motion, so the \
+            "The shape of the fibre was kept only every {}, which is not often enough to follow the motion, so the \
              animation jumps.",
             time(interval)
         ));
