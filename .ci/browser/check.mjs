@@ -173,9 +173,9 @@ async function checkTable(page, where, shot) {
   const bare = await bareShare(page);
   expect(bare < 0.005, `${where}: the web leaves ${(100 * bare).toFixed(1)} % of its frame empty`);
   const words = await page.locator("figure.view").innerText();
-  const told = Number(/is ([\d,.]+) mm wide/.exec(words)?.[1].replace(/,/g, ""));
+  const shownWidth = Number(/is ([\d,.]+) mm wide/.exec(words)?.[1].replace(/,/g, ""));
   const width = await page.evaluate(() => JSON.parse(document.getElementById("web-data").textContent).width);
-  expect(Math.abs(told / width - 1) < 0.01, `${where}: the web is ${width} mm wide, and the page says ${told} mm`);
+  expect(Math.abs(shownWidth / width - 1) < 0.01, `${where}: the web is ${width} mm wide, and the page shows ${shownWidth} mm`);
   for (const id of ["fibres", "farther", "whole", "closer"]) {
     expect(await changes(page, () => page.locator(`#${id}`).click()), `${where}: the button ${id} does nothing`);
     await shot(id, false);

@@ -339,7 +339,7 @@ async function checkMistakes(browser) {
   await shot(page, "restarted");
   await page.close();
   other.live.kill();
-  return ["mistakes are told where they are made, with the way out"];
+  return ["mistakes are reported where they are made, with the remedy"];
 }
 
 const browser = await chromium.launch({

@@ -15,7 +15,7 @@ pub struct Map {
     pub columns: usize,
     /// Row by row from the lowest y, along x; NaN outside, which is drawn in grey.
     pub values: Vec<f64>,
-    /// The lowest and the highest value that colours tell.
+    /// The lowest and the highest value that colours give.
     pub range: (f64, f64),
     /// What they are.
     pub label: String,
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_shades_cannot_be_told_apart() {
+    fn neighbouring_shades_cannot_be_distinguished() {
         for level in 1..LEVELS {
             for (shades, most) in [(Shades::Amount, 6), (Shades::Signed, 12)] {
                 let [a, b] = [level, level - 1].map(|level| shades.colour(level).0);

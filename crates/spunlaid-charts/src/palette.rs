@@ -1,6 +1,6 @@
 //! Colours and signs, the same in every figure: y is a blue circle, z a vermilion triangle.
 //!
-//! Okabe and Ito's palette, which the colour-blind tell apart.
+//! Okabe and Ito's palette, which the colour-blind can distinguish.
 
 use std::fmt;
 

@@ -141,7 +141,7 @@ pub(crate) fn making(threads: Threads) -> Making<'static> {
 }
 
 /// Says what was found: as JSON, or as lines with the report to open.
-pub(crate) fn tell(
+pub(crate) fn print_results(
     contents: &impl Contents,
     (folder, text): (&Path, &str),
     lines: &[String],

@@ -26,7 +26,7 @@ use std::path::Path;
 pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     outlive_the_file_size_limit();
     let code = dispatch(words);
-    // A program does this as it ends, but whoever calls this function may go on. What could not be written is told.
+    // A program does this as it ends, but whoever calls this function may go on. What could not be written is reported.
     let _ = std::io::stdout().flush();
     code
 }

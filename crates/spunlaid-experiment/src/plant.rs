@@ -1,4 +1,4 @@
-//! The numbers by which a plant knows its line.
+//! The numbers that a plant uses for its line.
 
 use spunlaid_ground::units::rounded;
 use spunlaid_simulation::{LayerSpec, SAME, WebSpec};

@@ -47,7 +47,7 @@ pub(super) fn poly_data() -> Fault {
 
 /// The file holds several times, and the air of a field is that of one.
 ///
-/// * `found` – what tells so
+/// * `found` – what reports so
 pub(super) fn several_times(found: &str) -> Fault {
     Fault::new(
         format!("{found}: these seem to be several times, and the mean flow of a field is that of one"),

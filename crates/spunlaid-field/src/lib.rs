@@ -321,7 +321,7 @@ impl Field {
         &self.layout
     }
 
-    /// The name of a coordinate whose unit its file tells, `x_mm`. None if the file leaves the unit open.
+    /// The name of a coordinate whose unit its file reports, `x_mm`. None if the file leaves the unit open.
     pub fn measured_coordinate(&self) -> Option<&str> {
         self.measured_coordinate.as_deref()
     }

@@ -229,8 +229,8 @@ impl<E: Clone, M: Copy + PartialEq> Sensitivity<E, M> {
         measure: M,
         is_one: impl Fn(&Difference) -> bool,
     ) -> Vec<(&SensitivityRun<E, M>, &Effect<M>)> {
-        let told = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
-        let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
+        let reported = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
+        let some = reported.filter_map(|tried| Some((tried, tried.on(measure)?)));
         let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
         sort_by_key(&mut improvements, |(_, effect): &(&SensitivityRun<E, M>, &Effect<M>)| {
             effect.difference.value

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
-/// What can go wrong: what a program must tell apart.
+/// What can go wrong: what a program must distinguish.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {

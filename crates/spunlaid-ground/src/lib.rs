@@ -1,4 +1,4 @@
-//! What the crates of the simulator `spunlaid` stand on, and what knows nothing of fibres: numbers side by side in
+//! What the crates of the simulator `spunlaid` are built on, independent of fibres: numbers side by side in
 //! lanes, vectors, transforms, chance; units, errors and their words; threads, tables of text, logs of keyed rows;
 //! statistics, measures.
 //!

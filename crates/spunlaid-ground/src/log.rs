@@ -357,8 +357,8 @@ mod tests {
         for torn in ends[0]..whole.len() {
             fs::write(&path, &whole[..torn]).unwrap();
             let log = Log::open(&path, "mine").unwrap();
-            let told = (all(&log), log.damaged, log.torn);
-            assert_eq!(told, (expected(|i| ends[i + 1] <= torn), 0, !ends.contains(&torn)), "{torn}");
+            let reported = (all(&log), log.damaged, log.torn);
+            assert_eq!(reported, (expected(|i| ends[i + 1] <= torn), 0, !ends.contains(&torn)), "{torn}");
             // What comes now stands behind what is whole.
             log.append([9, 9], [1.5]).unwrap();
             drop(log);
@@ -371,8 +371,8 @@ mod tests {
             let log = Log::open(&path, "mine").unwrap();
             let damaged = ends.iter().filter(|end| **end <= flipped).count() - 1;
             // An end whose count is damaged looks like a torn one.
-            let told = (all(&log), log.damaged + u64::from(log.torn));
-            assert_eq!(told, (expected(|i| i != damaged), 1), "{flipped}");
+            let reported = (all(&log), log.damaged + u64::from(log.torn));
+            assert_eq!(reported, (expected(|i| i != damaged), 1), "{flipped}");
         }
         fs::write(&path, &whole).unwrap();
         assert_eq!(all(&Log::open(&path, "other").unwrap()), []);

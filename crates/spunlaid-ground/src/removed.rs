@@ -1,7 +1,7 @@
 //! What the program had once and no longer has: one row for each name, with what to do now.
 //!
 //! Readers of cases, webs and studies, `--set`, options, commands and Python ask this table where a name is not
-//! known; none of them knows a removed name of its own.
+//! known; none of them has a removed name of its own.
 
 use crate::error::Fault;
 
@@ -107,15 +107,18 @@ mod tests {
             (Removed::Key, "old", "0.1.0", "leave it out"),
             (Removed::Command, "run --old", "0.1.0", "write --new"),
         ];
-        let told = |kind: Removed, name: &str| kind.fault_of(&rows, name).map(|fault| fault.to_string());
+        let reported = |kind: Removed, name: &str| kind.fault_of(&rows, name).map(|fault| fault.to_string());
         for name in ["old", "old.key"] {
-            assert_eq!(told(Removed::Key, name).as_deref(), Some("is gone since 0.1.0; leave it out"));
+            assert_eq!(reported(Removed::Key, name).as_deref(), Some("is gone since 0.1.0; leave it out"));
         }
-        assert_eq!(told(Removed::Command, "run --old").as_deref(), Some("is gone since 0.1.0; write --new"));
+        assert_eq!(
+            reported(Removed::Command, "run --old").as_deref(),
+            Some("is gone since 0.1.0; write --new")
+        );
         for (kind, name) in
             [(Removed::Key, "older"), (Removed::Value, "old"), (Removed::Command, "run --old.x")]
         {
-            assert_eq!(told(kind, name), None, "{name}");
+            assert_eq!(reported(kind, name), None, "{name}");
         }
     }
 

@@ -139,7 +139,7 @@ fn share<T: Send, E: Send>(
     results.into_iter().map_while(unlock).collect()
 }
 
-/// Does pieces of work on some threads. As it knows no type of a result, it is compiled once.
+/// Does pieces of work on some threads. As it is independent of the type of a result, it is compiled once.
 fn distribute(Shared { threads, pieces, work, .. }: Shared<'_>) {
     let next = AtomicUsize::new(0);
     let some = || {

@@ -67,7 +67,7 @@ mod tests {
     /// Bytes by the tables of Unicode for these encodings (CP1252.TXT, CP437.TXT).
     #[test]
     fn text_in_another_encoding_is_named() {
-        let told = |bytes: &[u8]| text(bytes.to_vec()).unwrap_err().to_string();
+        let message = |bytes: &[u8]| text(bytes.to_vec()).unwrap_err().to_string();
         for (bytes, sign) in [
             (&b"# air\nd = \"50 \xb5m\""[..], "byte 0xb5 in this line would be µ in Latin-1"),
             (b"# D\xfcse\nd = \"50 \xb5m\"", "byte 0xfc in this line would be ü in Latin-1"),
@@ -75,17 +75,17 @@ mod tests {
             (b"cost = \"1 \x80\"", "byte 0x80 in this line would be € in Latin-1"),
             (b"a = \x9f", "byte 0x9f in this line would be Ÿ in Latin-1"),
         ] {
-            assert!(told(bytes).contains(sign), "{}", told(bytes));
-            assert!(told(bytes).contains("; save the file as UTF-8"), "{}", told(bytes));
+            assert!(message(bytes).contains(sign), "{}", message(bytes));
+            assert!(message(bytes).contains("; save the file as UTF-8"), "{}", message(bytes));
         }
         // No sign of Windows-1252 has the byte 0x81, and no text the byte 0x01.
         for bytes in [&b"a = \x81"[..], b"\x89PNG\x01"] {
-            assert!(told(bytes).contains("is not UTF-8 text; save"), "{}", told(bytes));
+            assert!(message(bytes).contains("is not UTF-8 text; save"), "{}", message(bytes));
         }
         let utf_16 =
             |bytes: fn(u16) -> [u8; 2]| "seed = 1".encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
         for bytes in [utf_16(u16::to_le_bytes), utf_16(u16::to_be_bytes)] {
-            assert!(told(&bytes).contains("is UTF-16 text"), "{}", told(&bytes));
+            assert!(message(&bytes).contains("is UTF-16 text"), "{}", message(&bytes));
         }
         assert_eq!(text("µ\u{feff}".into()).unwrap(), "µ\u{feff}");
     }

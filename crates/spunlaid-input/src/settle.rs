@@ -60,7 +60,7 @@ impl Resources {
     ) -> Result<T, E> {
         loop {
             let outcome = read(self);
-            // Other problems are told at once.
+            // Other problems are reported at once.
             if self.wanted() == 0 || outcome.is_err() && !self.is_in_doubt() {
                 return outcome;
             }

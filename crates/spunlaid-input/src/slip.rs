@@ -286,7 +286,7 @@ mod tests_of_unclosed {
     use crate::read_case;
 
     /// Right lines around a broken one: the head of a case, and what follows.
-    fn told(broken: &str) -> String {
+    fn message_of(broken: &str) -> String {
         let text = format!(
             "version = 1 # a [bracket and a \" in a comment\n[fibre]\n{broken}\n\n[air]\n\
             velocity = \"10 m/s\"\n[run]\nseed = 1\n"
@@ -296,7 +296,7 @@ mod tests_of_unclosed {
 
     /// Every line and column was counted by hand: the place where a reader has to look.
     #[test]
-    fn what_has_no_end_is_told_in_the_line_where_it_begins() {
+    fn what_has_no_end_is_reported_in_the_line_where_it_begins() {
         let list = "the list that begins with [ in this line has no end";
         let text = "the text that begins with \"\"\" in this line has no end";
         for (broken, wanted) in [
@@ -330,7 +330,7 @@ mod tests_of_unclosed {
                     .to_owned(),
             ),
             ("a = [\"\"\"x\n\"]", format!("a.toml:3:6: {text}; close it with \"\"\"")),
-            // What is wrong before it is told too, and the rest of the file is not.
+            // What is wrong before it is reported too, and the rest of the file is not.
             (
                 "length = 1,5 m\na = [1",
                 format!(
@@ -346,7 +346,7 @@ mod tests_of_unclosed {
             ),
             ("b = \"x[", "a.toml:3:8: the line has a quote at one end only; write b = \"x[\"".to_owned()),
         ] {
-            assert_eq!(told(broken), wanted, "{broken}");
+            assert_eq!(message_of(broken), wanted, "{broken}");
         }
     }
 }

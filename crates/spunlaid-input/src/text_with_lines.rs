@@ -57,7 +57,7 @@ impl<'a> TextWithLines<'a> {
             let at = fault.span().map_or(0, |span| span.start);
             let (line, column) = self.position(at);
             let follows = unclosed.is_some_and(|unclosed| line >= self.position(unclosed.at).0);
-            if follows || problems.iter().any(|(told, _)| *told == line) {
+            if follows || problems.iter().any(|(reported, _)| *reported == line) {
                 continue;
             }
             let message = fault.message().replace('\n', "; ");

@@ -75,9 +75,9 @@ async function findAddress() {
 }
 
 /** The case and its settings, as they are now. */
-function state(told) {
-  const other = page.state?.generation !== told.generation;
-  const fed = Boolean(told.belt);
+function state(message) {
+  const other = page.state?.generation !== message.generation;
+  const fed = Boolean(message.belt);
   if (Boolean(page.state?.belt) !== fed || !page.state) {
     document.querySelectorAll(".of-fixed").forEach((e) => (e.hidden = fed));
     document.querySelectorAll(".of-fed").forEach((e) => (e.hidden = !fed));
@@ -87,27 +87,27 @@ function state(told) {
   if (other) {
     keepBefore();
     // The program begins its time anew, or has been started again.
-    if (page.frame && told.generation < page.state?.generation) page.before = null;
+    if (page.frame && message.generation < page.state?.generation) page.before = null;
   }
-  page.state = told;
-  view.state = told;
-  plots.cutoff = told.cutoff;
-  controls.show(told.values);
-  byId("title").textContent = `· ${told.title}`;
-  document.title = `${told.title} – spunlaid live`;
-  byId("command").textContent = told.command;
-  byId("pace").value = told.pace;
-  byId("step").title = `Advance by one recorded instant (${told.instant})`;
+  page.state = message;
+  view.state = message;
+  plots.cutoff = message.cutoff;
+  controls.show(message.values);
+  byId("title").textContent = `· ${message.title}`;
+  document.title = `${message.title} – spunlaid live`;
+  byId("command").textContent = message.command;
+  byId("pace").value = message.pace;
+  byId("step").title = `Advance by one recorded instant (${message.instant})`;
   const play = byId("play");
-  play.textContent = told.stands ? "Go" : "Pause";
-  play.setAttribute("aria-pressed", String(!told.stands));
-  const notes = [...(told.trouble ? [`The simulation failed: ${told.trouble}. The fibres are straight again and the time is stopped. Change the setting that caused this, then press Go.`] : []), ...told.notes];
-  byId("remark").textContent = told.remark ? `${told.remark[0].toUpperCase()}${told.remark.slice(1)}.` : "";
-  byId("filament").hidden = told.filament.length === 0;
-  byId("filament").replaceChildren(...told.filament.map(sentence));
+  play.textContent = message.stands ? "Go" : "Pause";
+  play.setAttribute("aria-pressed", String(!message.stands));
+  const notes = [...(message.trouble ? [`The simulation failed: ${message.trouble}. The fibres are straight again and the time is stopped. Change the setting that caused this, then press Go.`] : []), ...message.notes];
+  byId("remark").textContent = message.remark ? `${message.remark[0].toUpperCase()}${message.remark.slice(1)}.` : "";
+  byId("filament").hidden = message.filament.length === 0;
+  byId("filament").replaceChildren(...message.filament.map(sentence));
   byId("notes").hidden = notes.length === 0;
   byId("notes").replaceChildren(...notes.map((note) => element("li", { textContent: note })));
-  if (!page.dirty) editor(told.text);
+  if (!page.dirty) editor(message.text);
   status();
 }
 
@@ -141,31 +141,31 @@ function withError({ value, error, unit: of }) {
   return `${value.toFixed(decimals)} ± ${error.toFixed(decimals)} ${unit}`;
 }
 
-function measured(told) {
-  if (!page.state || told.generation !== page.state.generation) return;
-  page.measured = told;
+function measured(message) {
+  if (!page.state || message.generation !== page.state.generation) return;
+  page.measured = message;
   const since = byId("since");
   since.textContent =
-    told.settling > 0
-      ? `The fibres are settling: another ${told.settling.toFixed(2)} s are left out.`
-      : `${told.duration.toFixed(2)} s of eight fibres.`;
+    message.settling > 0
+      ? `The fibres are settling: another ${message.settling.toFixed(2)} s are left out.`
+      : `${message.duration.toFixed(2)} s of eight fibres.`;
   const list = byId("numbers");
-  if (list.children.length !== told.numbers.length) {
+  if (list.children.length !== message.numbers.length) {
     list.replaceChildren(
-      ...told.numbers.map(({ label, meaning }) => {
+      ...message.numbers.map(({ label, meaning }) => {
         const card = element("div", { title: meaning });
         card.append(element("dt", { textContent: label }), element("dd", { className: "now" }), element("dd", { className: "before" }));
         return card;
       }),
     );
   }
-  told.numbers.forEach((number, i) => {
+  message.numbers.forEach((number, i) => {
     const [, now, old] = list.children[i].children;
     now.textContent = withError(number);
     const last = page.before?.get(number.name);
     old.textContent = last ? `before: ${withError(last)}` : "";
   });
-  plots.measured(told, page.before);
+  plots.measured(message, page.before);
 }
 
 function status() {

@@ -226,20 +226,20 @@ class Plots {
   }
 
   /** Takes the statistics; `last` – the numbers of the setting before by name. */
-  measured(told, last) {
-    const of = (name) => told.numbers.find((n) => n.name === name);
+  measured(message, last) {
+    const of = (name) => message.numbers.find((n) => n.name === name);
     const pair = (...names) => [names.map(of), names.map((name) => last?.get(name))];
-    const [wide, wideBefore] = told.curves || !told.footprint ? pair("amplitude_y", "amplitude_z") : pair("sigma_md", "sigma_cd");
-    this.settling.add(told.duration, wide, wideBefore);
-    if (told.footprint) {
-      this.map = told.footprint;
+    const [wide, wideBefore] = message.curves || !message.footprint ? pair("amplitude_y", "amplitude_z") : pair("sigma_md", "sigma_cd");
+    this.settling.add(message.duration, wide, wideBefore);
+    if (message.footprint) {
+      this.map = message.footprint;
       this.footprint.draw();
       return;
     }
-    this.rate.add(told.duration, ...pair("frequency_y", "frequency_z"));
-    if (!told.curves) return;
-    this.curves = told.curves;
-    const { along, spectrum } = told.curves;
+    this.rate.add(message.duration, ...pair("frequency_y", "frequency_z"));
+    if (!message.curves) return;
+    this.curves = message.curves;
+    const { along, spectrum } = message.curves;
     const onto = (x, of, k) => (of && of[0].length === x.length && of[0].at(-1) === x.at(-1) ? of[k] : x.map(() => null));
     const ghost = this.ghost;
     this.along.setData([...along, onto(along[0], ghost?.along, 1), onto(along[0], ghost?.along, 2)]);

@@ -44,7 +44,7 @@ fn is_device(name: &str) -> bool {
 /// Writes a file into a folder. A file that is there is replaced only if `replace` says so, and only if it is a file.
 ///
 /// # Errors
-/// The answer that tells why not.
+/// The answer that reports why not.
 pub(super) fn save(folder: &Path, name: &str, text: &str, replace: bool) -> Result<(), Answer> {
     let path = folder.join(name);
     let metadata = fs::symlink_metadata(&path).ok();

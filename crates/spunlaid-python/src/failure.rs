@@ -25,7 +25,7 @@ pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
 }
 
 /// What was read of texts that this package has made of dicts, under these names. The user did not write
-/// their lines, so no error and no note tells one.
+/// their lines, so no error and no note reports one.
 pub(crate) fn without_lines(read: Result<StudyFile, Error>, made: &[&str]) -> Result<StudyFile, Error> {
     let clear = |place: &mut Place| {
         if let Place::File { file, position, .. } = place

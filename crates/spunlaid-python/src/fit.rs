@@ -66,8 +66,8 @@ pub(crate) fn find_fit(
             let read = |resources: &Resources| file.web(values, resources);
             Resources::default().resolve_tension(read, |resources| resources.fly(by))
         };
-        let tell = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
-        let found = input.find(&web, by, &mut journal, &tell)?;
+        let report_progress = |now: WebInProgress<'_>| watch.done.store(now.web - 1, Ordering::Relaxed);
+        let found = input.find(&web, by, &mut journal, &report_progress)?;
         if let Some(mut place) = place {
             place.figures = figures;
             place.write(&found, watch.making())?;

@@ -84,7 +84,7 @@ impl Study {
             (case, path) => {
                 let text: String = study.extract()?;
                 let (case, path) = (case.map(Case::source), path.unwrap_or_default());
-                // What was made has no lines that a user knows.
+                // What was made has no lines that a user has seen.
                 let made = case.as_ref().filter(|(.., is_changed)| *is_changed).map(|(_, name, _)| *name);
                 let made = [Some(STUDY), made].into_iter().flatten().collect::<Vec<_>>();
                 let base = |_: &str, kind| match &case {

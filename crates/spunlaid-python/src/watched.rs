@@ -61,7 +61,7 @@ pub(crate) fn watched<T: Send>(
     work: impl FnOnce() -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
     let (finished, changed) = (Mutex::new(false), Condvar::new());
-    let tell = |py: Python<'_>| match progress {
+    let report_progress = |py: Python<'_>| match progress {
         Some(progress) => {
             let (done, total) = (watch.done.load(Ordering::Relaxed), watch.total.load(Ordering::Relaxed));
             progress.call1(py, (done.min(total), total)).map(drop)
@@ -86,7 +86,7 @@ pub(crate) fn watched<T: Send>(
                 }
                 drop(guard);
                 if ended.is_ok() {
-                    ended = Python::attach(|py| py.check_signals().and_then(|()| tell(py)));
+                    ended = Python::attach(|py| py.check_signals().and_then(|()| report_progress(py)));
                     if ended.is_err() {
                         watch.stop.store(true, Ordering::Relaxed);
                     }
@@ -97,7 +97,7 @@ pub(crate) fn watched<T: Send>(
     });
     ended?;
     match outcome {
-        Ok(Ok(done)) => tell(py).map(|()| done),
+        Ok(Ok(done)) => report_progress(py).map(|()| done),
         Ok(Err(failure)) => Err(raised(py, failure)),
         Err(panic) => Err(raised_of_panic(py, &*panic)),
     }

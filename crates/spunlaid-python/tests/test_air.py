@@ -57,7 +57,7 @@ def test_refuses_what_it_does_not_know(shared: Case, short: Case) -> None:
     assert air.at([], 0.0, 0.0, 0.0).shape == (0, 3)
 
 
-def test_tells_the_air_at_places(short: Case) -> None:
+def test_reports_the_air_at_places(short: Case) -> None:
     places = np.array([[0.0, 0.0, 0.0], [0.1, -0.02, 5.0]])
     found = short.air_at(places)
     speed, rms = short["air.velocity"], short["air.velocity"] * short["air.turbulence_intensity"]

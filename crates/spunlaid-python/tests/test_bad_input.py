@@ -27,7 +27,7 @@ values = anything | sizes | texts | st.sampled_from(["auto", "taylor", "clamped"
 
 
 @contextlib.contextmanager
-def only_told_errors() -> Any:
+def only_reported_errors() -> Any:
     with contextlib.suppress(*ALLOWED):
         yield
 
@@ -35,7 +35,7 @@ def only_told_errors() -> Any:
 @settings(max_examples=400, deadline=None)
 @given(st.dictionaries(st.sampled_from(KEYS) | st.text(max_size=20), values, max_size=4))
 def test_cases(changes: dict[str, Any]) -> None:
-    with only_told_errors():
+    with only_reported_errors():
         case = spunlaid.Case.starter().with_(changes)
         assert spunlaid.Case.from_text(case.to_toml()) == case
 
@@ -43,7 +43,7 @@ def test_cases(changes: dict[str, Any]) -> None:
 @settings(max_examples=100, deadline=None)
 @given(st.text(max_size=300) | st.just(spunlaid.Case.starter().to_toml()).flatmap(lambda t: st.integers(0, len(t)).map(lambda n: t[:n])))
 def test_texts_of_cases(text: str) -> None:
-    with only_told_errors():
+    with only_reported_errors():
         spunlaid.Case.from_text(text)
 
 
@@ -61,7 +61,7 @@ def test_dicts_studies_webs_and_records(value: Any) -> None:
         lambda value: _spunlaid.read_table(value),
         lambda value: spunlaid.Flight(value),
     ):
-        with only_told_errors(), contextlib.suppress(OSError):
+        with only_reported_errors(), contextlib.suppress(OSError):
             function(value)
 
 
@@ -71,7 +71,7 @@ flight = spunlaid.Flight(spunlaid.Case.starter().with_({"run.duration": 0.01, "r
 @settings(max_examples=200, deadline=None)
 @given(st.sampled_from(KEYS), values)
 def test_changes_in_flight(key: str, value: Any) -> None:
-    with only_told_errors():
+    with only_reported_errors():
         flight.set(key, value)
     assert np.isfinite(flight.positions).all()
 
@@ -80,10 +80,10 @@ def test_changes_in_flight(key: str, value: Any) -> None:
 @given(st.binary(max_size=200), st.integers(0, 10**6))
 def test_records_and_pickles_that_were_changed(extra: bytes, at: int) -> None:
     rows = np.frombuffer(extra[: len(extra) // 8 * 8])
-    with only_told_errors():
+    with only_reported_errors():
         spunlaid.analyse(np.concatenate([np.ones(80), rows]), 1e3)
     state = pickle.dumps(spunlaid.Case.starter())
     at %= len(state)
     text = state.replace(b"10 m/s", b"1\xff m/s") if at % 2 else state
-    with only_told_errors(), contextlib.suppress(pickle.UnpicklingError, UnicodeDecodeError):
+    with only_reported_errors(), contextlib.suppress(pickle.UnpicklingError, UnicodeDecodeError):
         pickle.loads(text)

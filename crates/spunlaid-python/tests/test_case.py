@@ -112,16 +112,16 @@ def test_every_problem_is_listed() -> None:
 def test_identical_checks_of_with_and_of_the_program(name: str, changes: dict[str, str], program: Path) -> None:
     path = CASES / f"{name}.toml"
     command = [program, "check", path, *[word for key in changes for word in ("--set", f"{key}={changes[key]}")]]
-    told = subprocess.run(command, capture_output=True, text=True)
+    reported = subprocess.run(command, capture_output=True, text=True)
     case = Case.read(path)
-    if told.returncode == 0:
+    if reported.returncode == 0:
         notes = [note.replace("Case:", "--set") for note in case.with_(changes).notes]
-        remarks = [line.split(": ", 1) for line in told.stderr.splitlines()]
+        remarks = [line.split(": ", 1) for line in reported.stderr.splitlines()]
         assert notes == [text for word, text in remarks if word in ("note", "warning")]
     else:
         with pytest.raises(CaseError) as caught:
             case.with_(changes)
-        problems = [line.removeprefix("error: ") for line in told.stderr.splitlines() if line.startswith("error: ")]
+        problems = [line.removeprefix("error: ") for line in reported.stderr.splitlines() if line.startswith("error: ")]
         assert str(caught.value).replace("Case:", "--set").splitlines() == problems
 
 

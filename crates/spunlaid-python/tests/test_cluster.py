@@ -217,7 +217,7 @@ def test_rejects_what_is_no_client(study: dict[str, object]) -> None:
         spunlaid.sweep(study, client="tcp://localhost:8786")
 
 
-def test_the_command_tells_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_reports_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from spunlaid._cluster import main
 
     with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster:

@@ -44,8 +44,8 @@ def test_the_number_is_found_as_by_the_program(scan: Path, program: Path, tmp_pa
     for key, value in start.items():
         command += ["--set", f"{key}={value} m/s" if "speed" in key else f"{key}={value}" if "filaments" in key else f"{key}={value} m"]
     subprocess.run([*command, "--out", tmp_path / "program"], check=True, capture_output=True)
-    told = json.loads((tmp_path / "program" / "fit.json").read_text())
-    assert told == found.summary == json.loads((tmp_path / "python" / "fit.json").read_text())
+    reported = json.loads((tmp_path / "program" / "fit.json").read_text())
+    assert reported == found.summary == json.loads((tmp_path / "python" / "fit.json").read_text())
     assert {path.suffix for path in (tmp_path / "python" / "figures").iterdir()} == {".csv", ".pdf"}
 
 

@@ -89,8 +89,8 @@ print(*(after - first for after, first in zip(state(), before)))
 def test_memory_and_references_stay_flat_over_hundreds_of_runs() -> None:
     """In a process of its own: what other tests have left to the allocator moves by more than is asked here."""
     pytest.importorskip("psutil")
-    told = subprocess.run([sys.executable, "-c", HUNDREDS_OF_RUNS], capture_output=True, text=True, check=True).stdout
-    memory, blocks, references = map(int, told.split())
+    reported = subprocess.run([sys.executable, "-c", HUNDREDS_OF_RUNS], capture_output=True, text=True, check=True).stdout
+    memory, blocks, references = map(int, reported.split())
     assert references == 0
     assert abs(blocks) < 300, "less than a block for each run"
     # A run of this case holds 100 kB; three hundred kept ones would be 30 MB.

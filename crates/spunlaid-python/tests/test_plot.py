@@ -121,7 +121,7 @@ def test_a_web_shows_its_map_and_its_unevenness() -> None:
         web.plot("clouds")
 
 
-def test_what_is_absent_is_told(run: spunlaid.Run, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_absent_is_reported(run: spunlaid.Run, monkeypatch: pytest.MonkeyPatch) -> None:
     for package, call in (
         ("matplotlib", run.plot),
         ("pandas", run.to_pandas),

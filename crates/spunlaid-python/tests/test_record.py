@@ -20,8 +20,8 @@ def test_identical_from_array_file_and_program(program: Path, tmp_path: Path) ->
     rate = 1 / (table[1, 0] - table[0, 0])
     array, file = spunlaid.analyse(table[:, 1:], rate), spunlaid.analyse(PROBE)
     subprocess.run([program, "analyse", PROBE, "--out", tmp_path / "a", "--quiet"], check=True, capture_output=True)
-    told = json.loads((tmp_path / "a" / "analysis.json").read_text())
-    assert {**told, "record": None} == {**file.results, "record": None}
+    reported = json.loads((tmp_path / "a" / "analysis.json").read_text())
+    assert {**reported, "record": None} == {**file.results, "record": None}
     assert (tmp_path / "a" / "air.toml").read_text() == file.air_toml
     # The times of the file are rounded to a microsecond.
     for name in ("mean_velocity", "turbulence_intensity", "integral_time", "length_scale", "cutoff_frequency"):

@@ -206,7 +206,7 @@ def test_a_forked_child_leaves_the_run_of_its_parent() -> None:
     assert done.returncode == 0 and int(done.stdout) > 0, done.stderr
 
 
-def test_lost_fibres_are_told_and_in_no_mean(tmp_path: Path) -> None:
+def test_lost_fibres_are_reported_and_in_no_mean(tmp_path: Path) -> None:
     # A gust of 90 km/s in a record: the fibres whose stretch has it are lost.
     velocity = ["1e5" if 400 <= i < 420 else f"{10 + i * i % 101 * 0.01}" for i in range(2000)]
     rows = "".join(f"{i * 1e-3},{u}\n" for i, u in enumerate(velocity))
@@ -247,7 +247,7 @@ def test_what_a_fed_fibre_lays(fed: Case) -> None:
         spacing = np.diff(laid["s_m"])
         np.testing.assert_allclose(spacing, spacing[0], rtol=1e-9)
         # What has come down was fed before, and the way to the belt is still full of fibre, stretched by less than 1 %.
-        # A fibre begins with two elements, and points are told to one.
+        # A fibre begins with two elements, and points are reported to one.
         fed_by_then = fed["feed.speed"] * laid["time_s"] + 2 * spacing[0]
         assert np.all(laid["s_m"] + 0.99 * fed["belt.distance"] <= fed_by_then + spacing[0])
         # It does not lag behind by more than the loops that ten times the way would hold.
@@ -277,10 +277,10 @@ def test_a_notebook_shows_the_report(short: Case) -> None:
     assert " srcdoc=" in shown and "&lt;html" in shown.lower() and "amplitude_y_m" in repr(run)
 
 
-def test_progress_is_told_and_its_errors_come_through(short: Case) -> None:
-    told: list[tuple[int, int]] = []
-    spunlaid.run(short, 40, progress=lambda done, of: told.append((done, of)))
-    assert told[-1][0] == told[-1][1] > 0 and told == sorted(told)
+def test_progress_is_reported_and_its_errors_come_through(short: Case) -> None:
+    reported: list[tuple[int, int]] = []
+    spunlaid.run(short, 40, progress=lambda done, of: reported.append((done, of)))
+    assert reported[-1][0] == reported[-1][1] > 0 and reported == sorted(reported)
     slow = short.with_({"run.duration": 50.0, "run.replicates": 8})
 
     def refuse(done: int, of: int) -> None:

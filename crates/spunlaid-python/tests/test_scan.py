@@ -31,14 +31,14 @@ def test_identical_to_the_program(webs: Path, program: Path, tmp_path: Path) -> 
     command = [program, "analyse", picture, "--out", tmp_path / "program", "--quiet", *options]
     subprocess.run(command, check=True, capture_output=True)
     scan = spunlaid.scan(picture, weight=0.015, light="weight", md="rows", patches=["2 mm", 0.01], keep_shading=True)
-    told = json.loads((tmp_path / "program" / "summary.json").read_text())
-    assert {**told, "performance": None} == {**scan.summary, "performance": None}
+    reported = json.loads((tmp_path / "program" / "summary.json").read_text())
+    assert {**reported, "performance": None} == {**scan.summary, "performance": None}
     scan.save(tmp_path / "python")
     assert (tmp_path / "program" / "map.npy").read_bytes() == (tmp_path / "python" / "map.npy").read_bytes()
     names = [sorted(path.name for path in (tmp_path / which).rglob("*")) for which in ("program", "python")]
     # The program keeps its command.
     assert set(names[0]) - set(names[1]) == {"origin.toml"} and set(names[1]) <= set(names[0])
-    for patch, i in zip(told["web"]["patches"], range(2), strict=True):
+    for patch, i in zip(reported["web"]["patches"], range(2), strict=True):
         for name, values in scan.patches.items():
             if name in patch:
                 assert values[i] == (np.nan if patch[name] is None else patch[name]) or np.isnan(values[i]), name
@@ -119,9 +119,9 @@ def test_identical_comparison_of_runs(short: spunlaid.Case, program: Path, tmp_p
     for name, changes in (("one", {}), ("two", {"air.velocity": 12.0})):
         spunlaid.run(short.with_(changes), threads=2).save(tmp_path / name)
     folders = [tmp_path / "one", tmp_path / "two"]
-    told = subprocess.run([program, "compare", *folders, "--json"], check=True, capture_output=True, text=True)
+    reported = subprocess.run([program, "compare", *folders, "--json"], check=True, capture_output=True, text=True)
     found = spunlaid.compare(*folders)
-    assert json.loads(told.stdout) == found.summary
+    assert json.loads(reported.stdout) == found.summary
     [compared] = found.comparisons
     assert compared["paired"] and compared["pairs"] == 3
     amplitudes = [spunlaid.load(folder).measures["amplitude_y_m"].mean for folder in folders]

@@ -137,7 +137,7 @@ def test_rejects_what_is_no_study(study: object, error: type[Exception]) -> None
         spunlaid.sweep(study)  # type: ignore[arg-type]
 
 
-def test_a_value_of_no_use_is_told_with_its_key(short: Case) -> None:
+def test_a_value_of_no_use_is_reported_with_its_key(short: Case) -> None:
     for said in ({"vary": {"air.velocity": [object()]}}, {"vary": {"air.velocity": {"from": 1.0, "to": b"2"}}}, {"set": {"air.velocity": None}}):
         with pytest.raises(TypeError, match=r"air\.velocity takes"):
             spunlaid.sweep({"case": short, **said})

@@ -33,8 +33,8 @@ def test_identical_to_the_program(web: spunlaid.Web, program: Path, tmp_path: Pa
     for setting in ("web.width=0.1 m", "web.length=0.1 m", "laydown.sigma_md=10 mm", "laydown.sigma_cd=0.01 m"):
         command += ["--set", setting]
     subprocess.run(command, check=True, capture_output=True)
-    told = json.loads((tmp_path / "w" / "summary.json").read_text())
-    assert without_folders(told) == without_folders(web.summary)
+    reported = json.loads((tmp_path / "w" / "summary.json").read_text())
+    assert without_folders(reported) == without_folders(web.summary)
     web.save(tmp_path / "python")
     for name in ("map.npy", "fibres.vtp"):
         assert (tmp_path / "w" / name).read_bytes() == (tmp_path / "python" / name).read_bytes()
@@ -49,13 +49,13 @@ def test_what_filaments_do_to_their_air() -> None:
     coarse = {"air.lateral_cutoff": 6, "fibre.element_length": "20 mm", "run.duration": "50 ms", "run.spin_up": "10 ms"}
     small = {"web.width": 0.2, "web.length": 0.2, "web.cell": "1 mm", "web.simulated": 100}
     web = spunlaid.web(CASES / "web_shared.toml", set={**coarse, **small}, assumed_values=False, threads=2)
-    [curtain], told = web.curtains, web.summary["layers"][0]["curtain"]
-    assert curtain["filaments_per_m"] == 5000 and curtain["mass_loading"] == told["mass_loading"]
+    [curtain], reported = web.curtains, web.summary["layers"][0]["curtain"]
+    assert curtain["filaments_per_m"] == 5000 and curtain["mass_loading"] == reported["mass_loading"]
     places = curtain["places"]
     np.testing.assert_allclose(places["x_m"], np.linspace(0.05, 0.5, 10))
     for name in ("mean", "standard_error"):
         column = places["force_n_per_m" if name == "mean" else "force_n_per_m_se"]
-        np.testing.assert_array_equal(column, [place["force_n_per_m"][name] for place in told["places"]])
+        np.testing.assert_array_equal(column, [place["force_n_per_m"][name] for place in reported["places"]])
     # The filaments fall into air that is slower than they are.
     assert places["force_n_per_m"][-1] > 5 * places["force_n_per_m_se"][-1] > 0
     np.testing.assert_allclose(places["change_of_velocity"], np.sqrt(1 + places["share_of_momentum"]) - 1)

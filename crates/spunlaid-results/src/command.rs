@@ -30,7 +30,7 @@ fn folder(change: &Change, beside: &str) -> String {
     beside_of(&format!("{}{layers}", beside.trim_end_matches('/')), [(&*key.key, &*key.pretty(key.to))])
 }
 
-/// Most bytes of a name for settings; longer ones are told apart by a number.
+/// Most bytes of a name for settings; longer ones are distinguished by a number.
 const LONGEST: usize = 48;
 
 /// A folder of its own for results with some settings, beside that of the results without them:

@@ -34,8 +34,8 @@ pub(crate) fn name(change: &Change, spec: &WebSpec) -> String {
         [one] => format!(" of layer {one}"),
         [more @ .., last] => format!(" of layers {} and {last}", more.join(", ")),
     };
-    let guess = change.keys.first().filter(|_| change.setting == setting::ASSUMED);
-    let what = guess.map(|guess| in_sentence(label(&guess.key)));
+    let assumed = change.keys.first().filter(|_| change.setting == setting::ASSUMED);
+    let what = assumed.map(|assumed| in_sentence(label(&assumed.key)));
     format!("{}{whose}", what.unwrap_or_else(|| change.setting.words.to_owned()))
 }
 

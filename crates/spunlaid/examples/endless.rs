@@ -24,5 +24,5 @@ fn main() {
 fn peak_memory() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    peak.map_or_else(|| "not told by this system".to_owned(), |peak| peak.trim().to_owned())
+    peak.map_or_else(|| "not reported by this system".to_owned(), |peak| peak.trim().to_owned())
 }

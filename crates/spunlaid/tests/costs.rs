@@ -280,8 +280,8 @@ const RAW: vtk::Style = vtk::Style { place: vtk::DataPlace::AppendedRaw, ..vtk::
 fn memory_of_field(file: &[u8], name: &str) -> (f64, f64, usize) {
     let (field, memory) = memory_of(|| Field::parse(file, name).expect("a field").0);
     // What the field says it takes is what it holds.
-    let (told, kept) = (field.memory() as f64, memory.kept as f64);
-    assert!((kept / told - 1.0).abs() < 0.1, "{name}: {kept} bytes held, {told} told");
+    let (estimated, kept) = (field.memory() as f64, memory.kept as f64);
+    assert!((kept / estimated - 1.0).abs() < 0.1, "{name}: {kept} bytes held, {estimated} estimated");
     (kept, memory.peak as f64, field.memory_while_made())
 }
 
@@ -315,16 +315,16 @@ fn a_field_takes_as_much_memory_as_the_guide_says() {
         (image, "a.vti", points.len(), 41.0, 90.0),
         (table.into_bytes(), "a.csv", points.len(), 226.0, 500.0),
     ] {
-        let (kept, peak, told) = memory_of_field(&file, name);
+        let (kept, peak, estimated) = memory_of_field(&file, name);
         let (kept, made) = (kept / each as f64, peak / each as f64);
         println!(
-            "{name}: {kept:.0} and {made:.0} bytes each, {:.0} told, {} file",
-            told as f64 / each as f64,
+            "{name}: {kept:.0} and {made:.0} bytes each, {:.0} estimated, {} file",
+            estimated as f64 / each as f64,
             file.len() / each
         );
         assert!(kept <= kept_each && made <= made_each, "{name}: {kept:.0} and {made:.0} bytes for each");
-        let share = told as f64 / peak;
-        assert!((0.67..1.5).contains(&share), "{name}: {told} bytes told of {peak}");
+        let share = estimated as f64 / peak;
+        assert!((0.67..1.5).contains(&share), "{name}: {estimated} bytes estimated of {peak}");
     }
 }
 
@@ -356,7 +356,7 @@ fn a_file_that_unpacks_to_more_than_is_read_is_refused_before_it_is_unpacked() {
 
 /// A field is made block by block, and forgotten likewise.
 #[test]
-fn limit_a_field_of_eddies_takes_the_memory_that_is_told_before() {
+fn limit_a_field_of_eddies_takes_the_memory_that_is_reported_before() {
     const LENGTH: f64 = 16e-3;
     const BLOCKS: u32 = 36;
     let (spunbond, _) = read_case(Path::new("../../cases/spunbond.toml"), &[]).expect("the case is read");
@@ -381,20 +381,20 @@ fn limit_a_field_of_eddies_takes_the_memory_that_is_told_before() {
                     field.make(from..from + field.block(), 1);
                 }
             });
-            let (found, told) = (memory.peak as f64, EddyField::memory(1, &air, 0.5, extent, cutoff));
-            assert!((0.75 * told..told).contains(&found), "{what}: {found} of {told}");
+            let (found, estimated) = (memory.peak as f64, EddyField::memory(1, &air, 0.5, extent, cutoff));
+            assert!((0.75 * estimated..estimated).contains(&found), "{what}: {found} of {estimated}");
         }
     }
 }
 
 /// A field is made near its fibre only.
 #[test]
-fn limit_fibres_in_eddies_take_the_part_of_their_fields_that_is_told_before() {
+fn limit_fibres_in_eddies_take_the_part_of_their_fields_that_is_reported_before() {
     let mut case = table1(Scheme::ImplicitTension, 2e-4, 0.4, WIDTH as u64);
     case.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
     let (_, memory) = memory_of(|| flights(&case));
-    let (found, told) = (memory.peak as f64, case.flight_memory().total());
-    assert!((0.5 * told..2.0 * told).contains(&found), "{found} of {told}");
+    let (found, estimated) = (memory.peak as f64, case.flight_memory().total());
+    assert!((0.5 * estimated..2.0 * estimated).contains(&found), "{found} of {estimated}");
     let whole = EddyField::memory(WIDTH as u64, &case.air, case.way_of_air(), case.extent_of_air(), 10.0);
     assert!(found < whole / 6.0, "{found} of {whole} for the whole fields");
 }

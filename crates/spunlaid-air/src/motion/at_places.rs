@@ -124,7 +124,7 @@ impl Task for Look<'_> {
 }
 
 named! {
-    /// The axes in which places and velocities are told.
+    /// The axes in which places and velocities are reported.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub enum PlaceAxes {
         /// Of the case: from the root or the inlet, x along gravity, y in machine direction, z in cross direction.
@@ -142,7 +142,7 @@ impl LocalAir {
 }
 
 impl Air {
-    /// The axes in which places are told if nobody says so: those of a CFD field, or of the line.
+    /// The axes in which places are reported if nobody says so: those of a CFD field, or of the line.
     pub const fn usual_axes(&self) -> PlaceAxes {
         if self.flow.is_field() { PlaceAxes::Field } else { PlaceAxes::Line }
     }

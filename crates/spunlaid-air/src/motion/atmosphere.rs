@@ -5,7 +5,7 @@
 //! run    once a block of elements: a task that asks for the velocity at each
 //! ```
 //!
-//! The kernel asks for velocities and knows no kind of air. A kind is a variant of both types here, and what
+//! The kernel asks for velocities whatever the kind of air. A kind is a variant of both types here, and what
 //! it looks at is its own: it may belong to one flight, or be a handle to what many flights read. Velocities
 //! that are all written into a buffer beforehand cost up to a seventh of a step: the signals of many eddies
 //! do not fit into the first-level cache.

@@ -366,7 +366,7 @@ impl Air {
         places.map(|at| self.local(at, &mut hint)).collect()
     }
 
-    /// Where along a fibre the turbulence changes fastest, as a share of its length, if the flow tells its
+    /// Where along a fibre the turbulence changes fastest, as a share of its length, if the flow reports its
     /// cut-off frequency. This place sets [`Air::cutoff_frequency`], and so the time step where the case
     /// gives none.
     ///

@@ -21,7 +21,7 @@ struct File {
 }
 
 impl<T> FileContent<T> {
-    /// The content of the file at `path`; `checksum` tells this content from another.
+    /// The content of the file at `path`; `checksum` distinguishes this content from another.
     pub fn new(path: PathBuf, checksum: u32, content: Arc<T>) -> Self {
         Self { file: Arc::new(File { path, checksum, parts: Vec::new() }), content }
     }
@@ -34,7 +34,7 @@ impl<T> FileContent<T> {
         self
     }
 
-    /// The same content with a checksum that tells it from the content of the same file read in another way.
+    /// The same content with a checksum that distinguishes it from the content of the same file read in another way.
     ///
     /// * `way` – empty if there is only one
     #[must_use]

@@ -6,7 +6,7 @@ use spunlaid_ground::{Dimension, Fault};
 
 /// Largest deviation that the rounding of written times may explain, as a share of a step.
 const ROUNDING: f64 = 0.25;
-/// Rounding above this share of a step lets no single step tell whether a sample is missing.
+/// Rounding above this share of a step lets no single step show whether a sample is missing.
 const COARSE: f64 = 0.45;
 /// Rows over which the usual step is found.
 const WINDOW: usize = 256;
@@ -78,7 +78,7 @@ fn usual_step<I: Iterator<Item = (usize, f64)>>(known: impl Fn() -> I) -> Option
     Some(*steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Places rows whose every step tells by itself how many samples it spans.
+/// Places rows whose every step reports by itself how many samples it spans.
 ///
 /// * `slack` – how much rounding may change a step [s]
 fn by_steps(known: impl Iterator<Item = (usize, f64)>, usual: f64, slack: f64) -> Result<Spacing, Trouble> {

@@ -7,7 +7,7 @@ use crate::USUAL_LENGTH_SCALE;
 use spunlaid_ground::error::{by_count, counted, listed};
 use spunlaid_ground::{Dimension, Fault, Interval, WAS};
 
-/// Largest share of an integral time that joints may take off, so that the record without its artefacts is told.
+/// Largest share of an integral time that joints may take off, so that the record without its artefacts is reported.
 const MOST_JOINED: f64 = 0.02;
 /// Share of interpolated samples from which results may mislead.
 const MUCH_FILLED: f64 = 0.001;
@@ -71,7 +71,7 @@ pub(super) fn warnings(
     warnings.extend(record.reading.doubt.clone());
     warnings.extend(filled(record).filter(|_| record.filled_share() > MUCH_FILLED));
     warnings.extend(artefacts.faults);
-    warnings.extend(without.and_then(|(samples, joints, rest)| told_without(samples, joints, rest)));
+    warnings.extend(without.and_then(|(samples, joints, rest)| results_without(samples, joints, rest)));
     let analysis = without.map_or(analysis, |(.., rest)| rest);
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {
@@ -146,7 +146,7 @@ fn coarse(values: &[f64], rms: f64) -> Option<Fault> {
 
 /// What the analysis gives without the samples that are no velocities. None if too many others had to be joined: each
 /// joint takes an integral time out of the record.
-fn told_without(samples: usize, joints: usize, rest: &Analysis) -> Option<Fault> {
+fn results_without(samples: usize, joints: usize, rest: &Analysis) -> Option<Fault> {
     let joined = joints as f64 * rest.integral_time.value;
     if !rest.has_mean() || joined > MOST_JOINED * rest.duration {
         return None;

@@ -31,7 +31,7 @@ pub struct FlatPart {
     pub cutoff: Interval,
     /// Number of independent values averaged.
     pub independent: f64,
-    /// Whether the spectrum is too coarse to tell where it is flat.
+    /// Whether the spectrum is too coarse to show where it is flat.
     pub coarse: bool,
 }
 

@@ -11,7 +11,7 @@ pub(super) type Known = Vec<(usize, f64)>;
 
 /// Largest deviation of a time step from the usual one, as a share of it.
 pub(super) const JITTER: f64 = 0.01;
-/// Fewest rows that tell a rounded clock.
+/// Fewest rows that give a rounded clock.
 const FEWEST: usize = 32;
 /// Grids below this share of the step do not matter.
 const FINE: f64 = 0.02;

@@ -34,8 +34,8 @@ pub(crate) fn analyse(analyse: &Analyse, invocation: &Invocation) -> Result<(), 
         );
         return Err(refuse(fault).into());
     }
-    let is_told = is_scan || invocation.first_option::<RecordOptions>().is_some();
-    let unnamed = columns_of_map(&analyse.record).filter(|_| !is_told);
+    let is_certain = is_scan || invocation.first_option::<RecordOptions>().is_some();
+    let unnamed = columns_of_map(&analyse.record).filter(|_| !is_certain);
     unnamed.map_or(Ok(()), |columns| Err(refuse(unknown_table(columns))))?;
     if is_scan { scan(analyse, invocation) } else { record(analyse, invocation) }
 }

@@ -3,7 +3,7 @@
 use super::{counted, stem};
 use crate::args::{self, Invocation, overrides};
 use crate::control::{control, settled, stop_on_ctrl_c};
-use crate::delivery::{begin, making, say_continued, tell};
+use crate::delivery::{begin, making, print_results, say_continued};
 use crate::failure::Failure;
 use crate::{progress, say};
 use spunlaid::experiment::{Journal, WebInProgress};
@@ -35,7 +35,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let trials = counted(found.fit.trials.len() as u64, "trial");
     let lines = [format!("{trials} of {} each", counted(found.fit.webs, "web"))];
     let text = folder.write(&found, making(threads))?;
-    tell(&found, (&path, &text), &lines, output);
+    print_results(&found, (&path, &text), &lines, output);
     Ok(())
 }
 

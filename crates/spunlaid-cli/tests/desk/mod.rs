@@ -131,7 +131,7 @@ impl Desk {
 impl Drop for Desk {
     fn drop(&mut self) {
         if !std::thread::panicking() {
-            files(self.folder.path()).iter().for_each(|file| tells_numbers(file));
+            files(self.folder.path()).iter().for_each(|file| assert_only_finite_numbers(file));
         }
     }
 }
@@ -146,7 +146,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Panics if a report or a summary has NaN or inf where a number should stand.
-fn tells_numbers(file: &Path) {
+fn assert_only_finite_numbers(file: &Path) {
     let name = file.file_name().unwrap().to_string_lossy();
     if !(name == "report.html" || name == "summary.json" || name == "analysis.json") {
         return;

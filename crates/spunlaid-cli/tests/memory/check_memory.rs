@@ -1,4 +1,4 @@
-//! `check` tells the memory that a run takes.
+//! `check` reports the memory that a run takes.
 
 use crate::desk::{Desk, success};
 use std::fs;
@@ -22,7 +22,7 @@ fn peak(command: &mut Command) -> f64 {
 }
 
 #[test]
-fn check_tells_the_memory_of_a_run() {
+fn check_reports_the_memory_of_a_run() {
     let _alone = crate::alone();
     let desk = Desk::new();
     let field = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/openfoam_diffuser.toml");
@@ -33,13 +33,14 @@ fn check_tells_the_memory_of_a_run() {
         ("replicates", "brief.toml", &["run.duration=0.3 s", "run.replicates=800"]),
         ("field", field, &["run.replicates=8"]),
     ] {
-        let told = success(&mut desk.with(&format!("check {case}"), changes));
-        let told = told.split(" MiB of memory").next().and_then(|before| before.rsplit(' ').next()).unwrap();
-        let told = told.parse::<f64>().unwrap() * f64::from(1 << 20);
+        let estimated = success(&mut desk.with(&format!("check {case}"), changes));
+        let estimated =
+            estimated.split(" MiB of memory").next().and_then(|before| before.rsplit(' ').next()).unwrap();
+        let estimated = estimated.parse::<f64>().unwrap() * f64::from(1 << 20);
         let taken = peak(&mut desk.with(&format!("run {case} --out {name}"), changes));
-        println!("{name}: {:.0} MB told, {:.0} MB taken", told / 1e6, taken / 1e6);
-        let share = told / taken;
-        assert!((0.67..1.5).contains(&share), "{name}: {told:e} bytes told, {taken:e} taken");
+        println!("{name}: {:.0} MB estimated, {:.0} MB taken", estimated / 1e6, taken / 1e6);
+        let share = estimated / taken;
+        assert!((0.67..1.5).contains(&share), "{name}: {estimated:e} bytes estimated, {taken:e} taken");
     }
 }
 

@@ -109,7 +109,7 @@ fn the_parts_of_a_list_stay_with_the_results() {
     // Over itself: the parts are read before they are replaced.
     success(&mut desk.spunlaid("run again/case.toml --out again --force"));
     identical();
-    // A part that is gone or is another one is told.
+    // A part that is gone or is another one is reported.
     std::fs::remove_file(desk.path("again/case_files/blocks/blocks/blocks_1.vtu")).unwrap();
     let said = refusal(&mut desk.spunlaid("run again/case.toml --out third"), 1);
     assert!(
@@ -167,7 +167,7 @@ fn a_study_of_another_field_is_another_study() {
 }
 
 #[test]
-fn a_fibre_out_of_its_field_is_told_of() {
+fn a_fibre_out_of_its_field_is_reported() {
     let desk = Desk::new();
     let case = cases().join("openfoam_diffuser.toml");
     let out = desk

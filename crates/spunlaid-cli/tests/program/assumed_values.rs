@@ -27,7 +27,7 @@ assumed = \"line.filaments_per_metre, line.throughput\"
 /// The CV of half and twice as many filaments at random places is 1.41 and 0.71 times that of the web; half
 /// of the throughput cannot be laid, which the terminal, the report and `summary.json` say with the reason.
 #[test]
-fn analytic_the_sentence_of_guesses_has_the_cv_of_each_and_why_one_cannot_be_laid() {
+fn analytic_the_sentence_of_assumed_values_has_the_cv_of_each_and_why_one_cannot_be_laid() {
     let desk = Desk::with_case(FED);
     fs::write(desk.path("web.toml"), KNOWN).unwrap();
     let said = success(&mut desk.spunlaid("web web.toml --out w --no-advice"));

@@ -1,4 +1,4 @@
-//! `check`: what it tells of a case and of a web.
+//! `check`: what it reports of a case and of a web.
 
 use crate::desk::{Desk, FED, names, success};
 
@@ -57,7 +57,7 @@ fn check_says_which_place_of_a_field_decides_the_step() {
 }
 
 #[test]
-fn check_tells_what_was_read_of_a_field_and_the_axis_of_its_air() {
+fn check_reports_what_was_read_of_a_field_and_the_axis_of_its_air() {
     let desk = Desk::new();
     // A duct along y.
     let rows = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n";
@@ -114,9 +114,9 @@ fn check_remarks_on_rounded_elements_and_extrapolated_drag_once() {
     assert_eq!(said.lines().count(), 2, "{said}");
 }
 
-/// The numbers of a line: what is told is what the file says, and what follows from it.
+/// The numbers of a line: what is reported is what the file says, and what follows from it.
 #[test]
-fn analytic_check_tells_the_numbers_of_a_web() {
+fn analytic_check_reports_the_numbers_of_a_web() {
     let desk = Desk::new();
     let web = "[fibre]\nlinear_density = \"2 dtex\"\ndensity = \"910 kg/m³\"\n[laydown]\n\
         sigma_md = \"18 mm\"\nsigma_cd = \"18 mm\"\nnoise = \"12 m^-0.5\"\n[line]\n\
@@ -165,7 +165,7 @@ fn analytic_check_tells_the_numbers_of_a_web() {
 
 /// Whether the air of the case is the same everywhere, and how all filaments fly in one.
 #[test]
-fn check_tells_in_which_air_the_filaments_of_a_web_hang() {
+fn check_reports_in_which_air_the_filaments_of_a_web_hang() {
     let desk = Desk::with_case(FED);
     let web = "[laydown]\ncase = \"brief.toml\"\n[line]\nfilaments_per_metre = 1000\n[web]\n\
         width = \"0.5 m\"\nlength = \"0.5 m\"\n";

@@ -83,8 +83,11 @@ fn a_scan_and_a_web_are_seen_at_one_scale_and_in_one_chart_in_either_order() {
             ("texture_md", "in waves of 4 to 16 cells, and the cells are"),
         ] {
             let measure = &measures[column];
-            let told = measure["no_verdict"].as_str().unwrap();
-            assert!(told.contains(reason) && measure["significant"].is_null(), "{order}, {column}: {told}");
+            let expected = measure["no_verdict"].as_str().unwrap();
+            assert!(
+                expected.contains(reason) && measure["significant"].is_null(),
+                "{order}, {column}: {expected}"
+            );
             assert!(page.contains(reason), "{column}");
         }
         assert!(
@@ -139,7 +142,7 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     let figures: Vec<String> = figures.chain(["web_picture_1.png".to_owned()]).collect();
     assert_eq!(desk.entries("both/figures"), names(&figures.iter().map(String::as_str).collect::<Vec<_>>()));
     assert!(page(&desk).contains("alt=\"scan in transmitted light\""));
-    // A map of other cells than the summary tells of.
+    // A map of other cells than the summary reports of.
     fs::copy(desk.path("scan/map.npy"), desk.path("laid/map.npy")).unwrap();
     let found = compared(&desk, "laid scan");
     let notes = found["notes"].to_string();
@@ -150,7 +153,9 @@ fn a_folder_without_its_map_is_compared_without_a_picture() {
     }
     let found = compared(&desk, "laid scan");
     assert_eq!(desk.entries("both/figures"), names(&["web_cv.csv", "web_cv.png", "web_cv.svg"]));
-    assert!(!page(&desk).contains("Pictures at the same scale") && found["notes"].as_array().unwrap().len() == 2);
+    assert!(
+        !page(&desk).contains("Pictures at the same scale") && found["notes"].as_array().unwrap().len() == 2
+    );
     let cloudiness = &found["comparisons"][0]["measures"]["cloudiness"]["no_verdict"];
     assert_eq!(cloudiness, "waves of 5 mm are below the blur of the scan (scan)");
 }
@@ -163,9 +168,9 @@ fn my_scan_is_compared_with_my_line_in_one_step() {
     let picture = concat!(env!("CARGO_MANIFEST_DIR"), "/../spunlaid/tests/scan_fixtures/web.png");
     fs::copy(picture, desk.path("scan.png")).unwrap();
     let said = success(&mut desk.spunlaid("compare scan.png web.toml"));
-    let told = "web_simulated against scan_analysed: what differs is not known: the level of the lamp is an \
+    let expected = "web_simulated against scan_analysed: what differs is not known: the level of the lamp is an \
          assumed value";
-    assert!(said.contains(told), "{said}");
+    assert!(said.contains(expected), "{said}");
     for folder in
         ["results/scan_analysed", "results/web_simulated", "results/scan_analysed_against_web_simulated"]
     {
@@ -173,7 +178,7 @@ fn my_scan_is_compared_with_my_line_in_one_step() {
     }
     // What stands in the folders is compared as well, and with the same words; a second time the same is made.
     let again = success(&mut desk.spunlaid("compare results/scan_analysed web.toml"));
-    assert!(again.contains(told), "{again}");
+    assert!(again.contains(expected), "{again}");
     let quiet = success(&mut desk.spunlaid("compare scan.png web.toml --json"));
     assert!(serde_json::from_str::<Value>(&quiet).is_ok(), "{quiet}");
 }

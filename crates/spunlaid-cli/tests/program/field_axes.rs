@@ -106,7 +106,7 @@ fn invariant_one_diffuser_in_all_orientations_lays_the_same_fibre_and_the_same_w
         fs::write(desk.path("places.csv"), "x [mm],y [mm],z [mm]\n10,5,0\n100,-20,3\n150,40,-7\n").unwrap();
         let run = json(&success(&mut desk.spunlaid("run brief.toml --json --threads 1 --checks none")));
         let sigmas = ["sigma_md_m", "sigma_cd_m"].map(|name| run["laydown"][name]["mean"].as_f64().unwrap());
-        // Swapped, they would be told apart.
+        // Swapped, they would be distinguished.
         assert!((sigmas[0] / sigmas[1] - 1.0).abs() > 0.05, "{axis}: {sigmas:?}");
         let web = json(&success(&mut desk.spunlaid("web web.toml --json --no-advice --threads 1")));
         let air = success(&mut desk.spunlaid("air brief.toml --at places.csv --axes line"));
@@ -128,7 +128,7 @@ fn desk_case(desk: &Desk) -> String {
 }
 
 #[test]
-fn a_field_tells_its_machine_direction_and_an_own_one_wins() {
+fn a_field_gives_its_machine_direction_and_an_own_one_wins() {
     let (_, axes) = ORIENTATIONS[2];
     let spread = |at: [f64; 3]| {
         let [u, v, w] = velocity(at);
@@ -182,7 +182,7 @@ fn a_field_tells_its_machine_direction_and_an_own_one_wins() {
 fn a_web_whose_air_changes_across_its_width_is_doubted() {
     let (_, axes) = ORIENTATIONS[0];
     let faster = |at: [f64; 3]| velocity(at).map(|part| part * (1.0 + 4.0 * at[2]));
-    let told = |desk: &Desk, more: &[&str]| {
+    let output = |desk: &Desk, more: &[&str]| {
         fs::write(desk.path("web.toml"), desk_case(desk) + WEB).unwrap();
         let output = desk.with("check web.toml", more).output().unwrap();
         assert!(output.status.success());
@@ -191,11 +191,11 @@ fn a_web_whose_air_changes_across_its_width_is_doubted() {
     let doubt = "lets the air change by 20 % of its mean speed along the cross direction (z of the field), over \
         the 100 mm";
     let uneven = desk("x", &table(axes, 3, faster));
-    let said = told(&uneven, &[]);
+    let said = output(&uneven, &[]);
     assert!(said.contains(doubt) && said.contains("If z is the machine direction, write it here"), "{said}");
     // Less than a twentieth is none, and a plane flow has none.
-    assert!(!told(&uneven, &["web.width=20 mm"]).contains("lets the air change"));
-    assert!(!told(&desk("x", &table(axes, 1, velocity)), &[]).contains("lets the air change"));
+    assert!(!output(&uneven, &["web.width=20 mm"]).contains("lets the air change"));
+    assert!(!output(&desk("x", &table(axes, 1, velocity)), &[]).contains("lets the air change"));
 }
 
 /// The air of a slot, fast between 19 mm on both sides of its middle; filaments in its middle, beside it, in the slow
@@ -206,19 +206,19 @@ fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
     let slot = |[_, y, _]: [f64; 3]| [if y.abs() < 0.02 { 20.0 } else { 2.0 }, 0.0, 0.0];
     let desk = desk("-z", &table(axes, 1, slot));
     fs::write(desk.path("web.toml"), desk_case(&desk) + WEB).unwrap();
-    let told = |more: &[&str]| {
+    let output = |more: &[&str]| {
         let output = desk.with("check web.toml", more).output().unwrap();
         let said = String::from_utf8([output.stderr, output.stdout].concat()).unwrap();
         assert!(output.status.success(), "{said}");
         said
     };
     let at = |x: &str| format!("air.field_root=[\"{x}\", \"0 m\", \"0 m\"]");
-    let said = told(&["line.slot_gap=20 mm"]);
+    let said = output(&["line.slot_gap=20 mm"]);
     let place = "the middle of the slot is at [0 m, 0 m, 0 m] of the field (air.field_root); filaments are fed from \
         -10 mm to 10 mm from there along the machine direction, -x. They hang side by side along the cross \
         direction, y";
     assert!(said.contains(place) && !said.contains("feeds filaments"), "{said}");
-    assert!(!told(&[&at("4 mm")]).contains("feeds filaments"));
+    assert!(!output(&[&at("4 mm")]).contains("feeds filaments"));
     for (root, depth, doubt) in [
         (
             "8 mm",
@@ -236,7 +236,7 @@ fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
             "feeds filaments from -55 mm to 55 mm along the machine direction, some of them outside",
         ),
     ] {
-        let said = told(&[&at(root), &format!("line.slot_gap={depth}")]);
+        let said = output(&[&at(root), &format!("line.slot_gap={depth}")]);
         assert!(said.contains(doubt) && said.contains("(air.field_root)"), "{doubt}\n{said}");
     }
 }

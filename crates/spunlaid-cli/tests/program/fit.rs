@@ -49,15 +49,15 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
     let key = &found["keys"][0];
     let [low, high] = [0, 1].map(|end| key["interval"][end].as_f64().unwrap());
     assert!(low < 900.0 && 900.0 < high, "{key}");
-    // CV² falls as one over the number, so a single CV that scatters by s tells its logarithm to 2 s, and
-    // Student's t of ten webs is 2.26. All together tell it better than patches of 2 mm alone, which scatter more than
+    // CV² falls as one over the number, so a single CV that scatters by s gives its logarithm to 2 s, and
+    // Student's t of ten webs is 2.26. All together give it better than patches of 2 mm alone, which scatter more than
     // smaller ones, and do not give what they cannot.
     let numbers = found["numbers"].as_array().unwrap();
     let scatter = |number: &Value| 2.26 * 2.0 * number["scatter"].as_f64().unwrap();
     let of_best = numbers.iter().map(scatter).fold(f64::INFINITY, f64::min);
     let of_2_mm = numbers.iter().find(|number| number["patch_m"] == 0.002).map(scatter).unwrap();
-    let told = 0.5 * (high / low).ln();
-    assert!(0.5 * of_best < told && told < of_2_mm, "{key}: {of_best} {of_2_mm}");
+    let reported = 0.5 * (high / low).ln();
+    assert!(0.5 * of_best < reported && reported < of_2_mm, "{key}: {of_best} {of_2_mm}");
     assert!(found["misfit"].as_f64() < found["misfit_start"].as_f64(), "{found}");
     // The picture of a map has no blur of a camera, so that its pixels of 0.5 mm are compared too.
     let sides: Vec<f64> = found["numbers"]
@@ -179,16 +179,16 @@ fn what_is_compared_is_the_web_without_edges_and_noise() {
     );
     // The scan of the middle has as many patches within its edges as the summary counts.
     for (side, cv) in numbers("cut") {
-        let told = cv_of_summary("cut", side);
-        assert!((cv / told - 1.0).abs() < 0.1, "{side}: {cv}, {told}");
+        let reported = cv_of_summary("cut", side);
+        assert!((cv / reported - 1.0).abs() < 0.1, "{side}: {cv}, {reported}");
     }
     success(&mut desk.spunlaid("analyse truth/map.png --out scan --quiet"));
     success(&mut desk.spunlaid("analyse truth/map.png --noise 0.0003 --out quiet --quiet"));
     let (with, without) = (numbers("scan"), numbers("quiet"));
     for ((side, with), (_, without)) in with.iter().zip(&without) {
-        let told = [cv_of_summary("scan", *side), cv_of_summary("quiet", *side)];
+        let reported = [cv_of_summary("scan", *side), cv_of_summary("quiet", *side)];
         let taken_out = with * with - without * without;
-        let expected = told[0] * told[0] - told[1] * told[1];
+        let expected = reported[0] * reported[0] - reported[1] * reported[1];
         assert!(
             taken_out > 0.0 && (taken_out / expected - 1.0).abs() < 0.02,
             "{side}: {taken_out}, {expected}"

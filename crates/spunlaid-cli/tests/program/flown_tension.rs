@@ -42,7 +42,7 @@ fn flying(mut command: Command) -> Child {
     child
 }
 
-/// What the system tells of a process.
+/// What the system reports of a process.
 fn status(child: &Child, name: &str) -> String {
     let all = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap();
     all.lines().find_map(|line| line.strip_prefix(name)).unwrap().trim().to_owned()
@@ -74,7 +74,7 @@ fn interrupted_while_it_flies_for_the_tension_nothing_is_left() {
 #[test]
 fn tensions_fly_in_as_many_threads_as_are_asked_for() {
     let desk = slow();
-    // For each that flies one waits; one waits for Ctrl-C, and one tells how far it is.
+    // For each that flies one waits; one waits for Ctrl-C, and one reports how far it is.
     for (threads, there) in [("1", 4), ("2", 6)] {
         let child = flying(desk.spunlaid(&format!("sweep study.toml --threads {threads} --out r")));
         let count = || status(&child, "Threads:").parse::<u32>().unwrap();

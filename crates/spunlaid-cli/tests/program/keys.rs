@@ -75,8 +75,12 @@ fn words_of_buyers_are_answered() {
         "saleable",
         "softness",
     ] {
-        let told = success(&mut desk.spunlaid(&format!("keys {}", word.replace('"', "").replace(' ', "-"))));
-        assert!(told.contains("fabric") && told.lines().all(|line| line.chars().count() <= 100), "{told}");
+        let output =
+            success(&mut desk.spunlaid(&format!("keys {}", word.replace('"', "").replace(' ', "-"))));
+        assert!(
+            output.contains("fabric") && output.lines().all(|line| line.chars().count() <= 100),
+            "{output}"
+        );
     }
 }
 

@@ -1,4 +1,4 @@
-//! A run goes on without the fibres that it loses, and tells of them.
+//! A run goes on without the fibres that it loses, and reports of them.
 use crate::desk::{Desk, ENTRIES, names, refusal};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
@@ -47,7 +47,7 @@ fn rows(desk: &Desk, table: &str) -> Vec<(i64, f64)> {
 }
 
 #[test]
-fn a_run_goes_on_without_the_fibres_that_it_loses_and_tells_of_them() {
+fn a_run_goes_on_without_the_fibres_that_it_loses_and_reports_them() {
     let desk = desk();
     let output = desk.spunlaid("run brief.toml --out r").output().unwrap();
     let (said, table) =
@@ -63,14 +63,14 @@ fn a_run_goes_on_without_the_fibres_that_it_loses_and_tells_of_them() {
     assert!((1..11).contains(&lost.len()), "{lost:?} of 12");
     let left = 12 - lost.len();
     // Said at the end of the terminal, in the notes and in the report, each with its reason.
-    let told = format!("{} of 12 fibres w", lost.len());
+    let expected = format!("{} of 12 fibres w", lost.len());
     assert!(
-        said.contains(&format!("error: {told}")) && said.contains("all others are in the results"),
+        said.contains(&format!("error: {expected}")) && said.contains("all others are in the results"),
         "{said}"
     );
     let notes = summary["notes"].to_string();
     let report = String::from_utf8(desk.read("r/report.html")).unwrap();
-    assert!(notes.contains(&told) && report.contains(&told), "{notes}");
+    assert!(notes.contains(&expected) && report.contains(&expected), "{notes}");
     for fibre in fibres {
         let (reason, time) = (fibre["reason"].as_str().unwrap(), fibre["time_s"].as_f64().unwrap());
         assert!(reason.starts_with(&format!("replicate {}: ", fibre["replicate"])), "{reason}");

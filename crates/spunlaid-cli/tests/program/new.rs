@@ -339,7 +339,7 @@ fn identical_new_reads_the_numbers_of_a_line_however_they_are_written() {
 /// The speed of the belt in place of the weight, what is known of slot and air in place of assumed values, and the rest
 /// through a pipe with a decimal comma.
 #[test]
-fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
+fn new_takes_answers_through_a_pipe_and_what_is_known_is_not_assumed() {
     let desk = Desk::new();
     // Polymer, throughput, titre, width, holes, beams, air, distance, turbulence; nothing of the thickness.
     std::fs::write(desk.path("answers"), "pp\n0,6\n\n\n\n\n\n\n12 %\n").unwrap();
@@ -365,9 +365,9 @@ fn new_takes_answers_through_a_pipe_and_what_is_known_is_no_guess() {
     let more = ["--belt-speed", "250 m/min", "--basis-weight", "17 g/m²"];
     let line = [&LINE[..6], &LINE[8..], &more].concat();
     let said = refusal(desk.spunlaid("new --web other.toml").args(line), 1);
-    let told =
+    let expected =
         "a belt of 4.167 m/s takes 2 g/m² from these holes, and not 17 g/m², which need a belt of 0.4902 m/s";
-    assert!(said.contains(told), "{said}");
+    assert!(said.contains(expected), "{said}");
     let line = [&LINE[..], &["--thickness", "0.25"]].concat();
     success(desk.spunlaid("new --web thick.toml").args(line));
     assert!(String::from_utf8(desk.read("thick.toml")).unwrap().contains("[fabric]\nthickness = \"250 µm\""));

@@ -79,23 +79,23 @@ fn every_command_of_a_web_can_be_pasted() {
         let said = success(desk.spunlaid("").args(arguments).args(set));
         let report = String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
         let summary = desk.summary(folder);
-        let told: Vec<String> = ["advice", "assumed_values"]
+        let reported: Vec<String> = ["advice", "assumed_values"]
             .iter()
             .flat_map(|kind| ["changes", "values"].map(|list| &summary[*kind][list]))
             .flat_map(|list| list.as_array().cloned().unwrap_or_default())
             .map(|change| change["command"].as_str().unwrap().to_owned())
             .collect();
-        assert!(told.len() >= 6, "{told:?}");
+        assert!(reported.len() >= 6, "{reported:?}");
         // Each has a folder of its own beside that of the web.
         let folders: BTreeSet<&str> =
-            told.iter().filter_map(|line| Some(line.split_once("--out ")?.1)).collect();
-        assert_eq!(folders.len(), told.len(), "{told:?}");
+            reported.iter().filter_map(|line| Some(line.split_once("--out ")?.1)).collect();
+        assert_eq!(folders.len(), reported.len(), "{reported:?}");
         assert!(folders.iter().all(|out| out.trim_matches('\'').starts_with(folder)), "{folders:?}");
         let on_page = commands(&report);
-        assert!(told.iter().all(|line| on_page.contains(line)), "{told:#?} {on_page:#?}");
+        assert!(reported.iter().all(|line| on_page.contains(line)), "{reported:#?} {on_page:#?}");
         // Of the second web only the names of the folders are other ones.
         if set_is_empty {
-            paste_all(&desk, &[said, report], told.len());
+            paste_all(&desk, &[said, report], reported.len());
         }
     }
 }

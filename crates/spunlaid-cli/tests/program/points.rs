@@ -142,7 +142,7 @@ fn analytic_the_middle_of_a_plane_diffuser() {
 #[test]
 fn rejects_tables_and_axes_that_do_not_fit() {
     let desk = Desk::new();
-    for (places, told) in [
+    for (places, expected) in [
         ("x,y,z\n0,0,0\n", "places.csv:1: "),
         ("x_m,y_m\n0,0\n", "has no column of the coordinate z (it has x_m and y_m); name one like z [m]"),
         ("x_m,y_m,z_m\n0,0,0\n1,2,here\n", "places.csv:3: "),
@@ -153,7 +153,7 @@ fn rejects_tables_and_axes_that_do_not_fit() {
     ] {
         fs::write(desk.path("places.csv"), places).unwrap();
         let said = refusal(&mut desk.spunlaid("air brief.toml --at places.csv"), 1);
-        assert!(said.contains(told), "{places}: {said}");
+        assert!(said.contains(expected), "{places}: {said}");
     }
     let said = refusal(&mut desk.spunlaid("air brief.toml --at nowhere.csv"), 1);
     assert!(said.contains("nowhere.csv"), "{said}");

@@ -1,4 +1,4 @@
-//! A record in a case: whatever `analyse` says of the file is said of the case too, wherever notes are told.
+//! A record in a case: whatever `analyse` says of the file is said of the case too, wherever notes are reported.
 
 use crate::desk::Desk;
 use std::fs;

@@ -321,7 +321,7 @@ fn a_run_that_blows_up_names_node_time_and_cause() {
 }
 
 #[test]
-fn a_record_that_cannot_be_used_is_told_with_the_option_that_helps() {
+fn a_record_that_cannot_be_used_is_reported_with_the_option_that_helps() {
     let desk = Desk::new();
     for (text, wanted) in [
         ("u_m_s\n1\n2\n", "or give the sampling rate (--time-column, --rate)\n"),

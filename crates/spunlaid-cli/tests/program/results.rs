@@ -257,20 +257,20 @@ fn invariant_headline_table_notes_and_json_have_one_error() {
 
 /// What a run keeps of each instant is too long for text, and that is said. A study has tables in every format.
 #[test]
-fn tables_that_are_asked_for_are_there_or_told() {
+fn tables_that_are_asked_for_are_there_or_reported() {
     let desk = Desk::new();
-    let told = |arguments: &str, words: &str| {
+    let assert_reported = |arguments: &str, words: &str| {
         let output = desk.spunlaid(arguments).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && said.contains(words), "{arguments}: {said}");
     };
-    told(
+    assert_reported(
         "run brief.toml --tables csv --out r",
         "note: nothing is written as csv: end_node.parquet, energy.parquet stay as they are",
     );
     assert!(!desk.path("r/tables").exists());
     success(&mut desk.spunlaid("run brief.toml --seed 8 --out q"));
-    told(
+    assert_reported(
         "compare r q --tables tsv,csv --out c",
         "note: nothing is written as tsv, csv: results of this kind have",
     );

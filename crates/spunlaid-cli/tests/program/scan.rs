@@ -109,7 +109,7 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     }
     assert!(!page.contains("id=\"fibres\""));
 
-    // Its fabric, as far as a map tells it.
+    // Its fabric, as far as a map reports it.
     let fabric = desk.summary("scan")["fabric"].take();
     assert!(fabric["patches"][2]["lighter_than_80_percent_per_m2"].is_object(), "{fabric}");
     assert!(fabric.get("bare_area").is_none() && fabric["patches"][2].get("formation").is_none());
@@ -129,11 +129,11 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     let json: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["web"]["patches"], found["patches"]);
     assert!(json["web"]["basis_weight_kg_m2"].is_null());
-    let is_told = |what: &str| {
+    let is_reported = |what: &str| {
         json["notes"].as_array().unwrap().iter().any(|note| note.as_str().unwrap().contains(what))
     };
     assert!(
-        is_told("mean basis weight is not known") && is_told("taken as light that has come through"),
+        is_reported("mean basis weight is not known") && is_reported("taken as light that has come through"),
         "{json}"
     );
     assert!(desk.path("results/turned/report.html").exists());
@@ -170,18 +170,18 @@ fn a_laid_web_and_its_scan_have_the_same_unevenness() {
     );
     // The lamp is not known.
     let command = command.replace(" --white 60000 --keep-shading", "");
-    let told = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out assumed")));
-    assert!(told.contains("none: the level of the lamp is an assumed value"), "{told}");
-    let headline = told.lines().next().unwrap();
+    let output = success(&mut desk.spunlaid(&format!("{command} --weight 18gsm --out assumed")));
+    assert!(output.contains("none: the level of the lamp is an assumed value"), "{output}");
+    let headline = output.lines().next().unwrap();
     assert!(headline.ends_with(" mm patches: the level of the lamp is an assumed value."), "{headline}");
     assert!(headline.starts_with("CV at least ") && !headline.contains('±'), "{headline}");
     let notes = desk.summary("assumed")["notes"].to_string();
     assert!(notes.contains("so no interval is given; take an image of the lamp"), "{notes}");
-    let told = success(&mut desk.spunlaid("compare laid assumed --out assumed_values"));
+    let output = success(&mut desk.spunlaid("compare laid assumed --out assumed_values"));
     assert!(
-        told.contains(" 0 of 1 measures differ")
-            && told.contains("the level of the lamp is an assumed value (assumed)"),
-        "{told}"
+        output.contains(" 0 of 1 measures differ")
+            && output.contains("the level of the lamp is an assumed value (assumed)"),
+        "{output}"
     );
     let curves = String::from_utf8(desk.read("both/figures/web_cv.csv")).unwrap();
     assert!(curves.contains("laid") && curves.contains("scan"), "{curves}");
@@ -195,7 +195,7 @@ fn a_map_is_read_as_basis_weights() {
     assert_eq!(said, "");
     let [web, found] = ["laid", "again"].map(|folder| desk.summary(folder)["web"].take());
     assert!((number(&found["basis_weight_kg_m2"]) / number(&web["basis_weight_kg_m2"]) - 1.0).abs() < 1e-6);
-    // The picture of the same tells its cells and its weights. A level is 1/65535 of the heaviest cell.
+    // The picture of the same reports its cells and its weights. A level is 1/65535 of the heaviest cell.
     let said = success(&mut desk.spunlaid("analyse laid/map.png --out drawn"));
     assert!(!said.contains("dots per inch") && !said.contains("lamp"), "{said}");
     let drawn = desk.summary("drawn")["web"].take();

@@ -97,9 +97,9 @@ fn identical_bytes_from_a_run_that_was_interrupted_or_killed() {
             let summary = desk.summary("stopped");
             let replicates = summary["replicates"].as_u64().unwrap();
             assert!((8..ALL).contains(&replicates) && replicates.is_multiple_of(8));
-            let told = format!("{replicates} of {ALL} replicates");
+            let expected = format!("{replicates} of {ALL} replicates");
             let notes = summary["notes"].as_array().unwrap();
-            assert!(notes.iter().any(|note| note.as_str().unwrap().starts_with(&told)), "{notes:?}");
+            assert!(notes.iter().any(|note| note.as_str().unwrap().starts_with(&expected)), "{notes:?}");
         } else {
             assert_eq!(output.status.code(), None);
             // As if it had been killed in the middle of writing.
@@ -216,7 +216,7 @@ fn a_reader_that_has_enough_is_no_error() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_standard_output_that_is_full_is_told() {
+fn a_standard_output_that_is_full_is_reported() {
     let desk = Desk::new();
     for arguments in ["check brief.toml", "run brief.toml --json"] {
         let output = Command::new(env!("CARGO_BIN_EXE_spunlaid"))
@@ -320,7 +320,7 @@ fn a_web_in_one_air_that_is_interrupted_leaves_nothing() {
 
 /// The assumed depth is tried in one flight, and each of the lengths of the eddies in one of its own.
 #[test]
-fn identical_guesses_that_were_interrupted_and_went_on() {
+fn identical_assumed_values_that_were_interrupted_and_went_on() {
     let desk = Desk::with_case(FED);
     let web = "[laydown]\ncase = 'brief.toml'\n[line]\nfilaments_per_metre = 4000\nslot_gap = '10 mm'\n[web]\n\
         width = '0.2 m'\nlength = '0.1 m'\npatches = ['5 mm', '10 mm']\n\

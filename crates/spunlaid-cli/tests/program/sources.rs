@@ -124,8 +124,8 @@ fn invariant_the_fields_for_openfoam_have_the_force_of_the_summary() {
     }
     let summary = desk.summary("out");
     for (i, force) in force.iter().enumerate() {
-        let told = summary["force_n_per_m"][i]["mean"].as_f64().unwrap();
-        assert!((force - told).abs() < 1e-5 * force.abs().max(0.1), "{force} {told}");
+        let reported = summary["force_n_per_m"][i]["mean"].as_f64().unwrap();
+        assert!((force - reported).abs() < 1e-5 * force.abs().max(0.1), "{force} {reported}");
     }
     assert!(force[0].abs() > 0.05 && summary["openfoam"] == true, "{force:?}");
     let met = summary["cells_met"].as_u64().unwrap() as usize;
@@ -265,7 +265,7 @@ fn rejects_lines_without_a_field_or_a_number_of_filaments() {
     refused(LINE, "filaments_per_metre = 5000");
     let uniform = LINE.replace("field = 'air.vtk'", "velocity = '20 m/s'");
     refused(&format!("{uniform}{FILAMENTS}"), "air.field");
-    // A mistake of the web is told as that, though the fibre could be read alone.
+    // A mistake of the web is reported as that, though the fibre could be read alone.
     let mistaken = FILAMENTS.replace("length = '0.1 m'", "length = '-1 m'");
     refused(&format!("{LINE}{mistaken}"), "length = ");
     let (head, tail) = LINE.split_once("[feed]").unwrap();

@@ -205,7 +205,7 @@ fn check_reads_a_spinline_alone() {
 }
 
 #[test]
-fn check_tells_throughput_and_line_density_of_every_fed_fibre() {
+fn check_reports_throughput_and_line_density_of_every_fed_fibre() {
     let desk = Desk::with_case(FED);
     let said = success(&mut desk.spunlaid("check brief.toml"));
     // π/4 (18 µm)² × 910 kg/m³, times 50 m/s.

@@ -247,7 +247,7 @@ fn a_list_of_files_is_varied_and_kept_with_the_study() {
 }
 
 #[test]
-fn words_of_two_factors_are_told_apart_by_the_legend() {
+fn words_of_two_factors_are_distinguished_by_the_legend() {
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'drag.along' = ['sakiadis', 'matsui']\n\
                  'drag.across' = ['ju-shambaugh', 'marheineke-wegener']\n";
     let place = StudyFolder::new(&case(0.02), study);

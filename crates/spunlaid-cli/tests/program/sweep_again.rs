@@ -129,7 +129,7 @@ fn a_study_written_otherwise_is_the_same() {
 }
 
 #[test]
-fn damage_to_the_journal_is_told_and_made_good() {
+fn damage_to_the_journal_is_reported_and_repaired() {
     let place = place();
     place.swept("out", &[]);
     let journal = place.path("out").join("journal");
@@ -168,7 +168,7 @@ fn rejects_the_journals_of_others() {
     let end = whole.iter().position(|byte| *byte == b'\n').unwrap();
     let header = String::from_utf8(whole[..end].to_vec()).unwrap();
     let version = format!("version={}", env!("CARGO_PKG_VERSION"));
-    for (header, told) in [
+    for (header, expected) in [
         (header.replace(&version, "version=0.0.1"), "spunlaid 0.0.1"),
         (header.replace("format=5", "format=77"), "format 77"),
         (header.replace("spunlaid-journal", "something-else"), "is not the journal of a study"),
@@ -178,7 +178,7 @@ fn rejects_the_journals_of_others() {
         fs::write(&journal, &other).unwrap();
         let refusal = place.refused("out", &[]);
         assert!(
-            refusal.contains(told) && refusal.contains("--out") && refusal.contains("--force"),
+            refusal.contains(expected) && refusal.contains("--out") && refusal.contains("--force"),
             "{refusal}"
         );
     }

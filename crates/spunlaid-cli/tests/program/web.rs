@@ -145,7 +145,7 @@ fn a_web_is_written_whole_and_laid_again_to_the_same_bits() {
 }
 
 #[test]
-fn the_page_tells_how_wide_the_web_is_and_where_it_ends() {
+fn the_page_shows_how_wide_the_web_is_and_where_it_ends() {
     let desk = desk();
     for (edges, pitch, label, ends) in [
         ("cut", "1 mm", "edge of the web", [76.0, 1123.0]),
@@ -245,12 +245,12 @@ fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
     let shown = [last("dtex") * 1e-7, last("kg/h"), last("no other unit") / 60.0];
     let summary = desk.summary("w");
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
-    let is_told = |one: &&serde_json::Value| {
+    let is_reported = |one: &&serde_json::Value| {
         let of_change =
             [&one["linear_density_kg_m"][0], &one["throughput_kg_h_m"], &one["belt_speed_m_s"]].map(number);
         shown.iter().zip(of_change).all(|(shown, number)| (shown / number - 1.0).abs() < 1e-3)
     };
-    assert!(summary["advice"]["changes"].as_array().unwrap().iter().any(|one| is_told(&one)), "{change}");
+    assert!(summary["advice"]["changes"].as_array().unwrap().iter().any(|one| is_reported(&one)), "{change}");
     // Where the titre is not one of the running line, the card says that none of its settings helps.
     let still = "web equal.toml --out still --advice --quiet --set web.turnable=air_speed";
     success(&mut desk.spunlaid(still));

@@ -18,7 +18,7 @@ fn without_commands(mut advice: serde_json::Value) -> serde_json::Value {
     advice
 }
 
-/// What is told is that of the terminal and of the report; a setting that costs throughput says so.
+/// What is reported is that of the terminal and of the report; a setting that costs throughput says so.
 #[test]
 fn a_web_says_which_settings_of_the_line_would_make_it_more_even() {
     let desk = desk();

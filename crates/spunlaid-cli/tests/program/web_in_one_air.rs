@@ -5,7 +5,7 @@ use crate::desk::{self, Desk, FED, success};
 use std::fs;
 
 #[test]
-fn a_web_in_one_air_tells_what_airs_of_their_own_would_give() {
+fn a_web_in_one_air_reports_what_independent_turbulence_would_give() {
     let desk =
         Desk::with_case(&FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\""));
     let web = WEB.replace(

@@ -56,7 +56,7 @@ fn identical_web_of_a_point_alone() {
         for (column, key) in [("", "cv"), ("_chance", "cv_standard_error"), ("_one_fibre", "cv_one_fibre")] {
             assert_eq!(*mean(&format!("cv_{}_mm{column}", side.round())), patch[key], "{side} {key}");
         }
-        // Of a single web, its parts tell the error.
+        // Of a single web, its parts give the error.
         let cv = &of_point["results"][format!("cv_{}_mm", side.round())];
         assert_eq!(cv["standard_error"], patch["cv_standard_error"], "{side}");
     }
@@ -93,7 +93,7 @@ fn invariant_uneven_where_less_is_laid() {
         let ratio = cv(point + 2) / cv(point);
         assert!(ratio > 1.1 && ratio < 2.0_f64.sqrt(), "{} {}", cv(point + 2), cv(point));
     }
-    // Two keys with two values each: what matters more is told.
+    // Two keys with two values each: what matters more is reported.
     let ranking = &study["ranking"]["cv_1_mm_one_fibre"]["effects"];
     assert_eq!(ranking[0]["factor"], "line.belt_speed", "{ranking}");
     assert!(desk.path("r/figures/cv_ranking.svg").is_file());

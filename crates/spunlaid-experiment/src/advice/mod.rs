@@ -39,7 +39,7 @@ pub type Advice = Sensitivity<ChangedWeb, f64>;
 
 /// What is simulated of webs in shared turbulence: where assumed values are tried, which may be far from what the
 /// file says; where all changes are; and where those are compared once more that may be the best.
-const GUESSES: Compared = Compared { area: 0.045, pitches: 2.0 };
+const ASSUMED: Compared = Compared { area: 0.045, pitches: 2.0 };
 const CHANGES: Compared = Compared { area: 0.06, pitches: 2.0 };
 const RACE: Compared = Compared { area: 0.09, pitches: 2.0 };
 /// How many times as long or as short eddies have no clouds in common with others.
@@ -62,7 +62,7 @@ pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
 
 /// What is simulated of some changes of a web in shared turbulence.
 fn compared(changes: &[Change]) -> Compared {
-    if changes.iter().any(is_assumed) { GUESSES } else { CHANGES }
+    if changes.iter().any(is_assumed) { ASSUMED } else { CHANGES }
 }
 
 /// A web and the changed ones that are simulated beside it.
@@ -76,18 +76,18 @@ fn all_webs<'a>(spec: &'a WebSpec, changes: &'a [Change]) -> Vec<&'a WebSpec> {
 pub const MOST_STEPS: u64 = 20_000_000;
 
 /// Whether changes of a web are tried without being asked: there are some, their flights are short, and a few
-/// filaments tell the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only
+/// filaments give the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only
 /// large effects are seen. Assumed values must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
-    let is_told = findings.seen().is_none_or(|seen| seen.doubt.is_none());
-    let says_enough = is_told && findings.laid.simulated.iter().all(|layer| layer.few.is_some());
+    let is_reported = findings.seen().is_none_or(|seen| seen.doubt.is_none());
+    let says_enough = is_reported && findings.laid.simulated.iter().all(|layer| layer.few.is_some());
     says_enough && are_short(spec, changes)
 }
 
-/// Whether changes are tried without being asked if a few filaments tell the web.
+/// Whether changes are tried without being asked if a few filaments give the web.
 pub fn are_short(spec: &WebSpec, changes: &[Change]) -> bool {
     let are_assumed = changes.iter().any(is_assumed);
-    let fits = || !are_assumed || !spec.flies() || fits_memory(&all_webs(spec, changes), GUESSES);
+    let fits = || !are_assumed || !spec.flies() || fits_memory(&all_webs(spec, changes), ASSUMED);
     steps(spec, changes) <= MOST_STEPS && fits()
 }
 
@@ -165,7 +165,7 @@ fn few_of_changes(
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them, by the numbers of a base.
-    let tell =
+    let simulate =
         |webs: &[&WebSpec], base: &[f64], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
             let deciding = [&[of_each.area, of_each.pitches, spec.memory_limit], base].concat();
             let key = [kept_under(webs.iter().copied(), &deciding), 0];
@@ -173,17 +173,17 @@ fn few_of_changes(
                 by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
                 return Ok(Some(found));
             }
-            let Some(told) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
-            let found = effects(told)?;
+            let Some(estimates) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
+            let found = effects(estimates)?;
             // What cannot be kept is simulated again.
             kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
             Ok::<_, Error>(Some(found))
         };
     let webs = all_webs(spec, changes);
-    let beside = tell(&webs, &[], &|told| {
-        let mut told = webs.iter().zip(told).map(|(spec, few)| Ok(WebOfFew::new(spec, few?)));
-        let base = told.next().unwrap_or_else(|| Err(Error::no_fibre()))?;
-        let changes = told.map(|few: Result<_, Error>| few.map(|few| base.changes_to(&few)));
+    let beside = simulate(&webs, &[], &|estimates| {
+        let mut estimates = webs.iter().zip(estimates).map(|(spec, few)| Ok(WebOfFew::new(spec, few?)));
+        let base = estimates.next().unwrap_or_else(|| Err(Error::no_fibre()))?;
+        let changes = estimates.map(|few: Result<_, Error>| few.map(|few| base.changes_to(&few)));
         Ok(changes.map(|effects| effects.map_err(|why| why.to_string())).collect())
     })?;
     let Some(beside) = beside else { return Ok(None) };
@@ -206,7 +206,7 @@ fn few_of_changes(
         let alone = tell(&[changed], &numbers, &|told| {
             let effects =
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
-            Ok(told.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
+            Ok(estimates.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
         })?;
         let all_are_flown = || Err("it has so few filaments that all of them are simulated".to_owned());
         tried.push(alone.into_iter().flatten().next().unwrap_or_else(all_are_flown));

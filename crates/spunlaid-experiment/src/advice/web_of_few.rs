@@ -102,7 +102,7 @@ impl WebOfFew {
         let mut patches = Patches { square: 0.0, own: 0.0, layers: Vec::new(), of_halves: 0.0 };
         for layer in &self.layers {
             let (weight, number) = of_layer(layer)?;
-            // Nothing is a change of a CV that is not told at all.
+            // Nothing is a change of a CV that is not reported at all.
             if let Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)) =
                 layer.1.doubt_over(patch)
             {

@@ -147,7 +147,7 @@ fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
     let Some(mut start) = webs.trial(&start)? else {
         return Err(webs.refusal(&start).unwrap_or(Error::Interrupted));
     };
-    // The scatter at the start tells where to go, that at the first end what a misfit is worth.
+    // The scatter at the start gives the direction, that at the first end the scale of a misfit.
     let weights = search::weights_at(webs, start)?;
     start = search::search(webs, start, weights)?.trial;
     let mut rounds = 0;

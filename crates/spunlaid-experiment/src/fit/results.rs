@@ -18,7 +18,7 @@ pub struct Fit {
     pub keys: Vec<FittedKey>,
     /// Correlations of the errors of the values, key by key.
     pub correlations: Vec<Vec<f64>>,
-    /// Keys that the data cannot tell apart: their indices, and what a rise of the first by a tenth is made
+    /// Keys that the data cannot distinguish: their indices, and what a rise of the first by a tenth is made
     /// up for with.
     pub alike: Vec<InseparableKeys>,
     /// What was compared.
@@ -74,7 +74,7 @@ pub enum KeyWarning {
     AtEnd,
 }
 
-/// Two keys that the data cannot tell apart.
+/// Two keys that the data cannot distinguish.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InseparableKeys {
     /// Indices of the keys.
@@ -111,7 +111,7 @@ impl FittedNumber {
     }
 }
 
-/// Correlation from which two keys cannot be told apart.
+/// Correlation from which two keys cannot be distinguished.
 const ALIKE: f64 = 0.95;
 /// The results of the place at which the search has ended.
 ///
@@ -172,7 +172,7 @@ fn keys(
     profiles.into_iter().enumerate().map(key).collect()
 }
 
-/// Correlations of the errors of all keys, and the keys that cannot be told apart.
+/// Correlations of the errors of all keys, and the keys that cannot be distinguished.
 fn correlate_keys(surface: &Surface, weights: &Matrix, count: usize) -> (Matrix, Vec<InseparableKeys>) {
     let Surface { keys, slopes, errors, .. } = surface;
     let information = information(weights, slopes);

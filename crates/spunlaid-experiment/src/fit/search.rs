@@ -95,7 +95,7 @@ pub(super) fn search(webs: &mut Webs<'_>, mut trial: usize, weights: Matrix) -> 
     let slopes = slopes(webs, trial, &steps, true)?;
     // The scan stands beside the webs of this trial from here on.
     let weights = weights_at(webs, trial)?;
-    // Where misfits differ by less than slopes of finite steps can tell, no step makes them less.
+    // Where misfits differ by less than slopes of finite steps can resolve, no step makes them less.
     let errors = standard_errors(&weights, &slopes, webs.count);
     let to = next_coordinates(webs, trial, &weights, &slopes, &residuals_of(webs, trial), 0.0);
     let far = to.iter().zip(&webs.trials[trial].coordinates).map(|(to, from)| (to - from).abs());

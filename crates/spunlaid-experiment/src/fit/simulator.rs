@@ -110,8 +110,9 @@ impl Simulator for WebSimulator<'_> {
             self.target.textures().iter().map(error).collect()
         };
         // Where a few filaments do not give the CV of all, the map may be off by all of it.
-        let of_map =
-            |patch: &PatchFindings| Some((patch.of_map - patch.reported().map_or(0.0, |told| told.cv)).abs());
+        let of_map = |patch: &PatchFindings| {
+            Some((patch.of_map - patch.reported().map_or(0.0, |reported| reported.cv)).abs())
+        };
         let causes = [errors(&|patch| patch.total_error().flight), errors(&of_map)];
         Ok(causes.into_iter().filter(|errors| errors.iter().any(|error| *error > 0.0)).collect())
     }
@@ -157,7 +158,7 @@ impl WebSimulator<'_> {
     }
 }
 
-/// The error of the logarithm of a CV, which is that of the map that is compared. Where a few filaments tell
+/// The error of the logarithm of a CV, which is that of the map that is compared. Where a few filaments give
 /// so little of all that the CV which follows from them is zero, it has no error of its own, and the map is
 /// off by all of its CV.
 fn of_logarithm(error: Option<f64>, compared: f64) -> f64 {
@@ -169,14 +170,14 @@ fn of_logarithm(error: Option<f64>, compared: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// A few filaments that tell nothing of all made an error of an unknown part of zero, and intervals of
+    /// A few filaments that give nothing of all made an error of an unknown part of zero, and intervals of
     /// unknown ends.
     #[test]
     fn analytic_errors_are_parts_of_the_cv_that_is_compared() {
         assert_eq!(of_logarithm(Some(0.25), 0.5), 0.5);
         assert_eq!(of_logarithm(None, 0.2), 0.0);
-        let (told, of_map) = (0.0_f64, 0.2);
-        assert_eq!(of_logarithm(Some((of_map - told).abs()), of_map), 1.0);
+        let (reported, of_map) = (0.0_f64, 0.2);
+        assert_eq!(of_logarithm(Some((of_map - reported).abs()), of_map), 1.0);
         assert_eq!(of_logarithm(Some(f64::NAN), of_map), 0.0);
         assert_eq!(of_logarithm(Some(0.0), 0.0), 0.0);
     }

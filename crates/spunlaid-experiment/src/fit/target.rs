@@ -1,11 +1,11 @@
-//! The web that the simulation shall be like: what is compared, and how well the scan knows it.
+//! The web that the simulation shall be like: what is compared, and how well the scan determines it.
 
 use super::texture::{Texture, Textures, bands};
 use spunlaid_ground::{Dimension, Fault};
 use spunlaid_web::scan::{Findings, PatchFindings};
 use spunlaid_web::{Map, Sheet};
 
-/// A web that has been made and scanned, or laid, as its results tell it.
+/// A web that has been made and scanned, or laid, as its results give it.
 #[derive(Clone, Debug)]
 pub struct MeasuredWeb {
     /// Its basis weight; only ratios count.
@@ -14,7 +14,7 @@ pub struct MeasuredWeb {
     pub patches: Vec<MeasuredPatch>,
     /// Whether the noise of the patches is known exactly, so that its variance is taken out; otherwise it is
     /// an upper bound.
-    pub knows_noise: bool,
+    pub has_known_noise: bool,
     /// Whether the shading of the lamp was taken out as a polynomial.
     pub flat: bool,
     /// Why no interval can be given for anything of it, if so.
@@ -32,9 +32,9 @@ impl MeasuredWeb {
         Self {
             map: findings.map.clone(),
             patches: findings.patches.iter().map(patch).collect(),
-            knows_noise: findings.noise.is_some(),
+            has_known_noise: findings.noise.is_some(),
             flat: findings.shading.is_some(),
-            doubt: findings.guess.map(|doubt| doubt.to_string()),
+            doubt: findings.assumption.map(|doubt| doubt.to_string()),
         }
     }
 }
@@ -120,7 +120,7 @@ impl Target {
         }
         let textures = Textures { all, flat: measured.flat };
         let mut logarithms = textures.logarithms(&map, 1);
-        let camera = Camera { patches: &patches, cell, knows_noise: measured.knows_noise };
+        let camera = Camera { patches: &patches, cell, has_known_noise: measured.has_known_noise };
         for (texture, logarithm) in textures.all.iter().zip(&mut logarithms) {
             let what = || match texture {
                 Texture::Patch(side) => format!("over patches of {}", Dimension::Length.pretty(*side)),
@@ -129,7 +129,7 @@ impl Target {
             if !logarithm.is_finite() {
                 return Err(Fault::new(format!("does not vary {}", what()), "is it the map of a web?"));
             }
-            if camera.knows_noise {
+            if camera.has_known_noise {
                 *logarithm += camera.without_noise(texture, *logarithm);
                 if !logarithm.is_finite() {
                     let message = format!("varies less {} than the noise of the camera alone would", what());
@@ -206,7 +206,7 @@ struct Camera<'a> {
     patches: &'a [&'a MeasuredPatch],
     /// Side of a cell of the map [m].
     cell: f64,
-    knows_noise: bool,
+    has_known_noise: bool,
 }
 
 impl Camera<'_> {
@@ -241,7 +241,7 @@ impl Camera<'_> {
         /// The noise may be most of a number, but not all of it.
         const MOST: f64 = 2.3;
         let noise = |(texture, logarithm): (&Texture, &f64)| {
-            if self.knows_noise {
+            if self.has_known_noise {
                 return 0.0;
             }
             let change = -self.without_noise(texture, *logarithm);

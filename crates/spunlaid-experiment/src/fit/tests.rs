@@ -202,7 +202,7 @@ impl Simulator for ThreeKeys {
 
 /// A range that is narrower than a step of the search is searched from end to end.
 #[test]
-fn a_narrow_range_is_searched_and_its_ends_are_told() {
+fn a_narrow_range_is_searched_and_its_ends_are_reported() {
     let parameters = [parameter("filaments", 350.0, [348.0, 352.0])];
     let mut simulator = OneKey(drawn());
     let fit = fitted(&parameters, &[16.0, 350.0], &mut simulator).unwrap();
@@ -267,7 +267,7 @@ fn identical_after_trials_that_were_refused() {
     let at_once =
         find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
     assert_eq!(format!("{:?}", first.keys), format!("{:?}", at_once.keys));
-    // The end of the interval to which no webs can be laid is told as such, or lies before.
+    // The end of the interval to which no webs can be laid is reported as such, or lies before.
     let [_, high] = first.keys[0].interval.clone().unwrap();
     assert!(high <= 380.0 || first.keys[0].ends[1] == IntervalEnd::Straight, "{:?}", first.keys[0]);
 }

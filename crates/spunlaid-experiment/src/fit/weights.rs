@@ -16,7 +16,7 @@ pub(super) fn mean_of<'a>(rows: impl Iterator<Item = &'a Vec<f64>> + Clone) -> V
     (0..length).map(|i| rows.clone().map(|row| row[i]).sum::<f64>() / count).collect()
 }
 
-/// The weights of numbers that scatter like those of some webs, and of which the scan knows each with further
+/// The weights of numbers that scatter like those of some webs, and of which the scan gives each with further
 /// errors: the inverse of their covariance.
 ///
 /// * `errors` – standard errors by each further cause, common to all numbers

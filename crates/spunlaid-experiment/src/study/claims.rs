@@ -77,8 +77,8 @@ pub fn judge(
                 };
                 match effect(more).zip(effect(less)) {
                     Some((more_effect, less_effect)) => {
-                        let told = [(more, more_effect), (less, less_effect)];
-                        matters(study, &study.quantities[quantity], told, times)
+                        let reported = [(more, more_effect), (less, less_effect)];
+                        matters(study, &study.quantities[quantity], reported, times)
                     }
                     None => open("these effects cannot be separated"),
                 }
@@ -103,16 +103,16 @@ pub fn judge(
 fn matters(
     study: &Study,
     quantity: &Quantity,
-    told: [(usize, Difference); 2],
+    reported: [(usize, Difference); 2],
     times: f64,
 ) -> (String, Verdict) {
-    let [more, less] = told.map(|(_, effect)| effect);
+    let [more, less] = reported.map(|(_, effect)| effect);
     let beyond = Difference {
         value: more.value.abs() - times * less.value.abs(),
         standard_error: more.standard_error.hypot(times * less.standard_error),
         degrees: f64::INFINITY,
     };
-    let words = told.map(|(factor, effect)| {
+    let words = reported.map(|(factor, effect)| {
         format!("{} over {}", in_words(quantity, effect), study.factors[factor].key.name)
     });
     (words.join(", "), Verdict::of_difference(beyond))
@@ -196,15 +196,15 @@ fn follows(
     let place = |i: usize| of.study.factors[factor].key.pretty(of.study.points[of.points[i]].values[factor]);
     let ends = of.between(0, last, journal)?;
     let steps = (0..last).map(|i| of.between(i, i + 1, journal)).collect::<Result<Vec<_>, _>>()?;
-    let told = format!("{} from {} to {}", in_words(quantity, ends), place(0), place(last));
+    let reported = format!("{} from {} to {}", in_words(quantity, ends), place(0), place(last));
     if way != Way::Turns {
         let direction = if way == Way::Rises { 1.0 } else { -1.0 };
         let (back, verdict) = goes((ends, &steps), direction);
         let evidence = match ends.standard_error {
-            0.0 if back > CHANCE => format!("{told}, without error; a step goes the other way"),
-            0.0 => format!("{told}, without error; no step goes the other way"),
-            error if error.is_nan() => format!("{told}; the error of a single replicate is not known"),
-            _ => format!("{told}; largest step in the other direction {back:.1} standard errors"),
+            0.0 if back > CHANCE => format!("{reported}, without error; a step goes the other way"),
+            0.0 => format!("{reported}, without error; no step goes the other way"),
+            error if error.is_nan() => format!("{reported}; the error of a single replicate is not known"),
+            _ => format!("{reported}; largest step in the other direction {back:.1} standard errors"),
         };
         return Ok((evidence, verdict));
     }
@@ -221,7 +221,7 @@ fn follows(
             (most, at) = (before.min(after), Some((turn, ends)));
         }
     }
-    let Some((turn, turn_ends)) = at else { return Ok((told, Verdict::Open)) };
+    let Some((turn, turn_ends)) = at else { return Ok((reported, Verdict::Open)) };
     let [before, after] = turn_ends.map(|difference| in_words(quantity, difference));
     let evidence =
         format!("at {}: {before} relative to {}, {after} relative to {}", place(turn), place(0), place(last));

@@ -127,7 +127,7 @@ fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], part: &Part)
         let first = all.len() + 1;
         let mut known = Quantity::new(measure, part);
         known.errors = kept().enumerate().map(|(i, error)| (error.role, first + i)).collect();
-        if tells_its_error(measure) {
+        if has_own_error(measure) {
             known.errors.push((ErrorRole::OfOne, first));
             all.extend([known.clone(), Quantity::error_of(&known)]);
         } else {
@@ -138,7 +138,7 @@ fn add<T>(all: &mut Vec<Quantity>, measures: &'static [Measure<T>], part: &Part)
 }
 
 /// Whether the value of a measure comes with its error.
-const fn tells_its_error<T>(measure: &Measure<T>) -> bool {
+const fn has_own_error<T>(measure: &Measure<T>) -> bool {
     matches!(measure.formula, Formula::Reported(_))
 }
 
@@ -147,7 +147,7 @@ fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&
     for measure in measure::with_errors(measures).filter(|measure| is_kept(measure)) {
         match found.and_then(|found| measure.value(found)) {
             Some(Value::Reported(known)) => all.extend(of_one_web(known, measure.unit)),
-            value if tells_its_error(measure) => {
+            value if has_own_error(measure) => {
                 all.extend([value.map_or(f64::NAN, |value| value.number()); 2])
             }
             value => all.push(value.map_or(f64::NAN, |value| value.number())),
@@ -155,7 +155,7 @@ fn enter<T>(all: &mut Vec<f64>, measures: &'static [Measure<T>], found: Option<&
     }
 }
 
-/// What one of several webs tells of a number, and its error. A bound says nothing of a mean, but where none
+/// What one of several webs reports of a number, and its error. A bound says nothing of a mean, but where none
 /// were found on a sheet there are zero, as likely as one.
 fn of_one_web(known: Known, unit: Unit) -> [f64; 2] {
     match known {

@@ -77,9 +77,9 @@ impl Case {
         }
         // At the centres of the first and the last element.
         let centres = [0.5 * l, fibre.length - 0.5 * l].map(|s| fibre.direction * s);
-        let knows = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
+        let is_inside = |at: Vec3<f64>| self.air.local(at, &mut Hint::default()).inside;
         let root_outside = self.root_outside();
-        if root_outside.is_none() && !centres.into_iter().all(knows) {
+        if root_outside.is_none() && !centres.into_iter().all(is_inside) {
             let (key, length) = match self.line {
                 Some(line) => ("belt.distance", line.distance),
                 None => ("fibre.length", fibre.length),

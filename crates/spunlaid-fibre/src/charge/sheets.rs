@@ -25,7 +25,7 @@ pub struct ChargedNode {
     pub(crate) weight: u64,
 }
 
-/// Shares of charge that are told of each height, from the back of the belt to its front.
+/// Shares of charge that are reported of each height, from the back of the belt to its front.
 const SHARES: [f64; 5] = [0.025, 0.25, 0.5, 0.75, 0.975];
 
 /// The charge at one height of a curtain.

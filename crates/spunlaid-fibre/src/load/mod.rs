@@ -15,7 +15,7 @@ pub use measures::{LOAD_MEASURES, LOAD_POSITION_MEASURES};
 use spunlaid_air::{HEAT_CAPACITY_OF_AIR, Hint};
 use spunlaid_ground::Vec3;
 
-/// Number of places at which a load is told, at equal distances from the inlet to the belt.
+/// Number of places at which a load is reported, at equal distances from the inlet to the belt.
 const PLACES: usize = 10;
 
 /// What one simulated filament does at a place on its way.

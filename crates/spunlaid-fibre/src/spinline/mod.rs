@@ -1,6 +1,6 @@
 //! The spinline: from the hole of the spinneret to the solid filament.
 //!
-//! What a process engineer knows, [`Spinline`], gives what a fibre in flight has to know: its diameter, its
+//! The data of a process engineer, [`Spinline`], give what a fibre in flight needs: its diameter, its
 //! speed and roughly its modulus. One filament in steady state, with values averaged over its cross-section.
 //!                                                                                     theory.md (84) to (99)
 //!
@@ -127,7 +127,7 @@ pub enum Melt {
 pub enum End {
     /// The tension [N]; zero for a free end.
     Tension(f64),
-    /// The mean tension at the root of the simulated fibre, as far as flights have told it [N].
+    /// The mean tension at the root of the simulated fibre, as far as flights have reported it [N].
     Flown(f64),
     /// The speed of a godet [m/s].
     TakeUp(f64),

@@ -146,7 +146,7 @@ impl Shooting<'_, '_> {
         while !(low.1.is_finite() && high.1.is_finite()) {
             let x = 0.5 * (low.0 + high.0);
             if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
-                // A filament that gets to the end tells more than one that does not.
+                // A filament that gets to the end reports more than one that does not.
                 let near = self.run(low.0).or_else(|| self.run(high.0)).map(Box::new);
                 let miss = match (of_slack, of_fast) {
                     (Some(liquid @ Miss::Liquid(_)), _) | (_, Some(liquid @ Miss::Liquid(_))) => liquid,

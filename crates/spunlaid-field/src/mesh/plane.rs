@@ -10,7 +10,7 @@ use spunlaid_ground::{Fault, FileError, Vec3};
 const ROUNDING: f64 = 1e-9;
 /// The same of values, as a share of the largest of their kind. Single precision has more digits.
 const ALIKE: f64 = 1e-5;
-/// Fewest rows of points along the axes of the plane. With fewer, nothing tells the plane from the third direction.
+/// Fewest rows of points along the axes of the plane. With fewer, nothing reports the plane from the third direction.
 const FEWEST: usize = 3;
 
 /// The plane of a plane flow.

@@ -31,7 +31,7 @@ pub(super) struct Assembly<'l> {
     lacks: Option<Fault>,
     /// Arrays that may be the velocity and were not read.
     others: Option<Vec<String>>,
-    /// The time of the values, if a file tells it.
+    /// The time of the values, if a file reports it.
     time: Option<f64>,
     /// How much may still be read, for all pieces together.
     pub(super) budget: Budget,
@@ -69,7 +69,7 @@ impl<'l> Assembly<'l> {
         Ok(())
     }
 
-    /// Takes note of the time that a file tells.
+    /// Takes note of the time that a file reports.
     pub(super) fn add_time(&mut self, array: &Array<'_>) -> Result<(), FileError> {
         let times: Vec<f64> = array.all(&mut self.budget)?;
         one_time(&mut self.time, array, &times)

@@ -7,7 +7,7 @@
 //! | `vtkValidPointMask` | 0: outside of the data that were resampled | |
 //!
 //! A table of the centres of cells has the marks of cells at its points: any bit that points do not have
-//! tells so, and then 2, which says of a cell that it has many neighbours, hides nothing.
+//! reports so, and then 2, which says of a cell that it has many neighbours, hides nothing.
 //!
 //! Other bits of `vtkGhostType` say something about the mesh and hide nothing. A point that another piece has
 //! too holds air unless it is hidden; a cell that another piece has too would count twice.

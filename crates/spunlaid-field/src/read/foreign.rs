@@ -43,7 +43,7 @@ const STARTS: [(&[u8], &str, &str); 23] = [
 
 /// What a file is and what to do, if it is of a kind that is not read.
 ///
-/// * `name` – of the file; its ending counts where the content does not tell the kind
+/// * `name` – of the file; its ending counts where the content does not show the kind
 pub(super) fn refusal(bytes: &[u8], name: &str) -> Option<Fault> {
     let name = name.to_lowercase();
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));

@@ -50,7 +50,7 @@ fn simple(parts: &[Part]) -> Result<Option<(Field, Vec<Fault>)>, FileError> {
 }
 
 impl Part {
-    /// Makes a lattice of points that form one and of which some hold no air: its cells tell where the air ends.
+    /// Makes a lattice of points that form one and of which some hold no air: its cells show where the air ends.
     fn order_points(&mut self) {
         let Grid::Scattered(points) = &self.grid else {
             return;

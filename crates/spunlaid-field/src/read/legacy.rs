@@ -31,7 +31,7 @@ struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
     binary: bool,
-    /// The arrays that tell the time of the file.
+    /// The arrays that give the time of the file.
     times: Vec<Array<'a>>,
 }
 
@@ -232,7 +232,7 @@ impl<'a> Scanner<'a> {
     /// Field data of the whole data set, of which only the time is kept.
     fn whole_fields(&mut self) -> Result<(), FileError> {
         let arrays = self.fields()?;
-        self.times.extend(arrays.into_iter().filter(|array| times::tells_time(&array.name)));
+        self.times.extend(arrays.into_iter().filter(|array| times::contains_time(&array.name)));
         Ok(())
     }
 

@@ -23,7 +23,7 @@ const COLUMNS: [&str; 13] = [
     "zeit",
 ];
 const UNITS: [&str; 8] = ["s", "sec", "second", "seconds", "ms", "us", "µs", "min"];
-/// Names of the arrays with which VTK files tell the time of their values.
+/// Names of the arrays with which VTK files give the time of their values.
 const ARRAYS: [&str; 2] = ["TimeValue", "TIME"];
 /// Times that differ by less than this share are one, in single and in double precision.
 const ROUNDING: f64 = 1e-6;
@@ -105,8 +105,8 @@ pub(super) fn of_one_time<'a>(heads: impl Iterator<Item = &'a str>) -> Result<Ve
     Ok(names)
 }
 
-/// Whether this array of a whole VTK file tells its time.
-pub(super) fn tells_time(name: &str) -> bool {
+/// Whether this array of a whole VTK file reports its time.
+pub(super) fn contains_time(name: &str) -> bool {
     ARRAYS.iter().any(|known| known.eq_ignore_ascii_case(name))
 }
 

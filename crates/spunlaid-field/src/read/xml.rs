@@ -86,8 +86,8 @@ fn add(bytes: &[u8], announced: Option<&str>, assembly: &mut Assembly<'_>) -> Re
     // Above all pieces; what else stands there is not looked at.
     let whole =
         grid.children().filter(|node| node.has_tag_name("FieldData")).flat_map(|data| data.children());
-    let tells_time = |node: &Node<'_, '_>| node.attribute("Name").is_some_and(times::tells_time);
-    for node in whole.filter(|node| node.has_tag_name("DataArray")).filter(tells_time) {
+    let contains_time = |node: &Node<'_, '_>| node.attribute("Name").is_some_and(times::contains_time);
+    for node in whole.filter(|node| node.has_tag_name("DataArray")).filter(contains_time) {
         assembly.add_time(&file.array(node).map_err(|error| error.at(place(node)))?)?;
     }
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {

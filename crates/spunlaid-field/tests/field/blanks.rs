@@ -22,8 +22,8 @@ fn analytic_hidden_points_and_cells_of_files_of_vtk_are_no_air() {
         let speed = field.overview().speed;
         assert!(speed.least > 7.79 && speed.largest < 14.21, "{file}: {speed:?}");
         assert!((speed.mean - 11.0).abs() < 0.02, "{file}: {speed:?}");
-        let told = warnings.iter().any(|warning| warning.message.contains("hidden"));
-        assert_eq!(told, !hidden.is_empty(), "{file}: {warnings:?}");
+        let reported = warnings.iter().any(|warning| warning.message.contains("hidden"));
+        assert_eq!(reported, !hidden.is_empty(), "{file}: {warnings:?}");
         assert!(warnings.iter().any(|warning| warning.message.starts_with(hidden)), "{file}: {warnings:?}");
         // Each file has this air: U = 10 + 2 (x − 0.5) + … along the axis, 11 m/s in its middle.
         let local = field.sample(Vec3::new(0.5, 0.0, 0.0), &mut Hint::default());
@@ -188,9 +188,9 @@ fn analytic_points_of_faces_that_are_left_out_are_no_air() {
             };
         }
         let (field, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
-        let is_told =
+        let is_reported =
             |warning: &Fault| warning.to_string().starts_with("1 cell is a point, a line or a face");
-        assert!(warnings.iter().any(is_told), "{warnings:?}");
+        assert!(warnings.iter().any(is_reported), "{warnings:?}");
         for [x, y, z] in [[0.0, 0.5, 0.5], [0.01, 0.2, 0.9], [1.7, 0.5, 0.1]] {
             let local = field.sample(Vec3::new(x, y, z), &mut Hint::default());
             let meant = 20.0 - 2.0 * x + 3.0 * y;

@@ -48,7 +48,7 @@ fn rejects_columns_of_several_times() {
             format!("a.csv:56: column {head}: has {second} here and {first} in the first row: {WAY_OUT}");
         assert_eq!(found, wanted);
     }
-    // The places of the second time are others, so that only the column tells it.
+    // The places of the second time are others, so that only the column reports it.
     let half = [with("0", &rows(20.0)[..27]), with("1", &rows(40.0)[27..])];
     assert!(said(&table("time,x,y,z,u,v,w", &half)).contains(WAY_OUT));
 }

@@ -37,7 +37,7 @@ pub struct Measure<T: 'static> {
     pub unit: Unit,
     /// The SI value that is shown as zero: 273.15 K of a temperature in °C. Studies keep and show the SI value.
     pub zero: f64,
-    /// Number of digits that are shown; none of a number whose error tells it.
+    /// Number of digits that are shown; none of a number whose error reports it.
     pub digits: Option<i32>,
     /// Whether a table has it, if it has a label.
     pub is_shown: fn(&T) -> bool,
@@ -83,7 +83,7 @@ pub enum Formula<T: 'static> {
 /// What an error is to its measure, as studies and tables have to know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorRole {
-    /// Its standard error, unless there are several replicates, whose scatter tells it.
+    /// Its standard error, unless there are several replicates, whose scatter reports it.
     OfOne,
     /// A further error, which more replicates do not lower.
     Further,
@@ -158,7 +158,7 @@ pub fn with_errors<T>(measures: &'static [Measure<T>]) -> impl Iterator<Item = &
     measures.iter().flat_map(|one| std::iter::once(one).chain(one.errors))
 }
 
-/// By its names, which tell it from all others; where its functions lie in memory says nothing.
+/// By its names, which distinguish it from all others; where its functions lie in memory says nothing.
 impl<T> fmt::Debug for Measure<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Measure")

@@ -338,7 +338,7 @@ mod thousands_tests {
     use super::*;
 
     #[test]
-    fn thousands_are_told_from_decimals() {
+    fn thousands_are_distinguished_from_decimals() {
         for cell in ["1.234.567", "1.234,5", "-1,234.56", "1'234", "1 234,5", "12,345,678", "1.234.567,8"] {
             assert!(has_thousands(cell), "{cell}");
         }
@@ -369,7 +369,7 @@ mod thousands_tests {
     }
 
     #[test]
-    fn a_column_is_doubted_only_if_no_number_tells() {
+    fn a_column_is_doubted_only_if_no_number_decides() {
         assert!(doubted(&["1.035", "964", "1.022"]));
         assert!(doubted(&["998", "1,002"]));
         // The largest number without a sign and the smallest with one count, wherever they stand.

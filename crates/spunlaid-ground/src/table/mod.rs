@@ -146,7 +146,7 @@ impl<R: Read> Table<R> {
     /// Reads the next row; `false` at the end.
     ///
     /// # Errors
-    /// When the file cannot be read, the row has too few or too many cells, or nothing tells whether the signs in a
+    /// When the file cannot be read, the row has too few or too many cells, or nothing shows whether the signs in a
     /// column that was read are those of decimals or of thousands.
     pub fn next_row(&mut self) -> Result<bool, FileError> {
         let mut blank = 0;

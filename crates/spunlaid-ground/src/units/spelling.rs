@@ -275,14 +275,14 @@ mod tests {
 
     #[test]
     fn rejects_a_comma_with_all_that_it_can_mean() {
-        let told = |text| comma(text).to_string();
+        let reported = |text| comma(text).to_string();
         assert_eq!(
-            told("1,500 MPa"),
+            reported("1,500 MPa"),
             "has a comma; write \"1500 MPa\" if the comma separates thousands, or \"1.500 MPa\" if it is \
              a decimal sign"
         );
         assert_eq!(
-            told("0,6 g/min"),
+            reported("0,6 g/min"),
             "has a comma; write the number with a decimal point, like \"0.6 g/min\""
         );
     }

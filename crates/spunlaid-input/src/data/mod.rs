@@ -25,7 +25,7 @@ type Found = Result<(Content, Vec<Diagnostic>), FileError>;
 /// What the case says of the files of its records and of its field.
 pub(super) type Layouts = (RecordLayout, FieldLayout);
 
-/// A file by its path, what it is read as, and a text that tells different ways to read it apart.
+/// A file by its path, what it is read as, and a text that distinguishes different ways to read it.
 type FileKey = (PathBuf, DataFile, String);
 
 /// The files read so far, of which a study names few.
@@ -136,7 +136,7 @@ fn from_file<T>(path: &Path, checksum: u32, content: T) -> FileContent<T> {
     FileContent::new(path.to_owned(), checksum, Arc::new(content))
 }
 
-/// A text that tells different ways to read a file apart; empty if the case says nothing of it.
+/// A text that distinguishes different ways to read a file; empty if the case says nothing of it.
 fn way_of<T: Debug + Default + PartialEq>(layout: &T) -> String {
     if *layout == T::default() { String::new() } else { format!("{layout:?}") }
 }

@@ -354,7 +354,7 @@ fn find(heads: &[Head], rule: &ColumnRule) -> Result<Option<(usize, ColumnUnit)>
         }
     }
     let head = Head { unit: unit.map(str::to_owned), ..heads[index].clone() };
-    // Options that tell the units of a record are none of these tables.
+    // Options that give the units of a record are none of these tables.
     let factor = head.factor(rule.dimension, rule.example).map_err(|error| {
         let cause = Fault { option: "".into(), ..error.cause.clone() };
         FileError::new(Diagnostic { cause, ..*error })

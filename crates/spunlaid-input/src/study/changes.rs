@@ -32,7 +32,7 @@ pub fn read_changes<'a>(
         let web = WebToChange { base: &base, set: set.values, resources };
         Ok(match changes {
             Changes::OfLine => web.changes_of_line(),
-            Changes::OfAssumedValues => changes_of_guesses(&web),
+            Changes::OfAssumedValues => changes_of_assumed_values(&web),
         })
     })
 }
@@ -45,22 +45,27 @@ const CUTOFF: &str = "air.lateral_cutoff";
 /// half as long waves would take four times the memory.
 const OF_EDDIES: [&str; 3] = ["air.length_factor", "air.length_scale", "air.length_constant"];
 
-fn changes_of_guesses(web: &WebToChange<'_>) -> Vec<Change> {
+fn changes_of_assumed_values(web: &WebToChange<'_>) -> Vec<Change> {
     let spec = web.base.spec();
     let named = spec.assumed.iter().filter_map(|name| Some((name, AssumedValue::new(spec, name).ok()?)));
     named
-        .flat_map(|(name, guess)| FACTORS.map(|factor| with_guess(web, name, &guess, factor)))
+        .flat_map(|(name, assumed)| FACTORS.map(|factor| with_assumed_value(web, name, &assumed, factor)))
         .flatten()
         .collect()
 }
 
 /// The web with another value of an assumed value; None if that is no other value.
-fn with_guess(web: &WebToChange<'_>, name: &str, guess: &AssumedValue, factor: f64) -> Option<Change> {
-    let value = factor * guess.value;
-    let to = if guess.kind.dimension().is_none() { value.round().max(1.0) } else { value };
+fn with_assumed_value(
+    web: &WebToChange<'_>,
+    name: &str,
+    assumed: &AssumedValue,
+    factor: f64,
+) -> Option<Change> {
+    let value = factor * assumed.value;
+    let to = if assumed.kind.dimension().is_none() { value.round().max(1.0) } else { value };
     let mut values: Vec<(VariedKey, f64)> =
-        guess.keys.iter().map(|key| (VariedKey::new(key, guess.kind), to)).collect();
-    let key = web.changed_key(&values.first()?.0, [guess.value, to]);
+        assumed.keys.iter().map(|key| (VariedKey::new(key, assumed.kind), to)).collect();
+    let key = web.changed_key(&values.first()?.0, [assumed.value, to]);
     if OF_EDDIES.contains(&name)
         && factor < 1.0
         && let Some(cutoff) = web.base.spec().lateral_cutoff(0)
@@ -69,5 +74,5 @@ fn with_guess(web: &WebToChange<'_>, name: &str, guess: &AssumedValue, factor: f
     }
     let keys = vec![ChangedKey { key: name.to_owned(), ..key }];
     let new = values.iter().map(|value| web.setting(value)).collect();
-    (to != guess.value).then(|| web.change((setting::ASSUMED, Vec::new()), keys, new, web.with(&values)))
+    (to != assumed.value).then(|| web.change((setting::ASSUMED, Vec::new()), keys, new, web.with(&values)))
 }

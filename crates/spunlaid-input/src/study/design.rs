@@ -20,8 +20,8 @@ impl<'a> Reader<'a> {
         let all = Design::all(points.unwrap_or(1)).into_iter();
         // One that is unknown or missing has been noted.
         let Some(design) = all.into_iter().find(|design| design.name() == name) else { return Design::Grid };
-        let is_told = self.key_values.get("points").is_some() || self.key_values.is_excused("points");
-        let fault = match (design.draws(), is_told) {
+        let is_given = self.key_values.get("points").is_some() || self.key_values.is_excused("points");
+        let fault = match (design.draws(), is_given) {
             (true, false) => Fault::missing("", "points = 64, the number of points of the design"),
             (false, true) => Fault::new(
                 format!("does not fit design = \"{name}\", whose number of points follows from its values"),

@@ -159,7 +159,7 @@ impl WebToChange<'_> {
         settings.map(|(setting, keys)| (setting, keys.iter().map(alone).collect())).to_vec()
     }
 
-    /// Whether one number tells how turbulent the air of the cases is. A flow whose turbulence differs from
+    /// Whether one number reports how turbulent the air of the cases is. A flow whose turbulence differs from
     /// place to place would become another flow.
     fn is_evenly_turbulent(&self) -> bool {
         let is_even = |air: &Air| match &air.flow {

@@ -129,7 +129,7 @@ impl Reader<'_> {
         }
         let factors = self.factors(design, base);
         let links = self.links(&factors, base);
-        // A key that is wrong where it varies would be told once more by each claim.
+        // A key that is wrong where it varies would be reported once more by each claim.
         let is_sound = self.problems() == 0;
         let claims = if is_sound { self.claims(&factors, &base.quantities()) } else { Vec::new() };
         self.check_once(base, set, &factors, &links);

@@ -60,7 +60,7 @@ impl Filament {
         self.values.has_table("spinline")
     }
 
-    /// Tells a layer the size of its filament and the speed, as far as they are known before it is spun.
+    /// Reports a layer the size of its filament and the speed, as far as they are known before it is spun.
     /// Returns the throughput of a hole of a die, if it comes from one.
     pub(super) fn tell_flow(&self, layer: &mut LayerSpec) -> Option<f64> {
         let fibre = self.sized().fibre;
@@ -110,7 +110,7 @@ impl WebParser<'_> {
     /// Takes what a key of the web gives of the case, which the same file must not say too.
     fn give(&mut self, filament: &mut Filament, prefix: &str, key: &'static WebKey) {
         let places = self.places_of(key, prefix);
-        let Some(full) = places.into_iter().find(|full| self.is_told(full)) else { return };
+        let Some(full) = places.into_iter().find(|full| self.is_given(full)) else { return };
         let Some(written_value) = self.key_values.get(&full).cloned() else {
             // It is missing because of another problem.
             key.relations.gives_case.iter().for_each(|name| filament.values.suppress_missing(*name));
@@ -194,7 +194,7 @@ impl WebParser<'_> {
         else {
             return;
         };
-        // Whoever sets a key of the case knows that it has another number.
+        // Whoever sets a key of the case wants another number.
         let is_known = keys::find(&layer_and_name(&by).1).is_some()
             && self.key_values.get(&by).is_some_and(WrittenValue::is_set);
         if (own / used - 1.0).abs() > ROUNDED && !is_known {
@@ -265,7 +265,7 @@ impl WebParser<'_> {
                     let (place, key) = (self.key_values.whole(), of_air.to_owned());
                     self.note(vec![self.key_values.placed(Diagnostic { place, key, ..what })]);
                 }
-                // What is simulated is what is written and told.
+                // What is simulated is what is written and reported.
                 case.air.lateral = case.air.lateral.in_one_air();
                 return Ok(Some(Arc::new(case)));
             }

@@ -161,7 +161,7 @@ impl WebParser<'_> {
     }
 }
 
-/// What tells how the filaments of a layer lie.
+/// What determines how the filaments of a layer lie.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
     /// A filament is simulated.
@@ -182,7 +182,7 @@ pub(super) struct Layer {
 }
 
 impl WebParser<'_> {
-    /// What tells how the filaments of a layer lie.
+    /// What determines how the filaments of a layer lie.
     fn way(&mut self, prefix: &str) -> Way {
         let is_written = |name: &&&str| self.is_written(&format!("{prefix}{name}"));
         let numbers = NUMBERS.iter().find(is_written);

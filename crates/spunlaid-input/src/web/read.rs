@@ -82,7 +82,7 @@ impl WebParser<'_> {
     }
 
     /// Whether a key is written, or missing only because of another problem.
-    pub(super) fn is_told(&self, full: &str) -> bool {
+    pub(super) fn is_given(&self, full: &str) -> bool {
         self.is_written(full) || self.key_values.is_excused(full)
     }
 

@@ -232,7 +232,7 @@ impl WebParser<'_> {
         self.of_all_layers(BELT_SPEED);
         let keys: Vec<String> = self.prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
         let Some(first) = layers.iter().position(|layer| !layer.belt_speed.is_nan()) else {
-            if let Some(key) = keys.first().filter(|_| !keys.iter().any(|key| self.is_told(key))) {
+            if let Some(key) = keys.first().filter(|_| !keys.iter().any(|key| self.is_given(key))) {
                 let table = without_numbers(key.trim_end_matches(".belt_speed"));
                 self.key_values.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
             }

@@ -55,7 +55,9 @@ impl Receives for Session {
             Command::Forget {} => self.changed(),
             Command::Look { .. } => {}
             Command::Pin {} | Command::Back { .. } | Command::Confirm {} | Command::Preview { .. } => {
-                return Err(Answer::refused("the page of a fibre makes no comparisons; the page of a line does"));
+                return Err(Answer::refused(
+                    "the page of a fibre makes no comparisons; the page of a line does",
+                ));
             }
             Command::Save { name, replace } => {
                 let name = save::plain_name(name).map_err(Answer::refused)?;

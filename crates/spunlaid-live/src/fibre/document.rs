@@ -111,7 +111,7 @@ impl Document {
         // Where the text is not TOML, reading it says why, in the words of all commands.
         let untold = |error: toml_edit::TomlError| diagnostic(format!("not valid TOML: {}", error.message()));
         let parsed = self.text.parse::<DocumentMut>();
-        let mut document = parsed.map_err(|error| self.read().err().unwrap_or_else(|| untold(error)))?;
+        let mut document = parsed.map_err(|error| self.read().err().unwrap_or_else(|| invalid(error)))?;
         let mut table: &mut dyn TableLike = document.as_table_mut();
         for name in key.table().split('.') {
             let inner = table.entry(name).or_insert(toml_edit::table());
@@ -277,8 +277,8 @@ mod tests {
         let new = document().with(key("fibre.diameter"), Some("20 µm".into())).unwrap();
         let new = new.with(key("air.turbulence_intensity"), Some(0.2.into())).unwrap();
         let new = new.with(key("run.duration"), None).unwrap();
-        let told = new.command(8);
-        let (settings, folder) = told.split_once(" --out ").unwrap();
+        let command = new.command(8);
+        let (settings, folder) = command.split_once(" --out ").unwrap();
         assert_eq!(
             settings,
             "spunlaid run 'some where/a.toml' --set 'fibre.diameter=20 µm' --set air.turbulence_intensity=0.2 \

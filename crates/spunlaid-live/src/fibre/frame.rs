@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_is_laid_out_as_described_and_tells_each_page_what_is_new() {
+    fn a_frame_is_laid_out_as_described_and_gives_each_page_what_is_new() {
         let set = [("fibre.element_length", "50 mm"), ("run.scheme", "leapfrog"), ("run.time_step", "1 µs")];
         let set = set.map(|(key, value)| (key.to_owned(), value.to_owned()));
         let (case, _) = read_case((starter_case(), "a.toml"), &set).unwrap();

@@ -127,7 +127,7 @@ pub(super) struct ShownNumber {
 }
 
 impl ShownNumber {
-    /// The mean of a measure over the fibres, with the error that its scatter tells.
+    /// The mean of a measure over the fibres, with the error that its scatter reports.
     ///
     /// * `values` – of each fibre, in SI units; NaN where there is none
     pub(super) fn of_fibres(name: &str, mut values: Vec<f64>) -> Option<Self> {
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn spreads_are_told_with_errors_after_the_fibres_have_come_down() {
+    fn standard_deviations_are_reported_with_errors_after_the_fibres_have_landed() {
         let (case, _) =
             read_case((starter_case_of_fed(), "fed.toml"), &[("fibre.element_length".into(), "4 mm".into())])
                 .unwrap();

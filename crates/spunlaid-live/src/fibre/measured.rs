@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_told_before_the_fibres_have_settled() {
+    fn nothing_is_reported_before_the_fibres_have_settled() {
         let (case, _) = read_case((starter_case(), "starter.toml"), &[]).unwrap();
         let fibres = Fibres::new(case.clone()).unwrap();
         let message = Statistics::new(&case, fibres.flight()).message(1, fibres.flight());

@@ -71,7 +71,9 @@ impl Receives for Session {
             | Command::Pace { .. }
             | Command::Step {}
             | Command::Forget {} => {
-                return Err(Answer::refused("the page of a line has no such message; the page of a fibre does"));
+                return Err(Answer::refused(
+                    "the page of a line has no such message; the page of a fibre does",
+                ));
             }
         }
         Ok(None)

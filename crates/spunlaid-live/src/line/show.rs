@@ -86,9 +86,7 @@ impl Session {
         let flying = self.flying.as_ref().filter(|flying| !flying.is_unwanted())?;
         let (stage, words) = match flying.task {
             Task::Settle(_) => ("before", "Finding the tension at the end of the spinline"),
-            Task::Pin(_) => {
-                ("before", "Laying a coarse reference web from a sample of filaments")
-            }
+            Task::Pin(_) => ("before", "Laying a coarse reference web from a sample of filaments"),
             Task::Compare { air: Air::OfFile, .. } => {
                 ("sketch", "Comparing the changed web in the same turbulence")
             }

@@ -47,8 +47,8 @@ pub fn with_errors<T>(measure: &'static Measure<T>, found: &T) -> Vec<(String, J
     let Some(value) = measure.of(found).value else { return Vec::new() };
     let error = |error: &'static Measure<T>| {
         let value = error.of(found).value;
-        let is_told = value.is_some() || error.role == ErrorRole::OfOne;
-        is_told.then(|| (error.entry().to_owned(), json(value)))
+        let is_reported = value.is_some() || error.role == ErrorRole::OfOne;
+        is_reported.then(|| (error.entry().to_owned(), json(value)))
     };
     let entry = (measure.entry().to_owned(), json(value));
     std::iter::once(entry).chain(measure.errors.iter().filter_map(error)).collect()

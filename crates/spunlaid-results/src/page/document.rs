@@ -256,16 +256,16 @@ impl<'a> Section<'a> {
             Part::Prose { .. } => vec!["a paragraph and its references, to copy".to_owned()],
             _ => Vec::new(),
         };
-        let (mut told, names) = (String::new(), self.parts.iter().flat_map(names).collect::<Vec<_>>());
+        let (mut text, names) = (String::new(), self.parts.iter().flat_map(names).collect::<Vec<_>>());
         for (number, name) in names.iter().enumerate() {
-            if told.len() > MOST_NAMES {
-                told += &format!("; {} more", names.len() - number);
+            if text.len() > MOST_NAMES {
+                text += &format!("; {} more", names.len() - number);
                 break;
             }
-            told += if number > 0 { "; " } else { "" };
-            told += name;
+            text += if number > 0 { "; " } else { "" };
+            text += name;
         }
-        told
+        text
     }
 
     /// Shown by a terminal in place of sections for which it has no room.

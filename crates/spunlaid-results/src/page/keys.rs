@@ -82,7 +82,12 @@ pub fn keys_page(word: &str, of: Option<FileKind>) -> Result<String, Fault> {
 }
 
 /// The keys with a word.
-fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> Result<Vec<KeyEntry>, Fault> {
+fn found(
+    pattern: &str,
+    of: Option<FileKind>,
+    is_page: bool,
+    allows_none: bool,
+) -> Result<Vec<KeyEntry>, Fault> {
     let word = pattern.trim().to_lowercase();
     let is_plain = |word: &str| {
         WEB_KEYS.iter().any(|key| key.has_word(word))
@@ -109,7 +114,7 @@ fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> R
             case_keys().chain(further).chain(of_study).collect()
         }
     };
-    if !found.is_empty() || is_told {
+    if !found.is_empty() || allows_none {
         return Ok(found);
     }
     if let Some(fault) = Removed::Key.fault(&word) {
@@ -180,11 +185,11 @@ fn usual(key: &KeyEntry) -> Option<String> {
 }
 
 /// The same in a row of a page, which says of what sign quantities are, and the units of some dimensions.
-fn takes_in_row(key: &KeyEntry, told: &[Dimension]) -> String {
+fn takes_in_row(key: &KeyEntry, listed: &[Dimension]) -> String {
     let (Kind::Quantity(dimension, sign), Some(usual)) = (key.kind, usual(key)) else {
         return key.kind.allowed();
     };
-    let units = match told.contains(&dimension) || dimension == Dimension::Ratio {
+    let units = match listed.contains(&dimension) || dimension == Dimension::Ratio {
         true => String::new(),
         false => format!("; in {}", units(dimension)),
     };
@@ -203,7 +208,7 @@ fn units(dimension: Dimension) -> String {
     advice.split_once(": ").map_or_else(String::new, |(_, units)| units.to_owned())
 }
 
-/// The dimensions of several keys, whose units are told once.
+/// The dimensions of several keys, whose units are reported once.
 fn shared(found: &[KeyEntry]) -> Vec<Dimension> {
     let mut dimensions = Vec::new();
     for dimension in found.iter().filter_map(|key| key.kind.dimension()) {
@@ -255,11 +260,11 @@ to use them.
 /// * `within` – tables in place of values
 fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'static str]) -> String {
     let mut text = head.to_owned();
-    let told = shared(found);
-    if !told.is_empty() {
+    let listed = shared(found);
+    if !listed.is_empty() {
         text += "\n| quantity | units |\n|---|---|\n";
     }
-    for dimension in &told {
+    for dimension in &listed {
         // Writing to a text cannot fail.
         let _ =
             writeln!(text, "| {} |", UnitAdvice(*dimension).to_string().replace(" with its unit: ", " | "));
@@ -288,7 +293,7 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
                 [false, _] if any_varies => " *fixed*",
                 _ => "",
             };
-            let (takes, left_out, meaning) = (takes_in_row(key, &told), &key.left_out, key.meaning);
+            let (takes, left_out, meaning) = (takes_in_row(key, &listed), &key.left_out, key.meaning);
             let _ = writeln!(text, "| `{short}`{mark} | {takes} | {left_out} | {meaning}{also} |");
         }
     }

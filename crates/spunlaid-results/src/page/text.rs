@@ -9,16 +9,16 @@ use unicode_width::UnicodeWidthStr;
 
 impl Report<'_> {
     /// What a terminal of so many columns shows: the result, what is said below it, the sections that are
-    /// told there, and the cost.
+    /// reported there, and the cost.
     pub(crate) fn text(&self, room: usize) -> String {
         // A link leads to a part of the page.
         let said = self.lead.iter().filter(|paragraph| !paragraph.contains("](#"));
         let said = [&self.headline].into_iter().chain(said).map(|words| format!("{words}\n")).collect();
-        let told = self.sections.iter().filter(|section| section.seen != Seen::Page);
-        let told = told.map(|section| section.text(room));
+        let printed = self.sections.iter().filter(|section| section.seen != Seen::Page);
+        let printed = printed.map(|section| section.text(room));
         let cost = Some(format!("{}\n", self.cost)).filter(|_| !self.cost.is_empty());
-        let text = [said].into_iter().chain(told).chain(cost).collect::<Vec<_>>().join("\n");
-        // Not every terminal knows these blanks.
+        let text = [said].into_iter().chain(printed).chain(cost).collect::<Vec<_>>().join("\n");
+        // Not every terminal shows these blanks.
         text.replace([THIN, HARD], " ").replace('`', "")
     }
 }

@@ -54,7 +54,7 @@ const MAKING: Making<'_> = Making { threads: 2, stop: &STOP, room: 200 };
 
 /// Webs that know different numbers of their patches: from the surrogate alone, from simulated curves too, from
 /// neither, and of filaments in shared turbulence, all or a few of which were simulated, on a sheet that is smaller
-/// than the patches, and so few that they tell nothing.
+/// than the patches, and so few that they give nothing.
 fn kinds(found: &Findings) -> [Findings; 6] {
     let with = |change: &dyn Fn(&mut PatchFindings)| {
         let mut kind = found.clone();
@@ -63,7 +63,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
     };
     let few = |patch: &mut PatchFindings| {
         let (few, cv) = (0.07, 0.06);
-        let told = SubsampleCv {
+        let estimate = SubsampleCv {
             patch: patch.map.patch,
             cv,
             by_chance: Some(0.002),
@@ -74,7 +74,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
             beyond_filling: 0.0,
             beyond_sheet: 0.0,
         };
-        (patch.few, patch.of_map, patch.evidence) = (Some(told), 0.061, Evidence::FewInOneAir);
+        (patch.few, patch.of_map, patch.evidence) = (Some(estimate), 0.061, Evidence::FewInOneAir);
     };
     [
         found.clone(),
@@ -189,8 +189,8 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     for declared in SCAN_MEASURES {
         let number = declared.value(&findings).map(|value| value.number());
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());
-        let is_told = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
-        assert!(!is_told || report.contains(declared.label), "{}", declared.entry());
+        let is_reported = !declared.label.is_empty() && number.is_some_and(|number| number != 0.0);
+        assert!(!is_reported || report.contains(declared.label), "{}", declared.entry());
     }
     let search = findings.streaks.as_ref().unwrap();
     let limits = summary["scan"]["streak_limits"].as_array().unwrap();

@@ -100,7 +100,7 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     Ok(MeasuredWeb {
         map: map.map_err(unusable)?,
         patches,
-        knows_noise: scan["noise"].as_f64().is_some(),
+        has_known_noise: scan["noise"].as_f64().is_some(),
         flat: scan["shading"].as_f64().is_some(),
         doubt: doubt.map(|doubt| doubt.to_string()),
     })

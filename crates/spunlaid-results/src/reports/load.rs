@@ -12,7 +12,8 @@ use spunlaid::ground::{Measured, measure};
 const TITLE: &str = "Force of the filaments on the air";
 
 /// What is said where nothing of the way was seen.
-const NOT_SEEN: &str = "The force on the way to the belt is not known, because no filament was recorded on it.";
+const NOT_SEEN: &str =
+    "The force on the way to the belt is not known, because no filament was recorded on it.";
 
 /// Share of the momentum of the air from which on the given air is far from that of the line.
 const LARGE: f64 = 0.2;
@@ -35,11 +36,11 @@ pub fn load_of_spinline(case: &Case, way: &[WayPlace]) -> Option<Load> {
 
 /// Its measures, and those of each place where filaments were simulated.
 pub fn summary(load: &Load) -> Json {
-    let mut told = values(LOAD_MEASURES, load);
+    let mut object = values(LOAD_MEASURES, load);
     if !load.places.is_empty() {
-        told["places"] = load.places.iter().map(|place| values(LOAD_POSITION_MEASURES, place)).collect();
+        object["places"] = load.places.iter().map(|place| values(LOAD_POSITION_MEASURES, place)).collect();
     }
-    told
+    object
 }
 
 /// The section; none where nothing is known.

@@ -53,7 +53,7 @@ struct Queue {
 }
 
 impl Queue {
-    /// Does the items on some threads and takes them in order until `take` returns false. As it knows no type
+    /// Does the items on some threads and takes them in order until `take` returns false. As it is without the type
     /// of a result, it is compiled once.
     fn run(self, threads: usize, work: &(dyn Fn(usize) + Sync), take: &mut dyn FnMut(usize) -> bool) {
         let (count, places) = (self.count, self.finished.len());

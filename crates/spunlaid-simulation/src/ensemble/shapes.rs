@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_cannot_be_written_is_told_with_its_path() {
+    fn a_file_that_cannot_be_written_is_reported_with_its_path() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("shapes");
         File::create(&path).unwrap();

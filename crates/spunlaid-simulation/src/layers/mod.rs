@@ -92,7 +92,7 @@ pub struct LayerSpec {
     pub titre: Option<f64>,
     /// Density of the polymer [kg/m³].
     pub density: f64,
-    /// How the filaments lie, or what tells it.
+    /// How the filaments lie, or what determines it.
     pub source: LaydownSource,
     /// Speed at which each filament is fed [m/s].
     pub feed_speed: f64,
@@ -110,7 +110,7 @@ pub struct LayerSpec {
     pub walls: Option<f64>,
 }
 
-/// What tells how a filament lies.
+/// What determines how a filament lies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LaydownSource {
     /// A case that is to be simulated.

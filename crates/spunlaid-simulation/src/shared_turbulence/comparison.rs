@@ -21,7 +21,7 @@ use std::ops::Range;
 use std::sync::atomic::AtomicU64;
 
 /// Shortest sheet that is compared, in parts of the one that was to be laid: eddies of half the length pass
-/// twice as fast, so half of it tells as much.
+/// twice as fast, so half of it reports as much.
 const LEAST: f64 = 0.25;
 /// Fastest belt, over the speed of the feed, that does not pull at the filament in the air.
 const SLOW: f64 = 0.1;
@@ -44,20 +44,20 @@ impl Flyer<'_> {
         steps: &AtomicU64,
     ) -> Result<Option<Vec<FewOfWeb>>, Error> {
         let Some(layers) = comparisons(specs, of_each) else { return Ok(None) };
-        let mut told: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
+        let mut estimates: Vec<FewOfWeb> = specs.iter().map(|_| Ok(Vec::new())).collect();
         for layer in &layers {
-            for (told, of_layer) in told.iter_mut().zip(self.compare(layer, steps)?) {
-                match (&mut *told, of_layer) {
-                    (Ok(told), Ok(few)) => told.push(few),
-                    (Ok(_), Err(error)) => *told = Err(error),
+            for (estimates, of_layer) in estimates.iter_mut().zip(self.compare(layer, steps)?) {
+                match (&mut *estimates, of_layer) {
+                    (Ok(estimates), Ok(few)) => estimates.push(few),
+                    (Ok(_), Err(error)) => *estimates = Err(error),
                     (Err(_), _) => {}
                 }
             }
         }
-        Ok(Some(told))
+        Ok(Some(estimates))
     }
 
-    /// Flies a layer of all webs and says what the filaments of each tell.
+    /// Flies a layer of all webs and says what the filaments of each give.
     fn compare(
         &self,
         layer: &Comparison<'_>,
@@ -87,7 +87,7 @@ impl Flyer<'_> {
             let beam = of_beam.beam();
             let curves = match few.arrangement {
                 Arrangement::Rows => Some(few.curves(&sheet, &beam, &simulated)?),
-                // Alone it is told as the web as it is has been.
+                // Alone it is reported as the web as it is has been.
                 Arrangement::Slot | Arrangement::AtRandom if layer.beams.len() == 1 => {
                     Some(few.curves(&sheet, &beam, &simulated)?)
                 }
@@ -98,7 +98,7 @@ impl Flyer<'_> {
     }
 }
 
-/// The same error once more, of which several webs tell.
+/// The same error once more, that several webs report.
 fn again(error: &Error) -> Error {
     Error::Flight(Fault::plain(error.to_string()))
 }

@@ -59,7 +59,7 @@ impl Flyer<'_> {
         let (mut fibres, mut simulated, by) = (Vec::new(), Vec::new(), (self.threads, self.stop));
         for (number, layer) in beams.into_iter().enumerate() {
             let brush = Depositor::new(&canvas, layer.beam().element_mass(), spec.titres(number));
-            let (layer, mut found, curves) = self.fly_until_told(spec, (number, layer), &brush)?;
+            let (layer, mut found, curves) = self.simulate_until_estimated(spec, (number, layer), &brush)?;
             let (mut of_layer, back) = (take(&mut found.layer), found.back);
             let gathered = layer.gather(found, self.threads)?;
             // In machine direction the sheet is not closed.
@@ -77,8 +77,8 @@ impl Flyer<'_> {
     }
 
     /// Flies a layer. Unless the file says how many filaments are simulated, more of them fly where a few do not
-    /// tell what all do. The curves of a few filaments are returned too.
-    fn fly_until_told<'b>(
+    /// give what all do. The curves of a few filaments are returned too.
+    fn simulate_until_estimated<'b>(
         &self,
         spec: &'b WebSpec,
         (number, mut layer): (usize, LayerBeam<'b>),
@@ -97,21 +97,21 @@ impl Flyer<'_> {
             let Some(few) = &layer.few else { return Ok((layer, simulated, None)) };
             let (beam, on) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
             let curves = few.curves(&layer.sheet, &beam, &simulated)?;
-            let told = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
+            let estimate = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
-            let more = told.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
+            let more = estimate.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
             let more = more.then(|| beam_on(spec, number, finer.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
-                let told = match &asked {
-                    Some(on) if told.doubt().is_none() => {
-                        let first = FineSheet { on, layer: &layer, simulated: &simulated, few: told };
+                let estimate = match &asked {
+                    Some(on) if estimate.doubt().is_none() => {
+                        let first = FineSheet { on, layer: &layer, simulated: &simulated, few: estimate };
                         sheets.until_sure(first)?
                     }
-                    _ => told,
+                    _ => estimate,
                 };
                 // The strands of all filaments are found when they are drawn.
-                (simulated.layer.few, simulated.layer.strands) = (Some(told), Vec::new());
+                (simulated.layer.few, simulated.layer.strands) = (Some(estimate), Vec::new());
                 return Ok((layer, simulated, Some(curves)));
             };
             (layer, asked) = (more, finer);

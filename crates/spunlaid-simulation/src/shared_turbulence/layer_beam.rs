@@ -321,7 +321,7 @@ impl WebSpec {
 /// in space. The seed of the web and the number of the layer are in the key of the air, so that layers and
 /// webs have independent turbulence.
 ///
-/// * `sheet` – that a few of them lay; None for the one whose clouds tell the CV
+/// * `sheet` – that a few of them lay; None for the one whose clouds give the CV
 pub(super) fn beam_on<'a>(
     spec: &'a WebSpec,
     number: usize,

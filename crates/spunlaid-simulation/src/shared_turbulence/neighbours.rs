@@ -21,7 +21,7 @@ const STRETCH: f64 = 2.0;
 const STRETCHES: f64 = 32.0;
 /// In a metre.
 const NANOMETRES: f64 = 1e9;
-/// Fewest stretches whose scatter is told as an error.
+/// Fewest stretches whose scatter is reported as an error.
 const FEWEST: usize = 4;
 
 /// The pairs of a beam and their sums.
@@ -158,7 +158,7 @@ impl Neighbours {
     /// The correlations, from the nearest neighbours on.
     pub(super) fn correlations(&self) -> Vec<NeighbourCorrelation> {
         let (means, all) = (self.means(None), 0..self.stretches.len());
-        // The mean of a filament is told by the same stretches, and so is left out with them.
+        // The mean of a filament is reported by the same stretches, and so is left out with them.
         let means_without: Vec<Means> = all.map(|left_out| self.means(Some(left_out))).collect();
         let correlation = |(number, distance): (usize, &Distance)| NeighbourCorrelation {
             distance: distance.distance,

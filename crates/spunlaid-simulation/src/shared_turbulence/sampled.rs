@@ -38,7 +38,7 @@ const NEARLY: f64 = 1.3;
 pub struct Compared {
     /// Area of the sheets [m²].
     pub area: f64,
-    /// Distance of the filaments, in that of those which tell the CV: what a larger pitch does to one web it
+    /// Distance of the filaments, in that of those which give the CV: what a larger pitch does to one web it
     /// does to the other.
     pub pitches: f64,
 }
@@ -214,7 +214,7 @@ impl SubsamplePlan {
 
     /// What they say of all filaments.
     ///
-    /// * `blocks` – number of those that are told of the sheet, across and along
+    /// * `blocks` – number of those that are reported of the sheet, across and along
     /// * `curves` – of the filaments, from which those between them are filled in
     ///
     /// # Errors
@@ -229,7 +229,8 @@ impl SubsamplePlan {
         let filaments = self.filaments((sheet, blocks), beam, simulated);
         let usual_pitch = PITCH * beam.case.smallest_length_scale();
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
-        let with_pitches = |told: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..told };
+        let with_pitches =
+            |estimate: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..estimate };
         let Some(curves) = curves else {
             return Ok(with_pitches(filaments.estimate(None, by.0)?));
         };

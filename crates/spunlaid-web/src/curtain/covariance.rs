@@ -5,9 +5,9 @@ use spunlaid_ground::statistics::{dot, solve_positive};
 use spunlaid_ground::threads::par_map;
 use std::collections::BTreeMap;
 
-/// Points of a curve at which products are taken, at most: points near each other tell the same.
+/// Points of a curve at which products are taken, at most: points near each other give the same.
 const POINTS: usize = 512;
-/// Smallest correlation of nearest neighbours that is told from none.
+/// Smallest correlation of nearest neighbours that is distinguished from none.
 const LEAST: f64 = 0.01;
 /// From scale to scale across, and along the machine direction.
 const RATIOS: [f64; 2] = [1.5, 2.0];
@@ -15,7 +15,7 @@ const RATIOS: [f64; 2] = [1.5, 2.0];
 const LONGEST: [f64; 2] = [0.5, 2.0];
 /// From class to class of distances.
 const CLASS: f64 = 1.25;
-/// Shortest distance along the machine direction that is told from zero, in parts of the depth.
+/// Shortest distance along the machine direction that is distinguished from zero, in parts of the depth.
 const NEAREST: f64 = 1.0 / 32.0;
 /// Accuracy that is asked for of a covariance, in parts of the variance, beside the same part of what is
 /// missing to the variance: this is what the error of a filling rests on.
@@ -103,7 +103,7 @@ impl Covariance {
     /// In machine and in cross direction, fitted to the differences of all pairs of simulated filaments.
     ///
     /// * `shortest` – scale, in mean distances of filaments, and at most, in the scale that nearest
-    ///   neighbours alone would tell. Between neighbours the flight does not tell the covariance: what
+    ///   neighbours alone would give. Between neighbours the flight does not give the covariance: what
     ///   shorter scales explain passes for what each filament does for itself
     pub(crate) fn fit(simulated: &FlownCurves, shortest: [f64; 2], threads: usize) -> [Self; 2] {
         let places = simulated.places();
@@ -210,10 +210,10 @@ impl Covariance {
     }
 }
 
-/// The parts of all terms in a variance. What is fitted are the differences of filaments, which are told more
+/// The parts of all terms in a variance. What is fitted are the differences of filaments, which are reported more
 /// surely than their products, with weights by what the fit before says they are.
 ///
-/// * `most` – pairs that count: those of the same filaments tell the same
+/// * `most` – pairs that count: those of the same filaments give the same
 fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f64> {
     let size = classes.first().map_or(0, |class| class.curves.len());
     let missing = |class: &Class| 0.5 * class.squares[direction] / class.pairs / variance;

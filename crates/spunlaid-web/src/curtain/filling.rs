@@ -13,20 +13,20 @@ const NEAREST: usize = 16;
 /// where filaments are simulated at nearly one place.
 const OWN: f64 = 0.002;
 
-/// Shortest scales of the covariance by which the curves are filled in, and of that which tells what they
-/// miss. A filling with the smoother one misses no more, is nearer to the web as it would be simulated, and knows
+/// Shortest scales of the covariance by which the curves are filled in, and of that which reports what they
+/// miss. A filling with the smoother one misses no more, is nearer to the web as it would be simulated, and includes
 /// less of what it misses.
 const SMOOTH: [f64; 2] = [1.0, 0.5];
 const ROUGH: [f64; 2] = [0.4, 1.0 / 3.0];
-/// Filaments, evenly spread, that tell what is missing.
-const TOLD: usize = 512;
+/// Filaments, evenly spread, that give what is missing.
+const REPORTED: usize = 512;
 
 /// How the deviations of filaments vary together, in machine and in cross direction.
 #[derive(Clone, Debug)]
 pub struct Covariances {
     /// By which filaments are filled in.
     pub smooth: [Covariance; 2],
-    /// Which tells what they miss.
+    /// Which reports what they miss.
     pub rough: [Covariance; 2],
 }
 
@@ -70,7 +70,7 @@ impl FlownCurves {
     pub fn fill_by(&self, by: &Covariances, wanted: Vec<Inlet>, threads: usize) -> Filling<'_> {
         let curve = |i: usize| [0, 1].map(|d| self.estimate(d, &by.smooth[d], wanted[i]));
         let curves = par_map(threads, wanted.len(), curve);
-        let step = wanted.len().div_ceil(TOLD).max(1);
+        let step = wanted.len().div_ceil(REPORTED).max(1);
         let some: Vec<usize> = (0..wanted.len()).step_by(step).collect();
         let missing = par_map(threads, some.len(), |i| {
             [0, 1].map(|d| self.missing(&by.rough[d], wanted[some[i]], &curves[some[i]][d]))
@@ -237,8 +237,8 @@ mod tests {
             let [simulated, truth] = parts(&field, &places);
             let simulated = field.with_noise(&simulated, OWN);
             let filling = simulated.fill_by(&known(&field), truth.places().to_vec(), 2);
-            let (told, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
-            assert!((found / told - 1.0).abs() < 0.03, "{field:?}: {found} {told}");
+            let (estimated, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
+            assert!((found / estimated - 1.0).abs() < 0.03, "{field:?}: {found} {estimated}");
         }
     }
 
@@ -250,9 +250,9 @@ mod tests {
             let best = simulated.fill_by(&known(field), truth.places().to_vec(), 2);
             let filling = simulated.fill(truth.places().to_vec(), 2);
             let [best, found] = [&best, &filling].map(|filling| error(filling, &truth, field.sigma));
-            let told = mean(filling.missing());
+            let estimated = mean(filling.missing());
             assert!(found < 1.1 * best, "{found} {best}");
-            assert!(told > 0.8 * found && told < 1.8 * found, "{told} {found}");
+            assert!(estimated > 0.8 * found && estimated < 1.8 * found, "{estimated} {found}");
         }
     }
 

@@ -137,7 +137,7 @@ impl FlownCurves {
         y().fold(f64::NEG_INFINITY, f64::max) - y().fold(f64::INFINITY, f64::min)
     }
 
-    /// Every second filament of each row: what the others would have been without these is told by a flight itself.
+    /// Every second filament of each row: what the others would have been without these is reported by a flight itself.
     ///
     /// # Errors
     /// With one filament only.

@@ -23,7 +23,7 @@ const SHORTEST: f64 = 12.0;
 const FADE_ACROSS: f64 = 2.0;
 const NARROWEST: f64 = 3.0;
 
-/// All that a flight tells of a curtain: its curves on a lattice, without their mean.
+/// All that a flight reports of a curtain: its curves on a lattice, without their mean.
 #[derive(Clone, Debug)]
 pub struct Library {
     /// Of a level, for each column; then of the next level.

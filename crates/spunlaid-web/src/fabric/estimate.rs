@@ -26,7 +26,7 @@ const AIR_AREA: f64 = 20e-4;
 const OPACITY_PATCH: f64 = 2e-3;
 /// A patch may be so much larger or smaller than it is called, to be one of whole cells.
 pub const ABOUT: f64 = 0.05;
-/// Fewest areas whose spread is told.
+/// Fewest areas whose spread is reported.
 const FEWEST: usize = 12;
 
 /// What was laid.
@@ -83,7 +83,7 @@ impl Laid<'_> {
 /// A fabric in the words of those who buy it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fabric {
-    /// Width of the part of the sheet of which all else is told [m].
+    /// Width of the part of the sheet of which all else is reported [m].
     pub width: f64,
     /// What is cut off of the web at both edges together [m]; None unless a saleable width is given.
     pub trim: Option<f64>,
@@ -107,7 +107,7 @@ pub struct Fabric {
     pub opacity: Option<Opacity>,
     /// Whether nothing is known but the map, as of a scan.
     pub is_of_map_alone: bool,
-    /// What is not told, and why.
+    /// What is not reported, and why.
     pub notes: Vec<String>,
 }
 
@@ -140,7 +140,7 @@ pub struct Opacity {
     pub spread: Known,
 }
 
-/// Tells everything that is known of a fabric.
+/// Reports everything that is known of a fabric.
 pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let (first, map) = part(laid, keys);
     let map = map.as_ref();
@@ -160,7 +160,7 @@ pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         ((side * map.cell / patch - 1.0).abs() < ABOUT).then_some(side as usize)
     };
     let sides: Vec<usize> = PATCHES.into_iter().filter_map(whole).collect();
-    let told = |side: usize| {
+    let reported = |side: usize| {
         let same = |found: &&LaidPatch| (found.patch / (side as f64 * map.cell) - 1.0).abs() < 1e-6;
         laid.patches.iter().find(same)?.reported
     };
@@ -170,12 +170,12 @@ pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     let patches = par_map(threads, sides.len(), |i| {
         let deviations = deviations(sides[i] as f64 * map.cell);
         let thin = thin_places(map, sides[i], MapUncertainty { chance, deviations })?;
-        let found = told(sides[i]).filter(|_| length > 0.0);
+        let found = reported(sides[i]).filter(|_| length > 0.0);
         let formation = found.map(|found| formation_number(&found, at_random(&of_cv, thin.patch)));
         Some(FabricPatch { thin, formation })
     });
-    let uneven = |side: usize| match (keys.saleable_width, told(side)) {
-        (None, Some(told)) => Some(told),
+    let uneven = |side: usize| match (keys.saleable_width, reported(side)) {
+        (None, Some(reported)) => Some(reported),
         (_, reported) => {
             let found = with_error_of(patch_cv(map, side)?, reported);
             let is_known = deviations(found.patch).is_some();
@@ -225,7 +225,7 @@ pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
     }
 }
 
-/// Why no air permeability is told.
+/// Why no air permeability is reported.
 fn no_permeability(filaments: &[Filaments], thickness: Option<f64>) -> String {
     match thickness {
         None => "the air permeability is not known: it needs the thickness of the fabric (fabric.thickness)"
@@ -302,11 +302,11 @@ fn at_random(filaments: &[Filaments], patch: f64) -> f64 {
     filaments.iter().map(square).sum::<f64>().sqrt()
 }
 
-/// The CV of the part that is sold with at least the relative error of that of the web, which knows how few
+/// The CV of the part that is sold with at least the relative error of that of the web, which accounts for how few
 /// filaments were simulated.
-fn with_error_of(part: PatchCv, told: Option<PatchCv>) -> PatchCv {
-    let Some(told) = told else { return part };
-    let of_web = told.standard_error.map(|error| error / told.cv * part.cv);
+fn with_error_of(part: PatchCv, reported: Option<PatchCv>) -> PatchCv {
+    let Some(reported) = reported else { return part };
+    let of_web = reported.standard_error.map(|error| error / reported.cv * part.cv);
     let standard_error = part.standard_error.zip(of_web).map(|(own, of_web)| own.max(of_web));
     PatchCv { standard_error, ..part }
 }
@@ -401,12 +401,12 @@ pub fn of_scan(findings: &Findings) -> Fabric {
     // nothing of larger ones.
     let is_of_fabric = |side: f64| PATCHES.iter().any(|patch| (side / patch - 1.0).abs() < ABOUT);
     let counts = |of: &&PatchFindings| {
-        findings.guess.is_some() || of.interval.is_ok() || is_of_fabric(of.patch_cv.patch)
+        findings.assumption.is_some() || of.interval.is_ok() || is_of_fabric(of.patch_cv.patch)
     };
     let patch = |of: &PatchFindings| LaidPatch {
         patch: of.patch_cv.patch,
         reported: Some(of.patch_cv),
-        off: (findings.guess.is_none() && of.interval.is_ok()).then_some(0.0),
+        off: (findings.assumption.is_none() && of.interval.is_ok()).then_some(0.0),
     };
     let laid = Laid {
         map: &findings.map,
@@ -427,13 +427,13 @@ pub fn of_scan(findings: &Findings) -> Fabric {
             (weight, titre)"
         }
     };
-    // What else is not told needs the fibres, and that is said once.
+    // What else is not reported needs the fibres, and that is said once.
     fabric.notes = vec![format!(
         "a scan does not show what needs its fibres: stiffness, bare area, air \
         permeability{formation}"
     )];
-    if let Some(guess) = findings.guess {
-        fabric.notes.push(format!("thin spots and strips have no errors, because {guess}"));
+    if let Some(assumption) = findings.assumption {
+        fabric.notes.push(format!("thin spots and strips have no errors, because {assumption}"));
     }
     fabric
 }

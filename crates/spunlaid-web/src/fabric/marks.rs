@@ -8,7 +8,7 @@ use crate::map::Map;
 /// Side of the patches that are marked [m], and the share of the mean below which they are thin.
 const PATCH: f64 = 5e-3;
 const THIN: f64 = 0.8;
-/// Most patches and strips that are marked, and the thinnest places that are told.
+/// Most patches and strips that are marked, and the thinnest places that are reported.
 const MOST: usize = 4000;
 const THINNEST: usize = 6;
 

@@ -42,7 +42,7 @@ use spunlaid_ground::Known;
 /// What is given of the fabric and of its tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FabricKeys {
-    /// Thickness of the finished fabric [m]; without it no air permeability is told.
+    /// Thickness of the finished fabric [m]; without it no air permeability is reported.
     pub thickness: Option<f64>,
     /// Width in the middle of the web that is sold [m]; all of it between the edges if it is not given.
     pub saleable_width: Option<f64>,

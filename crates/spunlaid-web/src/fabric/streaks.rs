@@ -7,9 +7,9 @@ use std::f64::consts::SQRT_2;
 /// Width of the band over which a streak is looked for, in standard deviations of the places at which a
 /// filament comes down: of a streak of a normal profile it has the largest dip over its standard error.
 const BAND: f64 = 2.8;
-/// Blocks of the sheet along MD whose scatter tells the chance.
+/// Blocks of the sheet along MD whose scatter reports the chance.
 const BLOCKS: usize = 8;
-/// Fewest bands without a streak that tell the chance.
+/// Fewest bands without a streak that give the chance.
 const FEWEST: usize = 4;
 /// Bands nearer to a defect than so many standard deviations are not taken for the chance.
 const NEAR: f64 = 3.0;

@@ -7,7 +7,7 @@ use crate::map::lattice::Lattice;
 use spunlaid_ground::Known;
 use spunlaid_ground::statistics::quantile;
 
-/// Share of the strips that are weaker than the quantile that is told, and the fewest strips that have one.
+/// Share of the strips that are weaker than the quantile that is reported, and the fewest strips that have one.
 pub(crate) const WEAK: f64 = 0.05;
 const FEWEST: f64 = 20.0;
 /// Fewest strips that have a CV.

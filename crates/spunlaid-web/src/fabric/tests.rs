@@ -200,7 +200,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
 }
 
 /// Straight fibres at random leave `exp(−τd)` bare: drawn with their true width, in squares of 2 mm, and as the map
-/// tells it, whose patches vary by chance only.
+/// reports it, whose patches vary by chance only.
 #[test]
 fn stat_the_bare_area_of_straight_fibres_at_random() {
     let (side, pixels, length) = (2e-3, 400, 20e3);
@@ -411,7 +411,7 @@ fn analytic_the_dip_of_a_blocked_hole() {
     assert!((found.found.unwrap().value() / found.dip - 1.0).abs() < 0.01, "{found:?}");
 }
 
-/// Even webs are beyond the bounds of 95 % once in twenty, and the length that is told makes a dip as large
+/// Even webs are beyond the bounds of 95 % once in twenty, and the length that is reported makes a dip as large
 /// as its bound.
 #[test]
 fn stat_streaks_of_even_webs_and_of_a_defect() {

@@ -1,6 +1,6 @@
 //! What a few filaments say of a web of many.
 
-/// The CV of a web of many filaments over patches of one side, as a few of them tell it.
+/// The CV of a web of many filaments over patches of one side, as a few of them give it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SubsampleCv {
     /// Side of the patches [m].
@@ -47,16 +47,16 @@ impl SubsampleCv {
     }
 }
 
-/// Patches that the few filaments of a web in shared turbulence must tell well [m], and how far every second one may be
+/// Patches that the few filaments of a web in shared turbulence must give well [m], and how far every second one may be
 /// off if that matters beside chance.
 const TOLD_WELL: f64 = 0.01;
 const FAR_OFF: f64 = 0.05;
 /// Correlation of the places where neighbours come down, at the pitch of the few, below which those between
-/// them are not told.
+/// them are not reported.
 const TOGETHER: f64 = 0.7;
 /// Filaments are left out only where there are so many for each that is simulated.
 pub const LEAST_SAVING: f64 = 1.5;
-/// A CV whose error by the few is a larger part of it is not told from zero.
+/// A CV whose error by the few is a larger part of it is not distinguished from zero.
 const UNCLEAR: f64 = 0.5;
 /// How far a number may be above a whole one and still be it.
 const WHOLE: f64 = 1e-6;
@@ -69,13 +69,13 @@ const MORE: f64 = 2.0;
 /// Why a few filaments do not give the CV of all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SubsampleWarning {
-    /// Every second one of them would tell another CV over patches of 10 mm or more: side of the patch [m],
+    /// Every second one of them would give another CV over patches of 10 mm or more: side of the patch [m],
     /// and how far it is off as a share of the CV.
     Halves(f64, f64),
     /// Neighbours have too little in common: correlation of the places where they come down.
     Neighbours(f64),
     /// What each filament makes for itself takes nearly all of CV² over patches of a side [m]: what is left
-    /// is not told from zero.
+    /// is not distinguished from zero.
     Own(f64),
 }
 
@@ -100,7 +100,7 @@ pub struct SubsampleEstimate {
     pub wanted: Option<f64>,
     /// Distance of neighbours in a row [m].
     pub pitch: f64,
-    /// The distance at which few filaments of such an air have been found to tell all [m]; zero where it is
+    /// The distance at which few filaments of such an air have been found to give all [m]; zero where it is
     /// not known.
     pub usual_pitch: f64,
     /// Distance of all filaments in a row [m]; zero where it is not known.
@@ -149,7 +149,7 @@ impl SubsampleEstimate {
         if !is_clear {
             return Some(SubsampleWarning::Own(patch));
         }
-        // Where chance leaves more open, more filaments would tell hardly more.
+        // Where chance leaves more open, more filaments would give hardly more.
         let matters = cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
         let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters;
         is_off.then_some(SubsampleWarning::Halves(patch, cv.of_halves))
@@ -168,7 +168,7 @@ impl SubsampleEstimate {
 
     /// How many filaments fly for each metre of a row where the number is left open: as many as do in most
     /// airs, or two or four times as many, and more than now. None if all of them have to fly, or if the simulated
-    /// ones tell it.
+    /// ones give it.
     pub fn enough_per_metre(&self) -> Option<f64> {
         let times = match self.doubt()? {
             SubsampleWarning::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
@@ -201,32 +201,35 @@ mod tests {
 
     /// Small patches may know the pitch; larger ones must not.
     #[test]
-    fn a_few_tell_what_every_second_one_tells_too() {
+    fn a_few_give_what_every_second_one_gives_too() {
         let cvs = vec![cv(0.002, 0.3), cv(0.01, -0.06), cv(0.02, 0.08), cv(0.05, 0.049)];
-        let told = SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() };
-        let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| told.doubt_over(patch).is_some());
+        let estimate = SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() };
+        let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| estimate.doubt_over(patch).is_some());
         assert_eq!(doubts, [false, true, true, false]);
-        assert_eq!(told.doubt(), Some(SubsampleWarning::Halves(0.02, 0.08)));
+        assert_eq!(estimate.doubt(), Some(SubsampleWarning::Halves(0.02, 0.08)));
         let within_chance = |cv: &SubsampleCv| SubsampleCv { by_chance: Some(0.012), ..*cv };
-        let cvs = told.cvs.iter().map(within_chance).collect();
-        assert_eq!(SubsampleEstimate { cvs, ..told }.doubt(), None);
+        let cvs = estimate.cvs.iter().map(within_chance).collect();
+        assert_eq!(SubsampleEstimate { cvs, ..estimate }.doubt(), None);
     }
 
     #[test]
     fn neighbours_with_little_in_common_tell_nothing_of_those_between_them() {
-        let told = SubsampleEstimate {
+        let estimate = SubsampleEstimate {
             correlation: 0.69,
             cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)],
             ..SubsampleEstimate::default()
         };
-        assert_eq!(told.doubt_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
-        assert_eq!(told.doubt(), Some(SubsampleWarning::Neighbours(0.69)));
-        assert_eq!(SubsampleEstimate { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
+        assert_eq!(estimate.doubt_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(estimate.doubt(), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(
+            SubsampleEstimate { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..estimate }.doubt(),
+            None
+        );
     }
 
     /// Twenty filaments of three thousand left zero of the CV, and its error was not a number.
     #[test]
-    fn a_cv_that_is_not_told_from_zero_is_doubted_over_patches_of_any_size() {
+    fn a_cv_that_is_not_distinguished_from_zero_is_doubted_over_patches_of_any_size() {
         let own = |cv: f64, by_pitch: f64| {
             let cvs = vec![SubsampleCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
             SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() }.doubt_over(0.002)

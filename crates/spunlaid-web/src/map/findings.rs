@@ -65,8 +65,9 @@ impl Findings {
     /// too few filaments were simulated.
     pub fn texture_md(&self) -> Option<Estimate> {
         let texture = self.clouds.as_ref()?.texture_md();
-        let is_known =
-            |patch: &PatchFindings| patch.reported().is_some_and(|told| told.standard_error.is_some());
+        let is_known = |patch: &PatchFindings| {
+            patch.reported().is_some_and(|estimate| estimate.standard_error.is_some())
+        };
         let is_known = self.patches.iter().any(is_known);
         Some(Estimate { standard_error: texture.standard_error.filter(|_| is_known), ..texture })
     }
@@ -112,10 +113,10 @@ impl PatchFindings {
     }
 
     /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
-    /// not told.
+    /// not reported.
     pub fn with_total_error(&self) -> Option<PatchCv> {
-        let told = self.reported()?;
-        Some(PatchCv { standard_error: self.total_error().whole().or(told.standard_error), ..told })
+        let estimate = self.reported()?;
+        Some(PatchCv { standard_error: self.total_error().whole().or(estimate.standard_error), ..estimate })
     }
 
     /// The share by which the deviations of the map, with what is filled in, would have to be larger to be those of
@@ -124,9 +125,9 @@ impl PatchFindings {
         if self.evidence != Evidence::FewInOneAir {
             return Some(0.0);
         }
-        let told = self.few.filter(|_| self.doubt.is_none())?;
-        let off = told.cv / self.of_map - 1.0;
-        Some(off.hypot(told.by_pitch / told.cv).copysign(off))
+        let estimate = self.few.filter(|_| self.doubt.is_none())?;
+        let off = estimate.cv / self.of_map - 1.0;
+        Some(off.hypot(estimate.by_pitch / estimate.cv).copysign(off))
     }
 
     /// What the filaments of a web in shared turbulence would give in independent turbulence, by their surrogate;
@@ -214,9 +215,9 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
             alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
         let few = of_all_layers(web, &laid, map);
         let doubt = laid.few().find_map(|few| few.doubt_over(map.patch));
-        let (of_map, is_told) = (map.cv, doubt.is_none());
+        let (of_map, is_reported) = (map.cv, doubt.is_none());
         let map = match (evidence, few) {
-            (_, Some(few)) if is_told => PatchCv { cv: few.cv, standard_error: few.by_chance, ..map },
+            (_, Some(few)) if is_reported => PatchCv { cv: few.cv, standard_error: few.by_chance, ..map },
             // A map of pieces of another sheet says nothing of chance.
             (Evidence::FewInOneAir, _) => PatchCv { standard_error: None, ..map },
             _ => map,
@@ -229,7 +230,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         variance_of_mean(&map, side, width / sheet.width, &web.places(width)) + web.variance_by_defects();
     let error_of_weight = Some(variance.sqrt()).filter(|error| error.is_normal());
     let lags = ((LAG / sheet.cell).round() as usize + 1).min(LAGS);
-    // The layer of which the filling knows least.
+    // The layer that the filling determines least.
     let off = |few: &&SubsampleEstimate| few.octaves.iter().map(|(_, off)| *off).fold(0.0, f64::max);
     let worst = laid.few().max_by(|a, b| off(a).total_cmp(&off(b)));
     let filling = worst.map_or_else(Vec::new, |few| few.octaves.clone());
@@ -295,7 +296,7 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: PatchCv) -> Option<SubsampleCv>
         .all(|layer| layer.few.as_ref().is_some_and(SubsampleEstimate::is_of_two_levels));
     let chance = |few: &SubsampleCv| few.cv * few.by_chance.unwrap_or(f64::NAN);
     let by_chance = if is_of_levels { sum(&chance, 2).sqrt() } else { sum(&chance, 1) } / cv;
-    let told = SubsampleCv {
+    let estimate = SubsampleCv {
         patch: map.patch,
         cv,
         by_chance: Some(by_chance).filter(|error| error.is_finite()),
@@ -307,13 +308,13 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: PatchCv) -> Option<SubsampleCv>
         beyond_sheet: sum(&|few| few.beyond_sheet, 1),
     };
     if !is_whole {
-        return Some(told);
+        return Some(estimate);
     }
-    let told = told.with_square(map.cv * map.cv + told.beyond_filling + told.beyond_sheet);
+    let estimate = estimate.with_square(map.cv * map.cv + estimate.beyond_filling + estimate.beyond_sheet);
     if is_of_levels {
-        return Some(told);
+        return Some(estimate);
     }
-    Some(SubsampleCv { by_chance: map.standard_error.map(|error| error * map.cv / told.cv), ..told })
+    Some(SubsampleCv { by_chance: map.standard_error.map(|error| error * map.cv / estimate.cv), ..estimate })
 }
 
 /// Whether the filaments of every layer of which few were simulated have laid the whole sheet.
@@ -346,7 +347,7 @@ impl ErrorBudget {
 const MISSING: f64 = 0.1;
 /// How much larger an error may be than the wanted one.
 const WITHIN: f64 = 1.001;
-/// A map whose CV is farther from the told one, as a share of it, is another one.
+/// A map whose CV is farther from the reported one, as a share of it, is another one.
 const OF_MAP: f64 = 0.05;
 
 impl Findings {

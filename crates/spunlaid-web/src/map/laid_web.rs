@@ -174,7 +174,7 @@ pub struct Curves {
 /// How far curves that were simulated in one air hang together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneAir {
-    /// Number of the group of neighbours of each curve. Groups are so wide that one hardly knows of another.
+    /// Number of the group of neighbours of each curve. Groups are so wide that one is hardly correlated with another.
     pub groups: Vec<usize>,
     /// Length of fed fibre after which eddies are forgotten [m].
     pub memory: f64,

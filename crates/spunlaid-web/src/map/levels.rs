@@ -228,7 +228,7 @@ struct CoarseBlocks {
     reach: f64,
 }
 
-/// Blocks along the belt, as far as one still knows of another.
+/// Blocks along the belt, as far as one is still correlated with another.
 const ALONG: usize = 3;
 /// Smallest reach: the waves of the air have fixed strengths, so blocks beside each other may vary against each other.
 const LEAST: f64 = 0.5;
@@ -303,7 +303,7 @@ pub struct OfMean {
     pub degrees: f64,
 }
 
-/// Blocks across the belt, as far as one still knows of another.
+/// Blocks across the belt, as far as one is still correlated with another.
 const ACROSS: usize = 2;
 
 impl OfMean {

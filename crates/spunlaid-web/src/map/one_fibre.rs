@@ -196,7 +196,7 @@ impl SingleFibres {
         mut act: impl FnMut(usize, usize, f64),
     ) {
         for place in places {
-            // The first patch that the profile knows, and the part of a column that it is further on.
+            // The first patch that the profile contains, and the part of a column that it is further on.
             let first = place - 0.5 - self.trace as f64;
             let (start, further) = (first.floor() as i64, first - first.floor());
             for i in 0..self.profile.len() {

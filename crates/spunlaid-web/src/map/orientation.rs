@@ -229,7 +229,7 @@ mod tests {
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
     /// Directions of filaments of which ten beside each other are in the same eddy: over many seeds the errors
-    /// that are told are as large as the scatter, and those of independent filaments a half of it or less.
+    /// that are reported are as large as the scatter, and those of independent filaments a half of it or less.
     #[test]
     fn stat_the_errors_of_filaments_in_one_air_are_their_scatter() {
         const FILAMENTS: usize = 60;
@@ -239,7 +239,7 @@ mod tests {
         const SEEDS: usize = 400;
         let mut random = SplitMix64::seed_from_u64(5);
         let mut uniform = || (random.next_u64() >> 11) as f64 / 9_007_199_254_740_992.0;
-        let (mut found, mut told) = (Vec::new(), [0.0; 3]);
+        let (mut found, mut estimated) = (Vec::new(), [0.0; 3]);
         for _ in 0..SEEDS {
             let mut sample = Sample::new(1.0);
             sample.filaments = vec![vec![DirectionSums::default(); STRETCHES]; FILAMENTS];
@@ -258,7 +258,8 @@ mod tests {
             let alone = Estimate::new(sample.filaments().iter().map(|moments| moments[0]).collect());
             let of = Orientation::of(&[sample], 1e-3);
             let errors = [of.cos_squared.standard_error, of.stiffness_ratio.1, alone.standard_error];
-            told.iter_mut()
+            estimated
+                .iter_mut()
                 .zip(errors)
                 .for_each(|(sum, error)| *sum += error.unwrap().powi(2) / SEEDS as f64);
             found.push([of.cos_squared.mean, of.stiffness_ratio.0]);
@@ -267,11 +268,11 @@ mod tests {
             let values = Estimate::new(found.iter().map(|values| values[of]).collect());
             values.standard_error.unwrap() * (SEEDS as f64).sqrt()
         };
-        for (of, told) in told.iter().enumerate().take(2) {
-            let ratio = told.sqrt() / scatter(of);
+        for (of, estimated) in estimated.iter().enumerate().take(2) {
+            let ratio = estimated.sqrt() / scatter(of);
             assert!((0.85..1.18).contains(&ratio), "{of}: {ratio}");
         }
-        assert!(told[2].sqrt() < 0.7 * scatter(0), "{} {}", told[2].sqrt(), scatter(0));
+        assert!(estimated[2].sqrt() < 0.7 * scatter(0), "{} {}", estimated[2].sqrt(), scatter(0));
     }
 
     #[test]

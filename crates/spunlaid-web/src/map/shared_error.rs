@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! parts of the mean: filaments × stretches of the belt
-//!   → cells, so wide and long that one knows of the next, but hardly of the next but one → their scatter
+//!   → cells, so wide and long that one is correlated with the next, but hardly with the next but one → their scatter
 //!   → what stays with a filament from stretch to stretch: its place
 //! ```                                                                                                theory.md (72a)
 

@@ -30,7 +30,7 @@ impl PatchCv {
         Some(interval_of_deviation_by(quantile, self.cv, self.standard_error?))
     }
 
-    /// Degrees of freedom of the CV: so many independent patches would tell as much. None if the sheet is too
+    /// Degrees of freedom of the CV: so many independent patches would give as much. None if the sheet is too
     /// small to say.
     pub(crate) fn degrees(&self) -> Option<f64> {
         Some(0.5 * (self.cv / self.standard_error?).powi(2))
@@ -38,7 +38,7 @@ impl PatchCv {
 }
 
 /// A variance is given with an error only if it has at least this many degrees of freedom: the number of
-/// independent values that would tell as much.
+/// independent values that would give as much.
 pub(super) const DEGREES: f64 = 5.0;
 /// Places of a patch each way whose waves are looked at, and the most of them: so many that patches of the
 /// next places overlap by half. Waves between farther places would pass for longer ones, of which there are

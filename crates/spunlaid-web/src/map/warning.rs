@@ -15,7 +15,7 @@ pub enum WebWarning {
         /// Number of all that were simulated.
         of: u64,
     },
-    /// Too few filaments were simulated to tell what all do.
+    /// Too few filaments were simulated to give what all do.
     Subsample {
         /// Sides of the patches whose CV they do not give [m].
         sides: Vec<f64>,

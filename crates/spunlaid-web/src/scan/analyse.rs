@@ -38,7 +38,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     above_zero("a titre [kg/m]", settings.titre)?;
     let lamp = settings.lamp.as_ref();
     same_size(picture, lamp)?;
-    let Frame { web, notes: mut told, bare, is_even } = Frame::new(picture, lamp, settings)?;
+    let Frame { web, notes: mut all_notes, bare, is_even } = Frame::new(picture, lamp, settings)?;
     let beside_web = picture.values.len() - web.sides[0] * web.sides[1];
     let framed = |picture: &Picture| (beside_web > 0).then(|| picture.part(web));
     let (own, own_lamp) = (framed(picture), lamp.and_then(framed));
@@ -56,13 +56,13 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let sides = sides(picture, &settings.patches)?;
     let weighed = weigh(picture, light, Correction { lamp, ..correction }, &spots.dark)?;
     let doubt = doubt(picture, lamp, settings);
-    let guess = doubt.as_ref().and_then(|(doubt, _)| *doubt).or_else(|| weighed.guess(light));
-    let patches = patches(&weighed, &spots.dark, &sides, settings, guess)?;
+    let assumption = doubt.as_ref().and_then(|(doubt, _)| *doubt).or_else(|| weighed.assumption(light));
+    let patches = patches(&weighed, &spots.dark, &sides, settings, assumption)?;
     let map = &weighed.map;
     let lags = ((LAG / map.cell).round() as usize + 1).min(LAGS);
     let shading = weighed.shading.as_ref().map(|shading| libm::expm1(shading.range()));
-    told.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
-    told.extend(doubt.map(|(_, fault)| fault));
+    all_notes.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
+    all_notes.extend(doubt.map(|(_, fault)| fault));
     let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
     let streaks = search(map, shading.is_some());
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
@@ -75,13 +75,13 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
         noise: settings.noise,
         titre: settings.titre,
         pixels,
-        guess,
+        assumption,
         aside,
         patches,
         clouds,
         autocorrelation,
         streaks,
-        notes: told,
+        notes: all_notes,
     })
 }
 

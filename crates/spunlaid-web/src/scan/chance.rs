@@ -8,7 +8,7 @@ use spunlaid_ground::{Estimate, NORMAL_95};
 pub(crate) const PIECE: Chance = Chance { closed: [false; 2], streaks: true };
 
 /// The variance of the basis weight over patches of one size, relative to the squared mean, and how well a
-/// piece of web knows it.
+/// piece of web contains it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scatter {
     /// About the mean of the web, of which this is a piece.
@@ -23,9 +23,9 @@ pub(super) struct Scatter {
 const BLOCKS: usize = 48;
 /// Fewest blocks either way that say something about chance.
 const FEWEST: usize = 4;
-/// Longest waves that tell how the mean of the piece scatters.
+/// Longest waves that give how the mean of the piece scatters.
 const LONGEST: usize = 3;
-/// So many neighbours either way tell the expected strength of a wave.
+/// So many neighbours either way give the expected strength of a wave.
 const NEAR: usize = 2;
 /// A sum of waves of unequal strength, which is known from the waves of one piece only, is known as well as
 /// from this share of its degrees: found on simulated webs, docs/validation.md.

@@ -8,14 +8,14 @@
 //!
 //! | format | what is read |
 //! |---|---|
-//! | PNG | 8 or 16 bits, or fewer as sBIT tells; colours become luminance; pixels that are not opaque have no value |
+//! | PNG | 8 or 16 bits, or fewer as sBIT reports; colours become luminance; pixels that are not opaque have no value |
 //! | TIFF | the first of the largest pages; 8, 16 or 32 bits or floating point, plain, Deflate, LZW, PackBits |
 //! | NumPy | an array of two dimensions in C order, of numbers of 1 to 8 bytes, but no half floats |
 //! | CSV | a line for each row of the map, as [`spunlaid_ground::table`] describes; an empty cell is a missing pixel |
 //!
-//! PNG and TIFF are turned as their orientation tells (Exif, TIFF tag 274). They tell the side of a pixel by
+//! PNG and TIFF are turned as their orientation reports (Exif, TIFF tag 274). They give the side of a pixel by
 //! their resolution, in the unit that ImageJ or OME-XML writes into the description, unless it is given. A PNG that
-//! tells the basis weight of black in a text, [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes
+//! reports the basis weight of black in a text, [`WEIGHT_OF_BLACK`], is a map of basis weight; `spunlaid web` writes
 //! such maps.
 //!
 //! **From light to basis weight**, by the law of Beer and Lambert: the optical density `ln(white/level)` is
@@ -29,11 +29,11 @@
 //! **Light that is thrown back** by light fibres on a black ground is another picture: heavy places are
 //! light. By Kubelka's law for fibres that scatter and do not absorb, `R/(1 − R)` is proportional to the
 //! mass, with the reflectance R over that of a web so thick that the ground is not visible. A picture does
-//! not tell which of the two it is, so it is taken as transmitted light unless the reader says otherwise, and
+//! not show which of the two it is, so it is taken as transmitted light unless the reader says otherwise, and
 //! the notes say so.
 //!
 //! **The results** are those of a simulated map: CV over patches with standard errors, clouds,
-//! autocorrelation. For each patch they also tell how much the noise of the camera and the blur of its optics
+//! autocorrelation. For each patch they also give how much the noise of the camera and the blur of its optics
 //! count there.
 //!
 //! **What is no web** is cut off: pixels without a value along the edges, the bare lamp or a lid around the web, the
@@ -90,7 +90,7 @@ use std::fmt;
 pub use streaks::{ScanPeriod, ScanStreak, StreakLimit, StreakSearch, WIDTH};
 pub use weigh::{Light, Pixels};
 
-/// A sheet that is less than so many patches wide or long tells nothing about the web.
+/// A sheet that is less than so many patches wide or long reports nothing about the web.
 pub const FEWEST: usize = 4;
 
 named! {
@@ -122,7 +122,7 @@ impl fmt::Display for ScanWarning {
 
 impl ScanWarning {
     /// What makes all numbers of a picture doubtful, by its name in files.
-    pub const GUESSES: [(&'static str, Self); 5] = [
+    pub const ASSUMPTIONS: [(&'static str, Self); 5] = [
         ("lamp", Self::White),
         ("shading", Self::Shading),
         ("clipped_lamp", Self::ClippedLamp),

@@ -120,7 +120,7 @@ pub(super) fn notes(
     notes
 }
 
-/// Where the side of a pixel comes from. A map knows its cells itself.
+/// Where the side of a pixel comes from. A map contains its cells.
 fn side_of_a_pixel(picture: &Picture) -> Option<Fault> {
     let (given, in_file) = (picture.pixel, picture.pixel_of_file?);
     let [shown, shown_in_file] = [given, in_file].map(|side| Dimension::Length.pretty_to(side, 4));
@@ -137,10 +137,10 @@ fn side_of_a_pixel(picture: &Picture) -> Option<Fault> {
         "a pixel is {shown} wide, as the file says ({} dots per inch)",
         shortest((dots * 10.0).round() / 10.0)
     );
-    let guess = UNKNOWN.iter().any(|unknown| (dots / unknown - 1.0).abs() < OTHER);
+    let is_default = UNKNOWN.iter().any(|unknown| (dots / unknown - 1.0).abs() < OTHER);
     let remedy =
         "many programs write this when they do not know it, so measure it and give the side of a pixel";
-    Some(Fault::new(message, if guess { remedy } else { "" }))
+    Some(Fault::new(message, if is_default { remedy } else { "" }))
 }
 
 /// The numbers of rows and columns that stood beside a map.

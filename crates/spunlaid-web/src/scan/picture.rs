@@ -17,7 +17,7 @@ pub struct Picture {
     pub pixel: f64,
     /// Side of a pixel as the file states it, if it does [m].
     pub pixel_of_file: Option<f64>,
-    /// The largest grey level that the file can hold, 255 or 65535, or less if it tells that the camera has
+    /// The largest grey level that the file can hold, 255 or 65535, or less if it reports that the camera has
     /// fewer bits; none for other numbers.
     pub full_scale: Option<f64>,
     /// Bits of the levels, if the camera may have fewer of them than the file: no level lies above what they can hold.

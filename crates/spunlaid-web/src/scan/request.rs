@@ -114,7 +114,7 @@ impl ScanRequest {
 /// Heaviest web that is believed [kg/m²].
 const HEAVIEST: f64 = 2.0;
 
-/// Refuses the numbers of a map that are no weights in kg/m², where nobody has told the mean.
+/// Refuses the numbers of a map that are no weights in kg/m², where nobody has reported the mean.
 fn weights_in_kilograms(picture: &Picture) -> Result<(), Fault> {
     let mean = median(&picture.weights().collect::<Vec<_>>());
     if mean.is_nan() || mean <= HEAVIEST {
@@ -157,7 +157,7 @@ const VELOCITIES: [&str; 8] = ["u", "v", "w", "u_", "v_", "w_", "velocity", "vel
 /// Bytes in which the first rows of a map are looked for.
 const BEGINNING: u64 = 1 << 18;
 
-/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is told
+/// Whether a file is the scan of a web, by its name or by how it begins. A file that cannot be opened is reported
 /// of where it is read.
 pub fn is_picture_file(file: &Path) -> bool {
     let extension = file.extension().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -180,5 +180,5 @@ fn begins_as_picture(file: &Path) -> io::Result<bool> {
     Ok(is_picture(&head))
 }
 
-/// Bytes that tell the format of a picture.
+/// Bytes that give the format of a picture.
 const HEAD: u64 = 16;

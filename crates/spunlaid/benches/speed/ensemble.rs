@@ -92,7 +92,7 @@ pub fn costs() {
 }
 
 /// Two threads against one: by the clock on the wall, of use on a machine with nothing else to do, and by
-/// the processor time of all threads, which tells what sharing the work out costs.
+/// the processor time of all threads, which reports what sharing the work out costs.
 pub fn threads() {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     title(&format!("threads: 128 fibres of Table 1 at 200 µs ({cores} cores)"));

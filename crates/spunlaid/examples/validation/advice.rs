@@ -1,4 +1,4 @@
-//! What changes and assumed values do to the CV of three lines, as `spunlaid web` tells it, against long webs of each.
+//! Effects of changes and assumed values on the CV of three lines, as `spunlaid web` reports them, against long webs.
 //!
 //! All cores fly; a line takes some minutes of sixteen. `validation advice slot 4` looks at one of them, against four
 //! long webs of each change.
@@ -103,15 +103,17 @@ pub fn changes() {
     for (name, text, assumed_values, simulated) in lines.into_iter().filter(|(name, ..)| all || asked(name)) {
         title(&format!("Changes of a line: {name}, against {seeds} webs of 0.3 m × 1 m each"));
         let text = format!("{text}{}", REST.replace("none", assumed_values));
-        let (base, told) = told(&text, threads);
-        if asked("told") {
+        let (base, estimated) = estimated(&text, threads);
+        if asked("estimated") {
             continue;
         }
         let like = read(&format!("{SLOT}{REST}"), &[&LONG[..], &[("web.simulated", simulated)]].concat());
-        let [held, compared] = compare(&base, &told, &like, (seeds, threads));
+        let [held, compared] = compare(&base, &estimated, &like, (seeds, threads));
         within += held;
         count += compared;
-        println!("  within two told errors: {held} of {compared}; of all lines so far {within} of {count}");
+        println!(
+            "  within two estimated errors: {held} of {compared}; of all lines so far {within} of {count}"
+        );
     }
 }
 
@@ -131,8 +133,8 @@ fn lay(spec: &WebSpec, threads: usize) -> (Web, Findings) {
     (simulated.web, findings)
 }
 
-/// What the program tells of a line, with what it takes.
-fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
+/// What the program reports of a line, with what it takes.
+fn estimated(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &laid };
     let spec = read(text, &[]);
@@ -143,7 +145,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
     };
     let of_web = begun.elapsed().as_secs_f64();
     println!("  the web {of_web:.1} s");
-    let mut told = Vec::new();
+    let mut estimated = Vec::new();
     for (which, name) in [(Changes::OfAssumedValues, "assumed_values"), (Changes::OfLine, "changes")] {
         let word = Overrides::new(&[], "--set");
         let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
@@ -162,7 +164,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
             which != Changes::OfAssumedValues
                 && best.iter().take(2).any(|(best, _)| best.change == tried.change)
         };
-        told.extend(advice.tried.iter().filter_map(|tried| {
+        estimated.extend(advice.tried.iter().filter_map(|tried| {
             let change = tried.on(judged_by)?.difference;
             let (name, spec) = (label(&tried.change), tried.change.experiment.spec.clone());
             println!(
@@ -175,7 +177,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
             Some(Estimate { name, spec, change, is_named: is_named(tried) })
         }));
     }
-    (spec, told)
+    (spec, estimated)
 }
 
 fn label(change: &Change) -> String {
@@ -183,15 +185,16 @@ fn label(change: &Change) -> String {
     change.keys.first().map_or_else(String::new, key)
 }
 
-/// Prints what long webs say of each change beside what is told; how many are within two told errors, and of how many.
+/// Prints each change from long webs next to the reported one; returns how many are within two reported errors, of all.
 /// A long web whose few filaments do not give the CV of all is left out with its partner, and counted.
 fn compare(
     base: &WebSpec,
-    told: &[Estimate],
+    estimated: &[Estimate],
     like: &WebSpec,
     (seeds, threads): (usize, usize),
 ) -> [usize; 2] {
-    let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
+    let specs: Vec<&WebSpec> =
+        std::iter::once(base).chain(estimated.iter().map(|estimated| &estimated.spec)).collect();
     let cvs = par_map(threads, specs.len() * seeds, |i| {
         let seed = 1000 + (i % seeds) as u64;
         let long = WebSpec {
@@ -202,14 +205,14 @@ fn compare(
         };
         let (_, findings) = lay(&long, 1);
         let seen = nearest_to_seen(findings.patches.iter().map(|patch| patch.map.patch));
-        seen.and_then(|seen| findings.patches[seen].reported()).map(|told| told.cv)
+        seen.and_then(|seen| findings.patches[seen].reported()).map(|estimated| estimated.cv)
     });
     let of = |web: usize| &cvs[web * seeds..][..seeds];
     println!(
-        "  change                                          told             long webs          pairs  in told errors"
+        "  change                                     estimated             long webs          pairs  in its errors"
     );
     let [mut held, mut compared] = [0, 0];
-    for (web, Estimate { name, change, is_named, .. }) in (1..).zip(told) {
+    for (web, Estimate { name, change, is_named, .. }) in (1..).zip(estimated) {
         let pair = |(cv, base): (&Option<f64>, &Option<f64>)| Some((*cv)? / (*base)? - 1.0);
         let ratios: Vec<f64> = of(web).iter().zip(of(0)).filter_map(pair).collect();
         let pairs = ratios.len() as f64;

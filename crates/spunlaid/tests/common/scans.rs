@@ -180,7 +180,7 @@ pub fn png(columns: usize, colour: png::ColorType, depth: png::BitDepth, bytes: 
     file
 }
 
-/// A grey PNG of 8 bits that tells how many pixels there are to a metre across and down.
+/// A grey PNG of 8 bits that reports how many pixels there are to a metre across and down.
 pub fn png_of_resolution(columns: usize, levels: &[u8], [xppu, yppu]: [u32; 2], unit: png::Unit) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, columns as u32, (levels.len() / columns) as u32);
@@ -192,7 +192,7 @@ pub fn png_of_resolution(columns: usize, levels: &[u8], [xppu, yppu]: [u32; 2], 
     file
 }
 
-/// A grey TIFF of 8 bits that tells its resolution, as a fraction.
+/// A grey TIFF of 8 bits that reports its resolution, as a fraction.
 pub fn tiff_of_resolution(columns: usize, levels: &[u8], unit: ResolutionUnit, [n, d]: [u32; 2]) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut file).unwrap();
@@ -239,7 +239,7 @@ pub fn tiff_of_program(
     file.into_inner()
 }
 
-/// A TIFF of some channels, of which the further ones are told.
+/// A TIFF of some channels, of which the further ones are reported.
 pub fn tiff_of_channels<C: ColorType>(columns: usize, levels: &[C::Inner], extra: &[u16]) -> Vec<u8>
 where
     [C::Inner]: TiffValue,

@@ -1,4 +1,4 @@
-//! Cases whose air is a field: what may be a slip is told with the key that is to blame, and the way out.
+//! Cases whose air is a field: what may be a slip is reported with the key that is to blame, and the way out.
 
 use spunlaid::fibre::Case;
 use spunlaid::input::{read_case, starter_case, write_case};
@@ -80,9 +80,9 @@ fn warns_of_air_that_blows_up_the_fibre_or_across() {
 fn warns_of_a_mesh_in_other_units_and_takes_a_unit_alone() {
     let folder = folder();
     let (_, notes) = read(&folder, "millimetres.csv", &[]).unwrap();
-    let told =
+    let expected =
         "makes the field 1200 m long, while the fibre is 1 m long; check that this is the unit of the mesh";
-    assert_eq!(with(&notes, &["air.field_unit", told]).len(), 1, "{notes:?}");
+    assert_eq!(with(&notes, &["air.field_unit", expected]).len(), 1, "{notes:?}");
     let with_unit = |unit| read(&folder, "millimetres.csv", &[("air.field_unit", unit)]).unwrap();
     let (one, alone) = (with_unit("1 mm"), with_unit("mm"));
     assert!(with(&one.1, &["makes the field"]).is_empty(), "{:?}", one.1);
@@ -97,11 +97,11 @@ fn warns_of_a_mesh_in_other_units_and_takes_a_unit_alone() {
 fn rejects_a_unit_for_coordinates_that_tell_theirs() {
     let folder = folder();
     let text = table("u_m_s,v_m_s,w_m_s,k,epsilon", "10,0.1,0,1.5,70", 1000.0);
-    fs::write(folder.path().join("told.csv"), text.replacen("x,y,z", "x_mm,y_mm,z_mm", 1)).unwrap();
-    let (case, notes) = read(&folder, "told.csv", &[]).unwrap();
+    fs::write(folder.path().join("expected.csv"), text.replacen("x,y,z", "x_mm,y_mm,z_mm", 1)).unwrap();
+    let (case, notes) = read(&folder, "expected.csv", &[]).unwrap();
     assert!(with(&notes, &["makes the field"]).is_empty(), "{notes:?}");
     assert!(case.check().is_ok());
-    let refused = read(&folder, "told.csv", &[("air.field_unit", "1 mm")]).and_then(|(case, _)| {
+    let refused = read(&folder, "expected.csv", &[("air.field_unit", "1 mm")]).and_then(|(case, _)| {
         case.check()
             .map(|_| ())
             .map_err(|problems| problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
@@ -132,8 +132,8 @@ fn rejects_a_field_without_numbers_where_the_fibre_hangs() {
     let (middle, corner) = ("0.6000000000000001,0.1,0.1", "1.2000000000000002,0.2,0.2");
     for k in ["NaN", "inf", ""] {
         let said = without(middle, k).unwrap_err();
-        let told = "has no air where the fibre hangs: k has no number at 1 point; it is in line 33";
-        assert!(said.contains("air.field = ") && said.contains(told), "{said}");
+        let expected = "has no air where the fibre hangs: k has no number at 1 point; it is in line 33";
+        assert!(said.contains("air.field = ") && said.contains(expected), "{said}");
     }
     let notes = without(corner, "nan").unwrap_or_default();
     assert_eq!(with(&notes, &["k has no number at 1 point; it is in line 64"]).len(), 1, "{notes:?}");
@@ -144,13 +144,13 @@ fn a_root_outside_of_the_field_is_to_blame_rather_than_the_fibre() {
     let folder = folder();
     let (_, notes) =
         read(&folder, "metres.csv", &[("air.field_root", "[\"5 m\", \"0 m\", \"0 m\"]")]).unwrap();
-    let told = "is outside of the box around the field, [0 m, 0 m, 0 m] to [1.2 m, 200 mm, 200 mm]";
-    assert_eq!(with(&notes, &["air.field_root", told]).len(), 1, "{notes:?}");
+    let expected = "is outside of the box around the field, [0 m, 0 m, 0 m] to [1.2 m, 200 mm, 200 mm]";
+    assert_eq!(with(&notes, &["air.field_root", expected]).len(), 1, "{notes:?}");
     assert!(with(&notes, &["reaches out of the region"]).is_empty(), "{notes:?}");
     // A fibre that is too long for the field is to blame itself.
     let (_, notes) = read(&folder, "metres.csv", &[("fibre.length", "2 m")]).unwrap();
-    let told = "reaches out of the region where the flow is known";
-    assert_eq!(with(&notes, &["fibre.length", told]).len(), 1, "{notes:?}");
+    let expected = "reaches out of the region where the flow is known";
+    assert_eq!(with(&notes, &["fibre.length", expected]).len(), 1, "{notes:?}");
 }
 
 #[test]

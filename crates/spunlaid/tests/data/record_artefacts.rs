@@ -59,19 +59,21 @@ fn artefacts(analysis: &Analysis) -> Vec<String> {
     all.filter(|warning| WORDS.iter().any(|word| warning.contains(word))).collect()
 }
 
-/// A named record without what was done to it: intensity and length scale that a warning tells are those of the air.
+/// A named record without what was done to it: intensity and length scale that a warning reports are those of the air.
 fn holds_the_air(analysis: &Analysis, whole: &Analysis, words: &str, within: f64) {
     let all: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
     let named = artefacts(analysis);
     assert!(named.len() == 1 && named[0].contains(words), "{words}: {all:?}");
     assert!(!all.iter().any(|warning| warning.contains("aliased")), "{words}: {all:?}");
-    let told =
+    let reported =
         all.iter().find(|warning| warning.starts_with("without ")).unwrap_or_else(|| panic!("{all:?}"));
-    let between = |from: &str, to: &str| told.split_once(from).unwrap().1.split_once(to).unwrap().0;
+    let between = |from: &str, to: &str| reported.split_once(from).unwrap().1.split_once(to).unwrap().0;
     let intensity = 0.01 * between("intensity of ", " %").parse::<f64>().unwrap();
     let time = Dimension::Time.parse(between("integral time of ", " and a")).unwrap();
-    for (told, right) in [(intensity, whole.turbulence_intensity.value), (time, whole.integral_time.value)] {
-        assert!((told / right - 1.0).abs() < within, "{words}: {told} for {right}: {all:?}");
+    for (reported, right) in
+        [(intensity, whole.turbulence_intensity.value), (time, whole.integral_time.value)]
+    {
+        assert!((reported / right - 1.0).abs() < within, "{words}: {reported} for {right}: {all:?}");
     }
 }
 
@@ -84,7 +86,7 @@ const AIRS: [(f64, f64, f64, f64); 4] = [
 ];
 
 #[test]
-fn stat_spikes_are_named_and_the_air_without_them_is_told() {
+fn stat_spikes_are_named_and_the_air_without_them_is_reported() {
     for (seed, (rate, rms, correlated, resolution)) in (0..).zip(AIRS) {
         let air = written(&rough(seed, 10_000, correlated), rms, resolution);
         let whole = analysed(&air, rate);
@@ -162,7 +164,7 @@ fn dropouts_are_not_called_clipping_and_clipping_is() {
 }
 
 #[test]
-fn held_values_are_told_with_their_rate() {
+fn held_values_are_reported_with_their_rate() {
     for (seed, (rate, rms, correlated, resolution)) in (30..).zip(AIRS) {
         let air = written(&rough(seed, 20_000, correlated), rms, resolution);
         let whole =

@@ -29,13 +29,13 @@ fn the_rate_of_a_rounded_clock_is_that_of_the_whole_record() {
 }
 
 #[test]
-fn gaps_are_told_from_rounding() {
+fn gaps_are_distinguished_from_rounding() {
     for rate in [600.0, 700.0, 900.0, 400.0, 60.0, 1000.0] {
         let record = read(&rounded(rate, 3000, |i| i == 700 || (2001..2004).contains(&i))).unwrap();
         assert!((record.interval * rate - 1.0).abs() < 1e-3, "{rate}: {}", 1.0 / record.interval);
         assert_eq!((record.samples(), record.reading.filled), (3000, 4), "{rate}");
     }
-    // Nearly every second sample is missing at random: nobody can tell.
+    // Nearly every second sample is missing at random: it cannot be decided.
     let said = read(&rounded(1000.0, 3000, |i| (i * i % 101) % 5 < 2)).unwrap_err();
     assert!(said.contains("give the sampling rate"), "{said}");
 }

@@ -160,7 +160,7 @@ fn stat_spectrum_is_the_same_by_any_window_overlap_and_segment() {
 }
 
 #[test]
-fn stat_noise_without_memory_is_told() {
+fn stat_noise_without_memory_is_reported() {
     let mut next = normal(1);
     let analysis = analysed((0..100_000).map(|_| 5.0 + next()).collect(), 1e-3);
     // Trapezia of a correlation that is 1 at lag 0 and 0 beyond; the first zero may be the second lag.

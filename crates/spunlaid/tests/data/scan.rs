@@ -35,7 +35,7 @@ fn scanned(file: &[u8], settings: &Settings) -> Findings {
 const SIDES: [usize; 5] = [4, 6, 10, 20, 40];
 
 /// Renders webs as scans under a lamp, reads them back, and checks every CV against the true one. A sharp
-/// patch must have it within its interval and to the last tolerance; of others, no more than told is lost.
+/// patch must have it within its interval and to the last tolerance; of others, no more than reported is lost.
 ///
 /// * `pictured` – whether there is a picture of the lamp, or else only its level
 /// * `truth` – the true CVs of a web
@@ -135,7 +135,7 @@ fn analytic_densities_give_the_map_back() {
 }
 
 #[test]
-fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_told() {
+fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_reported() {
     const NOISE: f64 = 0.3;
     let map = laid(8);
     let mut random = ChaCha8Rng::seed_from_u64(8);
@@ -214,7 +214,7 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
 }
 
 #[test]
-fn a_guess_of_the_lamp_leaves_no_interval() {
+fn an_assumed_lamp_leaves_no_interval() {
     let map = laid(3);
     let levels = exposed([map.columns, map.rows], &light(&map), spotted, 65535.0, 3);
     let scan = file(map.columns, &levels, 16);
@@ -231,15 +231,15 @@ fn a_guess_of_the_lamp_leaves_no_interval() {
     ] {
         let found = found(white, keep_shading);
         let [small, large] = [found.patches[0], found.patches[1]];
-        assert_eq!((found.guess, small.interval.err()), (doubt, doubt));
+        assert_eq!((found.assumption, small.interval.err()), (doubt, doubt));
         assert_eq!(small.patch_cv.standard_error.is_none(), doubt.is_some());
         // Three patches of 80 mm beside each other say nothing in any case.
         assert_eq!(large.interval, Err(doubt.unwrap_or(ScanWarning::Few)));
         let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
         assert_eq!(
-            told.iter().any(|note| note.contains("so no interval is given; take an image of the lamp")),
+            notes.iter().any(|note| note.contains("so no interval is given; take an image of the lamp")),
             doubt.is_some(),
-            "{told:?}"
+            "{notes:?}"
         );
     }
 }
@@ -297,7 +297,7 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
             assert!((cleaned.cv - truth.cv).abs() < error, "{kind}: {cleaned:?} for {truth:?}");
             assert!(spoiled.cv > factor * truth.cv, "{kind}: {spoiled:?} for {truth:?}");
         }
-        let told: Vec<String> = cleaned.notes.iter().map(ToString::to_string).collect();
+        let notes: Vec<String> = cleaned.notes.iter().map(ToString::to_string).collect();
         if kind == "edges" {
             // A rectangle cannot follow a skewed edge: the wedges are cut off with the lamp, and a margin of
             // two blocks of nine pixels at each side.
@@ -305,8 +305,8 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
             let most = (2.0 * 0.026 * 800.0 + 4.0 + 26.0 + 36.0) * 800.0 * PIXEL * PIXEL;
             assert!((area..most).contains(&found) && cleaned.aside.spots.is_empty(), "{found} of {area}");
             assert!(
-                told.iter().any(|note| note.contains("there it is as bright as in its own image")),
-                "{told:?}"
+                notes.iter().any(|note| note.contains("there it is as bright as in its own image")),
+                "{notes:?}"
             );
         } else {
             // Blur makes each wider by two or three pixels all around.
@@ -315,10 +315,10 @@ fn bare_lamp_blots_and_dust_are_found_and_left_out() {
             assert!((area..most * area).contains(&masked), "{masked} of {area}");
             assert!(
                 cleaned.aside.cut_off == 0.0
-                    && told
+                    && notes
                         .iter()
                         .any(|note| note.contains("dark spots such as dust or blots were left out: ")),
-                "{told:?}"
+                "{notes:?}"
             );
             if kind == "blots" {
                 let place = spots.iter().find(|spot| {

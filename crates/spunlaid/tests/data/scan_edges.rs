@@ -251,7 +251,7 @@ fn analytic_a_lid_of_one_level_around_the_web_is_cut_off() {
         let alone = analyse(&read(columns, &part), &alone).unwrap();
         let [cv, wanted] = [&found, &alone].map(|found| found.patches[0].patch_cv.cv);
         assert!((cv / wanted - 1.0).abs() < 0.01, "{name}: {cv} for {wanted}");
-        assert_eq!(found.guess, alone.guess, "{name}");
+        assert_eq!(found.assumption, alone.assumption, "{name}");
     }
 }
 

@@ -194,7 +194,7 @@ fn light() -> Light {
 }
 
 #[test]
-fn what_was_assumed_is_told() {
+fn what_was_assumed_is_reported() {
     let mut levels = levels(|x| x);
     (levels[5], levels[77], levels[78]) = (0, 255, 255);
     let transmitted = |white| Settings::new(Light::Transmitted { mean: None, white });
@@ -244,8 +244,8 @@ fn a_pixel_is_as_large_as_the_file_says() {
         let other = format!("a pixel is taken to be 100 µm wide, as you said, but the file says {side}");
         assert_eq!(notes(Some(0.1e-3)), other, "{name}");
     }
-    let guess = analyse(&parse(&png([3780; 2], Unit::Meter), "a", None).unwrap(), &Settings::new(light()));
-    let note = guess.unwrap().notes[0].to_string();
+    let assumed = analyse(&parse(&png([3780; 2], Unit::Meter), "a", None).unwrap(), &Settings::new(light()));
+    let note = assumed.unwrap().notes[0].to_string();
     let words = "a pixel is 264.6 µm wide, as the file says (96 dots per inch); many programs write this";
     assert!(note.starts_with(words), "{note}");
 

@@ -75,8 +75,8 @@ fn a_clipped_picture_of_the_lamp_leaves_no_interval() {
         assert_eq!(found.guess, Some(ScanWarning::ClippedLamp), "{name}");
         assert_eq!(found.patches[0].interval, Err(ScanWarning::ClippedLamp), "{name}");
         assert!(found.patches[0].patch_cv.standard_error.is_none());
-        let told = found.notes.iter().find(|note| note.message.contains("the lamp is clipped")).unwrap();
-        assert!(told.remedy.contains("no pixel of the lamp has the largest level"), "{told}");
+        let reported = found.notes.iter().find(|note| note.message.contains("the lamp is clipped")).unwrap();
+        assert!(reported.remedy.contains("no pixel of the lamp has the largest level"), "{reported}");
         assert!(cv(&found) > 1.05 * truth, "{name}: {} {truth}", cv(&found));
     }
     // One channel of colours is clipped, and the luminance lies below the largest level.
@@ -102,7 +102,7 @@ fn analytic_a_fair_picture_of_the_lamp_gives_the_cv_with_an_interval() {
         let light = lamp(of);
         let scan = png16(COLUMNS, &levels16(&behind(&light), most, 65_535.0));
         let found = found(&scan, &png16(COLUMNS, &levels16(&light, most, 65_535.0)));
-        assert_eq!(found.guess, None, "{name}: {:?}", found.notes);
+        assert_eq!(found.assumption, None, "{name}: {:?}", found.notes);
         let [low, high] = found.patches[0].interval.unwrap();
         assert!(
             (low..high).contains(&truth) && (cv(&found) / truth - 1.0).abs() < 0.01,
@@ -116,7 +116,7 @@ fn analytic_a_fair_picture_of_the_lamp_gives_the_cv_with_an_interval() {
         if most > 4000.0 {
             let of_8_bits =
                 self::found(&png8(COLUMNS, &eight(&behind(&light))), &png8(COLUMNS, &eight(&light)));
-            assert_eq!(of_8_bits.guess, None, "{name}, 8 bits: {:?}", of_8_bits.notes);
+            assert_eq!(of_8_bits.assumption, None, "{name}, 8 bits: {:?}", of_8_bits.notes);
         }
     }
     // A few hot pixels do not count.
@@ -124,7 +124,7 @@ fn analytic_a_fair_picture_of_the_lamp_gives_the_cv_with_an_interval() {
     let mut hot = levels16(&light, 50_000.0, 65_535.0);
     (hot[77], hot[9000]) = (65_535, 65_535);
     let scan = png16(COLUMNS, &levels16(&behind(&light), 50_000.0, 65_535.0));
-    assert_eq!(found(&scan, &png16(COLUMNS, &hot)).guess, None);
+    assert_eq!(found(&scan, &png16(COLUMNS, &hot)).assumption, None);
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn grey() -> [(&'static str, Vec<u8>); 5] {
 
 #[test]
 fn grey_levels_that_pass_for_weights_are_doubted() {
-    let told = |file: &[u8], mean: Option<f64>, light_is_assumed: bool| {
+    let reported = |file: &[u8], mean: Option<f64>, light_is_assumed: bool| {
         let light = Light::Weight { mean };
         let settings = Settings { patches: vec![2e-3], light_is_assumed, ..Settings::new(light) };
         analyse(&parsed(file), &settings).unwrap()
@@ -172,9 +172,9 @@ fn grey_levels_that_pass_for_weights_are_doubted() {
         assert_eq!(assumed.guess, Some(ScanWarning::GreyLevels), "{name}");
         assert_eq!(assumed.patches[0].interval, Err(ScanWarning::GreyLevels), "{name}");
         assert!(says(&assumed), "{name}");
-        // Who says that they are weights is believed, and told.
-        let stated = told(&file, Some(20e-3), false);
-        assert!(stated.guess.is_none() && says(&stated) && stated.patches[0].interval.is_ok(), "{name}");
+        // Who says that they are weights is believed, and reported.
+        let stated = reported(&file, Some(20e-3), false);
+        assert!(stated.assumption.is_none() && says(&stated) && stated.patches[0].interval.is_ok(), "{name}");
     }
     // As light they have the CV of the web.
     let light = Light::Transmitted { mean: Some(20e-3), white: Some(250.0) };
@@ -195,7 +195,7 @@ fn grey_levels_that_pass_for_weights_are_doubted() {
         ("whole milligrams", npy_f64(COLUMNS, &of(110_000.0, 1.0))),
         ("floats", tiff_f32(COLUMNS, &of(0.11, 1e9).iter().map(|x| *x as f32).collect::<Vec<_>>())),
     ] {
-        let found = told(&file, Some(0.11), true);
-        assert!(found.guess.is_none() && !says(&found), "{name}: {:?}", found.notes);
+        let found = reported(&file, Some(0.11), true);
+        assert!(found.assumption.is_none() && !says(&found), "{name}: {:?}", found.notes);
     }
 }

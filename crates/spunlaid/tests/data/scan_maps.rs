@@ -11,8 +11,8 @@ fn found(text: &str) -> (f64, [bool; 2]) {
     let picture = parse(text.as_bytes(), "a", 2e-3).unwrap();
     let settings = Settings::new(Light::Weight { mean: None });
     let found = analyse(&picture, &Settings { patches: vec![4e-3], ..settings }).unwrap();
-    let told = found.notes.iter().any(|note| note.to_string().ends_with("left out of the map"));
-    assert_eq!(told, picture.numbered.contains(&true));
+    let is_reported = found.notes.iter().any(|note| note.to_string().ends_with("left out of the map"));
+    assert_eq!(is_reported, picture.numbered.contains(&true));
     (found.patches[0].patch_cv.cv, picture.numbered)
 }
 
@@ -89,7 +89,7 @@ fn a_map_keeps_its_first_row_and_column() {
         let picture = parse(text(value).as_bytes(), "a", 2e-3).unwrap();
         assert_eq!((picture.columns, picture.rows, picture.numbered), (18, 20, [false; 2]), "{name}");
     }
-    // Too few rows to tell.
+    // Too few rows to decide.
     let short = MAP.lines().take(16).collect::<Vec<_>>().join("\n");
     assert_eq!(parse(short.as_bytes(), "a", 2e-3).unwrap().rows, 16);
 }
@@ -114,8 +114,8 @@ fn a_line_of_heads_that_lacks_its_corner_is_read() {
     }
 }
 
-/// Positions beside a map tell the sides of its cells, in whatever order they stand; cells that are not square are
-/// refused. Numbers of rows beside positions of columns tell nothing.
+/// Positions beside a map give the sides of its cells, in whatever order they stand; cells that are not square are
+/// refused. Numbers of rows beside positions of columns give nothing.
 #[test]
 fn analytic_positions_beside_a_map_tell_the_sides_of_its_cells() {
     let sides = |corner: &str, across: f64, along: f64| {

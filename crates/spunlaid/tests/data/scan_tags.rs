@@ -1,4 +1,4 @@
-//! Scans whose files tell how they are to be read: bits of the camera, orientation, pages.
+//! Scans whose files give how they are to be read: bits of the camera, orientation, pages.
 //!
 //! The fixture is a web of 180 × 240 pixels of 0.1 mm. Its values, of the file and of its picture turned by Pillow, are
 //! CV 0.15381 over patches of 0.5 mm, and a share of the texture along the machine of 0.841, turned 0.168.
@@ -91,7 +91,7 @@ fn exif(orientation: u16, big: bool) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_is_turned_as_its_orientation_tells() {
+fn a_picture_is_turned_as_its_orientation_says() {
     // Numbers in a picture of 17 × 19 pixels, from its four corners.
     let levels: Vec<u16> = (0..17 * 19).map(|i| i % 251).collect();
     let bytes: Vec<u8> = levels.iter().map(|level| *level as u8).collect();

@@ -1,4 +1,4 @@
-//! Transparent pixels of pictures, in all ways in which a file may tell them.
+//! Transparent pixels of pictures, in all ways in which a file may give them.
 
 use crate::scans::{npy_f64, png, png8, tiff_of_channels, waves, with_chunk};
 use png::{BitDepth, ColorType};
@@ -104,11 +104,14 @@ fn transparent_pixels_are_no_web() {
         let [cv, wanted] = [&found, &truth].map(|found| found.patches[0].patch_cv.cv);
         assert_eq!((found.aside.corner, found.map.columns), ([STRIP, 0], COLUMNS - STRIP), "{name}");
         assert!((cv / wanted - 1.0).abs() < 1e-6, "{name}: {cv} {wanted}");
-        let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
+        let notes: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
         let count = STRIP * ROWS;
         let words = format!("pixels that are transparent: {count} (12 %)");
-        assert!(told.iter().any(|note| note.starts_with(&words)), "{name}: {told:?}");
-        assert!(told.iter().any(|note| note.contains("strips were cut off: 1.5 mm at the left")), "{told:?}");
+        assert!(notes.iter().any(|note| note.starts_with(&words)), "{name}: {notes:?}");
+        assert!(
+            notes.iter().any(|note| note.contains("strips were cut off: 1.5 mm at the left")),
+            "{notes:?}"
+        );
     }
 }
 

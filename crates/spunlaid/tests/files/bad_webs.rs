@@ -82,14 +82,17 @@ fn rejects_overrides_by_their_name() {
         belt_speed = \"3 m/s\"\n";
     let refusals =
         |key: &str| refusal(layers, key, "0 m/s").lines().map(ToOwned::to_owned).collect::<Vec<_>>();
-    let told = |said: &[String], part: &str| said.iter().any(|line| line.contains(part));
+    let is_reported = |said: &[String], part: &str| said.iter().any(|line| line.contains(part));
     for key in ["layer.1.line.belt_speed", "layer.S 1.2.line.belt_speed"] {
         let said = refusals(key);
-        assert!(told(&said, "override layer.1.line.belt_speed = \"0 m/s\" is not positive"), "{said:?}");
+        assert!(
+            is_reported(&said, "override layer.1.line.belt_speed = \"0 m/s\" is not positive"),
+            "{said:?}"
+        );
     }
     // Without the number of a layer it is that of all layers.
     let said = refusals("line.belt_speed");
-    assert!(told(&said, "override layer.1.line.belt_speed = \"0 m/s\" is not positive"), "{said:?}");
+    assert!(is_reported(&said, "override layer.1.line.belt_speed = \"0 m/s\" is not positive"), "{said:?}");
     let said = refusals("layer.3.line.belt_speed");
-    assert!(told(&said, "is of a layer that the file does not have; it has one, layer.1"), "{said:?}");
+    assert!(is_reported(&said, "is of a layer that the file does not have; it has one, layer.1"), "{said:?}");
 }

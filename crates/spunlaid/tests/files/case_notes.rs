@@ -139,7 +139,7 @@ fn a_fed_case_is_warned_of_low_drag_and_of_elements_shorter_than_the_fibre_is_th
 }
 
 #[test]
-fn a_time_step_left_open_is_chosen_and_told() {
+fn a_time_step_left_open_is_chosen_and_reported() {
     let open = papers_starter().replace("time_step = ", "# time_step = ");
     for (scheme, tolerance, expected) in [
         // 0.003/(0.2 · 2π 100 Hz) = 24 µs, over half the axial limit of 34.5 µs.

@@ -36,7 +36,7 @@ fn every_row_is_whole() {
                 text.contains("has no effect") || text.contains("is read from a file")
             };
             assert!(
-                set.iter().all(|set| set.as_ref().err().is_none_or(|problem| told(problem))),
+                set.iter().all(|set| set.as_ref().err().is_none_or(|problem| is_reported(problem))),
                 "{}: {set:?}",
                 key.name
             );
@@ -95,7 +95,7 @@ fn identical_after_getting_and_setting() {
         let (case, _) = read_case(&path, &set).unwrap();
         let mut again = case.clone();
         for key in keys::all() {
-            // The flow tells it, so that it cannot be set.
+            // The flow reports it, so that it cannot be set.
             let is_derived = key.name == "air.velocity" && !case.air.is_uniform()
                 || case.spinline.is_some() && key.is_derived(&case);
             if let Some(value) = key.get(&case).filter(|_| !is_derived) {

@@ -21,7 +21,7 @@ width = '1 m'
 length = '1 m'
 ";
 
-/// Whatever file a removed key belonged to, each reader knows it: from outside and, of a case, in code.
+/// Whatever file a removed key belonged to, each reader reports it: from outside and, of a case, in code.
 #[test]
 fn rejects_removed_keys_with_the_way_out() {
     let mut count = 0;

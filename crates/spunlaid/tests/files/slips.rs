@@ -201,7 +201,7 @@ fn a_slip_of_a_unit_is_named() {
 }
 
 #[test]
-fn a_slip_is_told_beside_what_it_breaks() {
+fn a_slip_is_reported_next_to_what_it_breaks() {
     // The limit on the step follows from the modulus.
     let said = said("table1", &[("fibre.youngs_modulus", "2e12 GPa")]).unwrap_err().to_string();
     assert!(
@@ -241,7 +241,7 @@ fn in_field(table: &str) -> String {
 }
 
 #[test]
-fn a_field_in_other_units_is_told_and_can_be_read() {
+fn a_field_in_other_units_is_reported_and_can_be_read() {
     assert_eq!(in_field(&duct(HEADS, |_, values| values)), "");
     let fast = in_field(&duct(HEADS, |_, [u, k, epsilon]| [1000.0 * u, k, epsilon]));
     assert!(fast.contains("which is Mach 29") && fast.contains("like U_mm_s"), "{fast}");
@@ -265,7 +265,7 @@ fn a_field_in_other_units_is_told_and_can_be_read() {
 }
 
 #[test]
-fn a_profile_in_other_units_is_told() {
+fn a_profile_in_other_units_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("case.toml");
     let text = fs::read_to_string("../../cases/profile.toml").unwrap();
@@ -323,7 +323,7 @@ fn rejects_turbulence_that_cannot_be() {
 }
 
 #[test]
-fn turbulence_without_a_length_or_without_strength_is_told() {
+fn turbulence_without_a_length_or_without_strength_is_reported() {
     // In the first half there is no ε.
     let half = in_field(&duct(HEADS, |i, [u, k, epsilon]| [u, k, if i < 18 { 0.0 } else { epsilon }]));
     assert!(half.contains("has k above zero and ε = 0 at") && half.contains("of 64 points"), "{half}");

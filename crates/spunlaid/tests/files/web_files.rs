@@ -216,7 +216,7 @@ fn a_web_hangs_in_one_air_where_its_filaments_fly() {
         let file = read(text);
         assert_eq!(file.spec.flies(), flies, "{text}");
         assert_eq!(read(&file.text).spec.flies(), flies, "{}", file.text);
-        // A usual web is not told that its air gets a place in space.
+        // For a usual web there is no note that its air is a field in space.
         assert!(!file.notes.iter().any(|note| note.to_string().contains("von-karman")));
     }
 }
@@ -372,7 +372,7 @@ proptest! {
 }
 
 #[test]
-fn rejects_guesses_that_have_no_half() {
+fn rejects_assumed_values_that_have_no_half() {
     let two = LAYERS.replace("[web]", "[web]\nassumed = \"line.throughput\"");
     for (text, assumed, message) in [
         (

@@ -193,7 +193,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     assert!(!file.notes.iter().any(|note| note.to_string().contains("instead of")), "{:?}", file.notes);
 }
 
-/// A note tells which number of the named case is replaced, and by what: 19 µm stand in this file, and are no case's.
+/// A note reports which number of the named case is replaced, and by what: 19 µm stand in this file, and are no case's.
 #[test]
 fn a_note_names_the_layer_that_replaces_a_number_of_its_case() {
     let text = "[fibre]\ndiameter = \"19 µm\"\n[[layer]]\nlaydown.case = \"spunbond.toml\"\n\

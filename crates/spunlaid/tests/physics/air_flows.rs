@@ -80,7 +80,7 @@ fn placed(field: Field, root: Vec3<f64>, axis: Axis, unit: f64) -> Flow {
     }))
 }
 
-const TOLD: FlowNumbers =
+const REPORTED: FlowNumbers =
     FlowNumbers { turbulence_intensity: true, length_scale: true, cutoff_frequency: true };
 
 /// A profile with the same values everywhere as the uniform case makes the same flight. Only rounding differs,
@@ -97,7 +97,7 @@ fn analytic_a_constant_profile_is_the_uniform_flow() {
         length_scale: constant(0.05),
         cutoff_frequency: constant(100.0),
     });
-    case.air.from_flow = TOLD;
+    case.air.from_flow = REPORTED;
     case.air.settle_along(case.along());
     assert_eq!(case.check().unwrap(), []);
     for (one, other) in flights(&uniform).iter().zip(&flights(&case)) {
@@ -239,7 +239,7 @@ fn analytic_turbulence_from_k_and_epsilon() {
     let uniform = field(low, high, |_| Vec3::new(8.0, 0.0, 0.0), |_| (k, epsilon));
     let mut air = Air {
         flow: placed(uniform, Vec3::default(), Axis::ALL[0], 1.0),
-        from_flow: TOLD,
+        from_flow: REPORTED,
         ..Air::uniform(1.0, 0.0, 1.0, 1.0)
     };
     let at = Vec3::new(0.5, 0.01, 0.0);
@@ -277,7 +277,7 @@ fn analytic_longer_eddies_of_a_profile_pass_more_slowly() {
         length_scale: vec![0.01, 0.03],
         cutoff_frequency: vec![1000.0, 400.0],
     };
-    let plain = Air { flow: profile(table), from_flow: TOLD, ..Air::uniform(1.0, 0.0, 1.0, 1.0) };
+    let plain = Air { flow: profile(table), from_flow: REPORTED, ..Air::uniform(1.0, 0.0, 1.0, 1.0) };
     let changed = Air { length_factor: 2.0, intensity_factor: 0.5, ..plain.clone() };
     for x in [0.0, 0.25, 1.0] {
         let at = Vec3::new(x, 0.0, 0.0);
@@ -321,7 +321,7 @@ fn analytic_a_field_turned_and_in_other_units_is_the_same_air() {
     let down = field(low, high, turned_flow, |p| turbulence(there(p).0));
     turned.air.flow = placed(down, Vec3::new(0.3, 0.2, 7.0), Axis::ALL[5], 1e-3);
     for case in [&mut straight, &mut turned] {
-        case.air.from_flow = TOLD;
+        case.air.from_flow = REPORTED;
         case.air.settle_along(case.along());
         case.air.harmonics = case.air.default_harmonics(0.1);
         case.check().unwrap();
@@ -347,7 +347,7 @@ fn analytic_eddies_grow_with_the_length_scale() {
 
 /// Elements outside the data are counted, and a warning says so before the run.
 #[test]
-fn a_fibre_that_leaves_the_flow_is_told_of() {
+fn a_fibre_that_leaves_the_flow_is_reported() {
     let mut case = table1(&[("run.time_step", "20 µs"), ("run.duration", "0.05 s"), ("run.replicates", "1")]);
     let velocity = vec![10.0, 10.0];
     case.air.flow = profile(Profile { x: vec![0.0, 0.5], velocity, ..Profile::default() });
@@ -380,7 +380,7 @@ fn check_identical(flow: impl Fn() -> Flow) {
         table1(&[("run.time_step", "20 µs"), ("run.scheme", "leapfrog"), ("run.duration", "0.05 s")]);
     case.run.replicates = 11;
     case.air.flow = flow();
-    case.air.from_flow = TOLD;
+    case.air.from_flow = REPORTED;
     case.air.settle_along(case.along());
     case.air.harmonics = case.air.default_harmonics(0.1);
     let bits = |flight: &Trajectory| -> Vec<u64> {

@@ -112,7 +112,7 @@ fn published_drag_of_cylinders_in_slow_flow() {
 }
 
 /// Above Re 1 the law is not as exact as the measurement: from 1 to 100 a polynomial only joins its two neighbours,
-/// and 1 + 4/√Re knows nothing of the measured dip to 0.89 at 2000 and of the rise to 1.2 beyond. How far it is off
+/// and 1 + 4/√Re does not contain the measured dip to 0.89 at 2000 and of the rise to 1.2 beyond. How far it is off
 /// was taken from the law itself, so this shows that the law stays as it is, not that it is right.
 #[test]
 fn frozen_deviation_from_cylinders_in_fast_flow() {

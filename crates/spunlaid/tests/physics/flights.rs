@@ -109,7 +109,7 @@ fn rejects_what_cannot_change_and_flies_on() {
     let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap();
     flight.step_to(0.01).unwrap();
     let before = flight.snapshot().position;
-    for (key, value, told) in [
+    for (key, value, expected) in [
         ("air.velocty", "20 m/s", "air.velocity"),
         ("air.velocity", "20 mm", "velocity"),
         ("air.velocity", "fast", "velocity"),
@@ -121,7 +121,7 @@ fn rejects_what_cannot_change_and_flies_on() {
         ("fibre.youngs_modulus", "200 GPa", "stability limit"),
     ] {
         let message = flight.set(key, value).unwrap_err().to_string();
-        assert!(message.contains(told), "{key} = {value}: {message}");
+        assert!(message.contains(expected), "{key} = {value}: {message}");
         assert_eq!(flight.snapshot().position, before, "{key}");
     }
     flight.set("air.velocity", f64::NAN).unwrap_err();

@@ -44,7 +44,7 @@ fn analytic_load_of_a_force_that_grows_evenly() {
 }
 
 #[test]
-fn without_a_slot_or_a_flight_only_what_is_known_is_told() {
+fn without_a_slot_or_a_flight_only_what_is_known_is_reported() {
     let spunbond = case("spunbond.toml");
     let load = Load::new(&spunbond, 5000.0, None, &way(50, 0.5, |x| x), None).unwrap();
     assert!(load.mass_loading().is_none() && load.damping.is_none() && load.heat.is_none());

@@ -201,7 +201,7 @@ fn vary_every_key(name: &str, text: &str) -> Found {
                 found.shared.insert(key.name);
             }
         }
-        // Some keys have no meaning for a case, some are told by a file or by other keys.
+        // Some keys have no meaning for a case, some are reported by a file or by other keys.
         let is_there = key.get(&case).is_some() && !key.is_derived(&case);
         let excluded = refused.iter().all(|reason| reason.contains("cannot be combined with"));
         if is_there && !excluded && key.kind.words().is_empty() && !simulated.contains(&CLOSE) {
@@ -269,7 +269,7 @@ fn identical_alone_and_in_company_of_another_kind_of_flow() {
             if !differ.is_empty() {
                 wrong.push(format!("{name}, {order:?}: {}", differ.join(", ")));
             }
-            // Told that they cannot fly together, or the same bits as alone.
+            // An error that they cannot be simulated together, or results that are bit-identical to those alone.
             let jobs = order.map(|i| Job::new(&cases[i], 0));
             let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
             match fly_together(&jobs, KEPT, computing(&stop, &steps)) {

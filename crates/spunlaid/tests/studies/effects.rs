@@ -404,7 +404,7 @@ fn analytic_what_has_no_error_is_judged_by_its_values() {
     for (model, claim, verdict) in known {
         assert_eq!(judged(STILL, model, claim), verdict, "{claim}");
     }
-    // A single fibre in turbulence tells nothing of its error.
+    // A single fibre in turbulence reports nothing of its error.
     assert_eq!(judged("turbulence_intensity = 0.1\n", STRAIGHT_UP, "rises"), Open);
 }
 

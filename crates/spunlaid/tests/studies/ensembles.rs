@@ -182,15 +182,15 @@ fn rejects_a_flight_that_diverges() {
     );
 }
 
-/// What a recorder is told: how often each replicate began to fly, and its instants since it began last.
+/// What a recorder is reported: how often each replicate began to fly, and its instants since it began last.
 #[derive(Debug, Default)]
 struct RecordedSamples(Mutex<BTreeMap<u64, (u32, Vec<Sample>)>>);
 
 impl Recorder for RecordedSamples {
     fn begin(&self, replicate: u64) {
-        let mut told = self.0.lock().unwrap();
-        let begun = told.get(&replicate).map_or(0, |(begun, _)| *begun);
-        told.insert(replicate, (begun + 1, Vec::new()));
+        let mut recorder = self.0.lock().unwrap();
+        let begun = recorder.get(&replicate).map_or(0, |(begun, _)| *begun);
+        recorder.insert(replicate, (begun + 1, Vec::new()));
     }
 
     fn samples(&self, replicate: u64, samples: &[Sample]) -> Result<(), Error> {
@@ -204,7 +204,7 @@ impl Recorder for RecordedSamples {
 }
 
 /// Fibres in a record with a eddy of 90 km/s are lost where the eddy is in their stretch of it. The others fly again
-/// without them, to the bits that they have alone, and the recorder forgets what it was told before.
+/// without them, to the bits that they have alone, and the recorder forgets what it was reported before.
 #[test]
 fn fibres_that_are_lost_stop_no_others() {
     let folder = tempfile::tempdir().unwrap();
@@ -234,14 +234,14 @@ replicates = 12
     );
     let (case, _) = read_case((&text, "case.toml"), &[]).unwrap();
     for threads in [1, 2] {
-        let (stop, fibre_steps, told) =
+        let (stop, fibre_steps, recorder) =
             (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
         let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
         let (mut simulated, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
         fly_for_checks(
             &case,
             &FinerPlans::none(Unchecked::NotAsked),
-            Recorded { recorder: Some(&told), ..Recorded::SAMPLES },
+            Recorded { recorder: Some(&recorder), ..Recorded::SAMPLES },
             computing,
             |_, _| Ok(None),
             |landed| {
@@ -267,14 +267,14 @@ replicates = 12
             assert!(fibre.reason.starts_with(&format!("replicate {}: ", fibre.replicate + 1)), "{fibre:?}");
             assert!(fibre.time >= 0.0 && fibre.time <= case.run.duration());
         }
-        let told = told.0.lock().unwrap();
-        assert!(told.values().any(|(begun, _)| *begun > 1));
+        let recorder = recorder.0.lock().unwrap();
+        assert!(recorder.values().any(|(begun, _)| *begun > 1));
         for flight in simulated {
             let jobs = [Job::new(&case, flight.replicate)];
             let alone =
                 fly_together(&jobs, Recorded::SAMPLES, RunContext { done: &AtomicU64::new(0), ..computing });
             assert_same(&alone.unwrap()[0], &flight);
-            assert!(told[&flight.replicate].1 == flight.samples);
+            assert!(recorder[&flight.replicate].1 == flight.samples);
         }
     }
 }

@@ -106,7 +106,7 @@ fn checked_at(scheme: Scheme, step: f64, damping: f64) -> (Vec<Trajectory>, Fine
 const START: f64 = 4e-4;
 
 /// Half of a long step of implicit tension says nothing about its limit: axial waves are damped at both. The
-/// check flies leapfrog, with steps that resolve these waves, and tells the whole difference.
+/// check flies leapfrog, with steps that resolve these waves, and reports the whole difference.
 #[test]
 fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves() {
     // As long as the check, so that its flights are those below: a way of 10 ms takes twice that to come
@@ -143,7 +143,7 @@ fn invariant_the_step_check_of_a_fed_fibre_compares_it_with_resolved_axial_waves
 /// The check of the mesh flies the same line with elements of half the length: it finds what anybody finds who
 /// halves them by hand. An element that is half as long is fed in half as many steps.
 #[test]
-fn invariant_the_mesh_check_of_a_fed_fibre_tells_what_halving_by_hand_does() {
+fn invariant_the_mesh_check_of_a_fed_fibre_gives_what_manual_halving_does() {
     let line = |element: &str| {
         let mut case = common::laying::spunbond(&[
             ("run.duration", "60 ms"),
@@ -198,7 +198,7 @@ fn with_elements(number: usize, law: NormalLaw) -> Case {
 const FINE: usize = 320;
 
 /// Elements of 12.5 mm, a quarter of an eddy. The check sees elements of a half and of a quarter of their length; they
-/// show the second order, and it tells the error to elements of no length, of which a quarter leaves a sixteenth.
+/// show the second order, and it reports the error to elements of no length, of which a quarter leaves a sixteenth.
 #[test]
 fn order_of_the_error_of_the_mesh_is_what_two_halvings_show() {
     let meshed = |elements| with_elements(elements, NormalLaw::MarheinekeWegener);
@@ -209,10 +209,10 @@ fn order_of_the_error_of_the_mesh_is_what_two_halvings_show() {
         check.changes.iter().find(|change| change.statistic.name == "frequency").expect("compared");
     let factor = check.error_over(frequency).expect("two halvings show it");
     let error = off(&coarse, &fine, ["frequency_y", "frequency_z"]);
-    let (told, found) = (factor * frequency.estimate.mean, &frequency.estimate);
+    let (estimated, found) = (factor * frequency.estimate.mean, &frequency.estimate);
     // Standard errors of both, and the sixteenth of the error that is left at a quarter of the length.
     let allowed = 2.0 * 2.0 * factor * found.standard_error.unwrap() + error.abs() / 16.0;
-    assert!((told - error).abs() < allowed && error > 0.1, "{told} for {error}");
+    assert!((estimated - error).abs() < allowed && error > 0.1, "{estimated} for {error}");
     // Steps of other lengths, so that few crossings of the axis differ.
     let (length, whole) = frequency.from_quarter.as_ref().expect("simulated too");
     let near = 2.0 * whole.standard_error.unwrap();
@@ -232,7 +232,7 @@ fn rejects_an_error_of_the_mesh_where_no_order_is_shown() {
         let error = off(&coarse, &fine, ["frequency_y", "frequency_z"]);
         assert!((error - truth).abs() < 0.06, "{elements}: {error}");
         assert_eq!(check.error_over(frequency), None, "{elements}");
-        // What is told instead contains it.
+        // What is reported instead contains it.
         let most = frequency.estimates().map(|change| change.mean.abs()).fold(0.0, f64::max);
         assert!(error.abs() < most, "{elements}: {error} {most}");
     }
@@ -262,7 +262,7 @@ fn identical_air_on_both_meshes_of_a_check() {
 }
 
 #[test]
-fn invariant_the_step_check_tells_the_error_of_the_step() {
+fn invariant_the_step_check_gives_the_error_of_the_step() {
     let (converged, _) = checked_at(Scheme::Leapfrog, 2e-6, 0.0);
     for (scheme, h, start) in [
         (Scheme::SemiImplicitEuler, 2e-5, 0.0),
@@ -430,7 +430,7 @@ fn checks_count_the_turbulence_that_they_make() {
     );
     let whole = (20.0 * 2e5 + window) / all;
     assert!(whole > 0.1, "one flight of the check takes more than a tenth: {whole}");
-    // With 1 s nothing of it is worth its time; asked for, all is simulated and its share told.
+    // With 1 s nothing of it is worth its time; asked for, all is simulated and its share reported.
     let (short, mut full) = of(1.0, 65536);
     assert!(short.step.is_err() && short.mesh.is_err(), "{short:?}");
     full.run.checks = Checks::Full;

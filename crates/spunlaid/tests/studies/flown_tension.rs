@@ -113,7 +113,7 @@ fn identical_tension_when_the_rounds_are_flown_by_hand_and_for_any_number_of_thr
 }
 
 #[test]
-fn a_reader_flies_nothing_and_tells_what_has_to_be_flown() {
+fn a_reader_simulates_nothing_and_reports_what_has_to_be_simulated() {
     let mut resources = Resources::default();
     let (case, notes) = read_case((&case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
     assert!(case.waits_for_flights() && resources.wanted() == 1);

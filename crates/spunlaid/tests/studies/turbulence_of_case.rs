@@ -82,8 +82,8 @@ fn of_every_key(name: &str, text: &str) -> (BTreeSet<&'static str>, Vec<String>)
             let Some(of_changed) = (!to_field).then(|| drawn(&changed)).flatten() else { continue };
             let has_air = agree(&air, &of_changed);
             // The cut-off across chooses whole waves, and counts as it is written; so does how a record was read.
-            let is_told = key.name == "air.lateral_cutoff" || key.name.starts_with("air.record_");
-            if has_air != has_identity && (has_identity || !is_told) {
+            let is_reported = key.name == "air.lateral_cutoff" || key.name.starts_with("air.record_");
+            if has_air != has_identity && (has_identity || !is_reported) {
                 wrong.push(format!(
                     "{name}: {} = {value}: same air {has_air}, identity {has_identity}",
                     key.name
@@ -95,7 +95,7 @@ fn of_every_key(name: &str, text: &str) -> (BTreeSet<&'static str>, Vec<String>)
 }
 
 #[test]
-fn the_turbulence_is_told_apart_if_and_only_if_other_air_is_drawn() {
+fn the_turbulence_is_distinguished_if_and_only_if_other_air_is_drawn() {
     // Those with a spinline have no other air.
     let cases: Vec<_> = CASES.iter().filter(|(name, _)| !name.starts_with("spun")).collect();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);

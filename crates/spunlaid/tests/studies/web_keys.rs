@@ -176,17 +176,17 @@ fn measured(spec: &WebSpec) -> Vec<u64> {
     let of_web = WEB_MEASURES.iter().map(|of| of.number(&found));
     let fabric = spec.fabric(&simulated.web, &found, 1);
     let mut all: Vec<f64> = patches.chain(of_web).collect();
-    all.extend(told(FABRIC_MEASURES, Some(&fabric)));
+    all.extend(reported(FABRIC_MEASURES, Some(&fabric)));
     for side in [1e-3, 2e-3, 5e-3, 10e-3, 20e-3] {
         let patch = fabric.patches.iter().find(|patch| (patch.thin.patch / side - 1.0).abs() < 0.05);
-        all.extend(told(FABRIC_PATCH_MEASURES, patch));
+        all.extend(reported(FABRIC_PATCH_MEASURES, patch));
     }
-    all.extend(fabric.strips.iter().flat_map(|strips| told(STRIP_MEASURES, strips.as_ref())));
+    all.extend(fabric.strips.iter().flat_map(|strips| reported(STRIP_MEASURES, strips.as_ref())));
     all.into_iter().map(f64::to_bits).collect()
 }
 
 /// What studies keep of a part of a fabric: each number and its error.
-fn told<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
+fn reported<T>(measures: &'static [Measure<T>], found: Option<&T>) -> Vec<f64> {
     let kept = measures.iter().filter(|of| !of.name.is_empty());
     let number = |of: &Measure<T>| match found.and_then(|found| of.value(found)) {
         Some(Value::Reported(Known::Value(value, error))) => [value, error.unwrap_or(f64::NAN)],

@@ -224,7 +224,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
             // A row stays as wide as its web, to the last digit of the pitch.
             for (key, value) in change.experiment.set.iter().filter(|(key, _)| !key.ends_with(".pitch")) {
                 let digits = value.split(' ').next().unwrap().chars().filter(char::is_ascii_digit);
-                // Zeros in front tell the size only.
+                // Zeros in front give the size only.
                 let digits = digits.skip_while(|digit| *digit == '0').count();
                 assert!(digits <= 5, "{key} = {value} is no number that a person would write");
             }

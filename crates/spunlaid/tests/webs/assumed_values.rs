@@ -40,7 +40,7 @@ length = \"250 mm\"
 
 /// What each says to set makes the very web that is tried, also beside what was set before.
 #[test]
-fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
+fn identical_what_an_assumed_value_says_to_set_is_the_web_that_is_tried() {
     let assumed = "line.slot_gap, air.length_factor, air.intensity_factor";
     let mut set = vec![("web.assumed", assumed), ("air.intensity_factor", "0.9")];
     let changes = read(BEAMS, &set);
@@ -76,7 +76,7 @@ fn identical_what_a_guess_says_to_set_is_the_web_that_is_tried() {
 
 /// A number that was set before is replaced, and stands once in what is to be pasted.
 #[test]
-fn identical_a_guess_takes_the_place_of_what_was_set_before() {
+fn identical_an_assumed_value_replaces_what_was_set_before() {
     let one = BEAMS.split("[[layer]]").nth(1).unwrap().replace("[layer.", "[");
     let text = format!("{one}[web]\nwidth = \"250 mm\"\nlength = \"250 mm\"\n");
     let changes = read(&text, &[("line.slot_gap", "30 mm"), ("web.assumed", "line.slot_gap")]);

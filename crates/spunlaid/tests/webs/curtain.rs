@@ -18,7 +18,7 @@ fn correlation(maps: [&Map; 2], cell: f64) -> f64 {
     product(&a, &b) / (product(&a, &a) * product(&b, &b)).sqrt()
 }
 
-/// Every second filament of a row tells where the others lie. On so short a way each does a part for itself, in folds.
+/// Every second filament of a row gives where the others lie. On so short a way each does a part for itself, in folds.
 #[test]
 fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let (case, sheet) = (case_in("von-karman"), sheet_of(32, 64));

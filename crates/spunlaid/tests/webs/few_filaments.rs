@@ -42,7 +42,7 @@ cell = \"1 mm\"
 ";
 
 /// What the filaments say that are simulated for all.
-fn told(simulated: &str) -> SubsampleEstimate {
+fn estimate(simulated: &str) -> SubsampleEstimate {
     found(&format!("{WEB}simulated = {simulated}\n")).laid.simulated[0].few.clone().unwrap()
 }
 
@@ -58,7 +58,7 @@ fn found(text: &str) -> Findings {
 /// four times as many are simulated, as a number would say; a number is simulated as it is.
 #[test]
 fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell() {
-    let [usual, fine, first] = ["\"auto\"", "2000", "500"].map(told);
+    let [usual, fine, first] = ["\"auto\"", "2000", "500"].map(estimate);
     assert_eq!([&usual, &first].map(|few| few.filaments + few.lost), [320, 80]);
     assert!(matches!(first.doubt(), Some(SubsampleWarning::Neighbours(_))), "{:?}", first.correlation);
     assert_eq!(format!("{usual:?}"), format!("{fine:?}"));

@@ -20,7 +20,7 @@ fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let counts = coverage(&fits, &truth)[0];
     // Of a coverage of 95 %, three misses in ten loops happen once in a hundred times.
     assert!(counts[1] >= 8, "{counts:?}");
-    // In the logarithm: the mean is off by no more than three times the error that the intervals tell.
+    // In the logarithm: the mean is off by no more than three times the error that the intervals give.
     let halves = fits.iter().map(|fit| {
         let [low, high] = fit.keys[0].interval.clone().unwrap();
         0.5 * (high / low).ln()
@@ -29,7 +29,7 @@ fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let bias = fits.iter().map(|fit| (fit.keys[0].value / truth[0]).ln()).sum::<f64>() / 10.0;
     assert!(bias.abs() < 3.0 * standard_error, "{bias} ± {standard_error}");
     // CV² falls as one over the number, and CV over so many independent patches scatters by 1/√(2n): no web
-    // tells more than its smallest patches, and filaments that are 18 mm wide make no more than (200/18)² of
+    // reports more than its smallest patches, and filaments that are 18 mm wide make no more than (200/18)² of
     // them.
     let least = 2.0 / (2.0 * (200.0f64 / 18.0).powi(2)).sqrt() / 10f64.sqrt();
     assert!((0.3..3.0).contains(&(standard_error / least)), "{standard_error}, {least}");
@@ -126,7 +126,7 @@ simulated = 250
     let map = laid(&all, &[5e-3], 1);
     let patch = |side| MeasuredPatch { side, noise: 0.0, blur: 0.0 };
     let patches = [1e-3, 2e-3, 5e-3].map(patch).to_vec();
-    let scan = MeasuredWeb { map, patches, knows_noise: true, flat: false, doubt: None };
+    let scan = MeasuredWeb { map, patches, has_known_noise: true, flat: false, doubt: None };
     assert_eq!(model_errors(&all, &scan).unwrap(), Vec::<Vec<f64>>::new());
     let errors = model_errors(&few, &scan).unwrap();
     let first = few.start.spec.seed;

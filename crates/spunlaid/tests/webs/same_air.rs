@@ -45,15 +45,15 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<SubsampleEstimate> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
     let flyer = Flyer::new(threads, &stop, &unwatched);
-    let told = flyer.few_in_same_air((&specs, ALL), &steps).unwrap().unwrap();
-    told.into_iter().flat_map(|layers| layers.unwrap()).collect()
+    let estimates = flyer.few_in_same_air((&specs, ALL), &steps).unwrap().unwrap();
+    estimates.into_iter().flat_map(|layers| layers.unwrap()).collect()
 }
 
 /// Another web beside it makes the room larger, in which both of them hang.
 #[test]
 fn identical_a_web_beside_itself_has_not_changed() {
     let (web, farther) = (read(&[]), read(&[("belt.distance", "0.12 m")]));
-    // Sixteen filaments are too few to tell the CV of all, but what they have laid is told, block by block.
+    // Sixteen filaments are too few to give the CV of all, but what they have laid is reported, block by block.
     let laid = |few: &SubsampleEstimate| {
         (few.sheet, few.blocks.clone(), few.cvs.iter().map(|cv| cv.few).collect::<Vec<_>>())
     };
@@ -65,18 +65,18 @@ fn identical_a_web_beside_itself_has_not_changed() {
 }
 
 /// theory.md (75): every point comes down at the same time and place above a slow belt. A web on another belt
-/// is told by the same flight, as if it had been simulated again.
+/// is reported by the same flight, as if it had been simulated again.
 #[test]
 fn analytic_a_web_on_another_slow_belt_needs_no_flight() {
     let set: &[(&str, &str)] = &[("belt.speed", "4 m/s"), ("web.length", "0.16 m")];
     let (web, slower) = (read(&[]), read(set));
     // The belt that is named first says for how long they fly.
-    let [told, simulated] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
-    for (told, simulated) in told.cvs.iter().zip(&simulated.cvs) {
-        println!("{} {}", told.few, simulated.few);
-        assert!((told.few / simulated.few - 1.0).abs() < 0.03, "{told:?} {simulated:?}");
+    let [estimates, simulated] = [few(&[&web, &slower], 2).remove(1), few(&[&slower], 2).remove(0)];
+    for (estimates, simulated) in estimates.cvs.iter().zip(&simulated.cvs) {
+        println!("{} {}", estimates.few, simulated.few);
+        assert!((estimates.few / simulated.few - 1.0).abs() < 0.03, "{estimates:?} {simulated:?}");
     }
-    assert!(told.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
+    assert!(estimates.sheet[1] < 0.9 * few(&[&web], 2)[0].sheet[1]);
 }
 
 /// Webs beside each other need the room of the largest; one that may not take it says how much it is.

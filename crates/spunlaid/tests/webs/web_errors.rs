@@ -100,7 +100,7 @@ fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
     }
 }
 
-/// Nothing tells of streaks where the sheet holds only a few.
+/// Nothing reports of streaks where the sheet holds only a few.
 #[test]
 fn a_sheet_of_few_streaks_has_no_error() {
     let mut web = web(Filaments::AtRandom { per_metre: 800.0 }, Edges::Periodic, [0.13, 0.3]);

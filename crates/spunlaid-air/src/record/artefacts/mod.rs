@@ -13,7 +13,7 @@ use spikes::spikes;
 use spunlaid_ground::Fault;
 use spunlaid_ground::statistics::quantile;
 use std::ops::Range;
-use tell::Teller;
+use tell::ComponentReport;
 
 /// Largest share of a record that may be left out.
 const MOST_LEFT_OUT: f64 = 0.5;
@@ -48,7 +48,7 @@ impl Artefacts {
             let Some(robust) = Robust::new(values) else { continue };
             let factor = record.reading.factors.get(i).copied().unwrap_or(1.0);
             let apart = apart(values, &robust, factor);
-            let teller = Teller { record, name: &component.name, values };
+            let teller = ComponentReport { record, name: &component.name, values };
             if let Some((group, written)) =
                 apart.iter().find_map(|group| Some((group, group.sentinel.as_ref()?)))
             {
@@ -62,7 +62,7 @@ impl Artefacts {
     }
 
     /// Looks for what does not lie apart; returns all stretches that are no velocities.
-    fn look(&mut self, robust: &Robust, teller: &Teller<'_>, apart: &[Apart]) -> Vec<Range<usize>> {
+    fn look(&mut self, robust: &Robust, teller: &ComponentReport<'_>, apart: &[Apart]) -> Vec<Range<usize>> {
         let values = teller.values;
         let mut is_left_out = vec![false; values.len()];
         let mut spoilt: Vec<Range<usize>> = Vec::new();

@@ -7,18 +7,18 @@ use spunlaid_ground::Fault;
 use spunlaid_ground::error::{counted, listed};
 use std::ops::Range;
 
-/// Number of stretches whose place is told.
+/// Number of stretches whose place is reported.
 const MOST_PLACES: usize = 3;
 const EMPTY: &str = "leave these cells empty and run the analysis again";
 
-/// Tells of a component.
-pub(super) struct Teller<'a> {
+/// Reports of a component.
+pub(super) struct ComponentReport<'a> {
     pub(super) record: &'a Record,
     pub(super) name: &'a str,
     pub(super) values: &'a [f64],
 }
 
-impl Teller<'_> {
+impl ComponentReport<'_> {
     fn fault(&self, message: &str, remedy: impl Into<std::borrow::Cow<'static, str>>) -> Fault {
         Fault::new(format!("{}: {message}", self.name), remedy)
     }

@@ -1,13 +1,14 @@
 //! `spunlaid sweep`: flies a study and writes its results.
 
-mod told;
+mod shown;
 
 use super::{counted, stem};
 use crate::args::{Invocation, Sweep, overrides};
 use crate::control::{control, settled, stop_on_ctrl_c};
-use crate::delivery::{begin, making, tell};
+use crate::delivery::{begin, making, print_results};
 use crate::failure::Failure;
 use crate::{progress, say};
+use shown::{print_point, say_begun, state};
 use spunlaid::experiment::study::run;
 use spunlaid::experiment::{Journal, Progress};
 use spunlaid::ground::threads::unlock;
@@ -16,7 +17,6 @@ use spunlaid_results::folders::JournalFolder;
 use spunlaid_results::reports::study::{self, lost};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
-use told::{print_point, say_begun, state};
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
     let (output, points, replicates) = (&sweep.output, sweep.points, sweep.replicates);
@@ -62,6 +62,6 @@ fn write(
     let complete =
         format!("the study was already complete: no {noun} was {done}, and the files were written again");
     let lines = &Vec::from_iter((before == fibres).then_some(complete));
-    tell(&found, (folder.path(), &text), lines, &sweep.output);
+    print_results(&found, (folder.path(), &text), lines, &sweep.output);
     lost(&file.study, journal, fibres)?.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-/// What changes do to a web; nothing if that cannot be found, which is told. If it is interrupted, the web
+/// What changes do to a web; nothing if that cannot be found, which is reported. If it is interrupted, the web
 /// and what was tried before stay in their folder.
 pub(super) fn try_changes(
     changes: Vec<Change>,

@@ -47,7 +47,7 @@ impl Term {
 pub(super) struct EffectsFit<'a> {
     pub(super) study: &'a Study,
     pub(super) points: Vec<usize>,
-    /// Factors whose effects it tells, with their least and greatest values; words are in no order.
+    /// Factors whose effects it reports, with their least and greatest values; words are in no order.
     factors: Vec<(usize, (f64, f64))>,
     pub(super) terms: Vec<Term>,
     /// `(XᵀX)⁻¹`; the first row and column belong to the constant.

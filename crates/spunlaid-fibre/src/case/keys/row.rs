@@ -32,11 +32,11 @@ pub trait KeyField {
 
 /// Fields of a plain type, each with what makes a value of them and what takes one.
 macro_rules! fields {
-    ($($type:ty: $tell:expr, $take:ident;)+) => {
+    ($($type:ty: $report:expr, $take:ident;)+) => {
         $(impl KeyField for $type {
             fn report(&self) -> Option<Value> {
-                let tell: fn(&Self) -> Value = $tell;
-                Some(tell(self))
+                let report: fn(&Self) -> Value = $report;
+                Some(report(self))
             }
 
             fn take(&mut self, value: &Value) -> Result<(), Fault> {
@@ -269,7 +269,7 @@ impl NewKey {
         }
     }
 
-    /// A key of a file that is read as a whole: its value can be told, and is never set alone.
+    /// A key of a file that is read as a whole: its value can be reported, and is never set alone.
     pub const fn reported<T>(self, get: fn(&T) -> Option<Value>) -> Key<T> {
         self.access(AccessTo { get, set: |_, _| Err(read_with_case()) })
     }

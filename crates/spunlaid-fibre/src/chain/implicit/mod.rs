@@ -73,7 +73,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
 pub struct Tensions {
     /// Of each element: tension `λ` [N].
     pub(crate) tension: Nodes<Lanes>,
-    /// For each node: what a step knows of it and of the element below.
+    /// For each node: the data of a step about it and of the element below.
     links: Vec<Link>,
     /// For each node on the belt, if there is friction: the belt's force on it [N].
     pub(crate) belt_force: Vec<Vec3<Lanes>>,
@@ -83,7 +83,7 @@ pub struct Tensions {
     pub(crate) worst: [(f64, usize); WIDTH],
 }
 
-/// What a step knows of a node and of the element below it. It lies together, because each pass along the
+/// The data of a step about a node and of the element below it. It lies together, because each pass along the
 /// chain needs most of it.
 #[derive(Clone, Copy, Debug)]
 struct Link {

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 pub struct TableFormat {
     /// The ending of its files.
     pub name: &'static str,
-    /// Begins a table at its present path, whose final path is told in messages.
+    /// Begins a table at its present path, whose final path is reported in messages.
     create: fn((PathBuf, PathBuf), &[Column]) -> Begun,
 }
 

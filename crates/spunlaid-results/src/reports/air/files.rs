@@ -130,9 +130,9 @@ pub fn summary(case: &Case, slices: &Slices, replicate: u64, notes: &[String]) -
     let plane = |i: usize| {
         let PlaneFindings { mean, rms, expected_rms } = PlaneFindings::new(case, slices, i);
         let points = slices.planes[i].points;
-        let told =
+        let object =
             json!({"points": points, "mean_m_s": mean, "rms_m_s": rms, "expected_rms_m_s": expected_rms});
-        (PLANES[i], told)
+        (PLANES[i], object)
     };
     let content = json!({
         "replicate": replicate + 1,

@@ -21,7 +21,7 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
     };
     let sides = webs[0].fabric["patches"].as_array().into_iter().flatten();
     for side in sides.filter_map(|patch| patch["patch_m"].as_f64()) {
-        let told =
+        let measures =
             if are_alike(side, PATCH) { &FABRIC_PATCH_MEASURES[1..] } else { &FABRIC_PATCH_MEASURES[1..2] };
         let size = significant(side * 1e3, 3);
         let words = [&format!(", patches of {size} mm"), &format!("_{size}_mm")];
@@ -29,7 +29,7 @@ pub(super) fn in_common(webs: [&Web; 2]) -> Vec<ComparedMeasure> {
             SQUARE_OF_CV => [webs[0].squared(side, a), webs[1].squared(side, b)],
             _ => [a, b],
         };
-        found.extend(both(told, words.map(String::as_str), parts("patches", "patch_m", side), squared));
+        found.extend(both(measures, words.map(String::as_str), parts("patches", "patch_m", side), squared));
     }
     for (direction, list) in [("MD", "strips_md"), ("CD", "strips_cd")] {
         let words = [&format!(", strips along {direction}"), &format!("_{list}")];
@@ -53,11 +53,11 @@ fn both<T>(
     parts: [(&Json, &str); 2],
     known: impl Fn(&str, [WebNumber; 2]) -> [WebNumber; 2],
 ) -> Vec<ComparedMeasure> {
-    let in_common = |told: &Measure<T>| {
-        let [a, b] = parts.map(|(json, name)| number(&json[told.entry()], name));
-        let values = known(told.entry(), [a?, b?]);
-        let unit = told.unit.readable(values[0].value);
-        let (label, column) = (format!("{}{of}", told.label), format!("{}{ending}", told.entry()));
+    let in_common = |declared: &Measure<T>| {
+        let [a, b] = parts.map(|(json, name)| number(&json[declared.entry()], name));
+        let values = known(declared.entry(), [a?, b?]);
+        let unit = declared.unit.readable(values[0].value);
+        let (label, column) = (format!("{}{of}", declared.label), format!("{}{ending}", declared.entry()));
         Some(measure(label, column, (unit.shown, unit.per_si), values.map(Ok), None))
     };
     measures.iter().filter_map(in_common).collect()

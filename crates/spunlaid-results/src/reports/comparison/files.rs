@@ -61,15 +61,15 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
     // Of patches that a web does not have, the mean is null; a web has no number of replicates.
     let of_one = |estimate: &Estimate| {
         let finite = estimate.values.iter().filter(|value| value.is_finite()).count();
-        let mut told = mean(estimate);
+        let mut object = mean(estimate);
         if !estimate.values.is_empty() {
-            told["n"] = finite.into();
+            object["n"] = finite.into();
         }
-        told
+        object
     };
     let measure = |compared: &ComparedMeasure| {
         let ([against, run], difference) = (&compared.means, compared.difference);
-        let mut told = json!({
+        let mut object = json!({
             "against": of_one(against),
             "run": of_one(run),
             "difference": difference.map(|d| d.value),
@@ -79,9 +79,9 @@ pub fn summary(comparisons: &[Comparison], notes: &[String]) -> String {
             "significant": difference.map(|d| d.is_significant()),
         });
         for (name, why) in [("remark", &compared.remark), ("no_verdict", &compared.doubt)] {
-            why.iter().for_each(|why| told[name] = why.as_str().into());
+            why.iter().for_each(|why| object[name] = why.as_str().into());
         }
-        (compared.column.clone(), told)
+        (compared.column.clone(), object)
     };
     let comparison = |comparison: &Comparison| {
         let causes: Vec<&Json> = comparison.causes.iter().map(|cause| &cause.json).collect();

@@ -33,7 +33,7 @@ pub struct Folders<'a> {
 
 impl<'a> Folders<'a> {
     /// # Errors
-    /// If there are fewer than two, or more than can be told from one another in a figure.
+    /// If there are fewer than two, or more than can be distinguished from one another in a figure.
     pub fn new(folders: &'a [PathBuf]) -> Result<Self, Failure> {
         let count = folders.len();
         if count < 2 {

@@ -19,8 +19,8 @@ pub(super) struct Web {
     pub(super) weight: Option<f64>,
     /// By the side of the patches.
     pub(super) patches: Vec<Patch>,
-    /// Sides of the patches whose CV is not told, each with the reason.
-    pub(super) untold: Vec<(f64, String)>,
+    /// Sides of the patches whose CV is not reported, each with the reason.
+    pub(super) not_reported: Vec<(f64, String)>,
     /// Cloudiness index and share of the texture along the machine direction.
     pub(super) clouds: [Option<WebNumber>; 2],
     /// Whether it comes from a camera, which blurs.
@@ -83,7 +83,7 @@ impl Web {
             Some(Patch { side: json["patch_m"].as_f64()?, cv: cv.with_all_causes(&json["cv_total_error"]) })
         };
         let is_null = |json: &&Json| json.get("cv").is_some_and(Json::is_null);
-        let untold = all.iter().filter(is_null).filter_map(|json| {
+        let not_reported = all.iter().filter(is_null).filter_map(|json| {
             Some((json["patch_m"].as_f64()?, json["no_interval"].as_str().unwrap_or_default().to_owned()))
         });
         let clouds = [("cloudiness", "index"), ("texture_md", "mean")]
@@ -94,7 +94,7 @@ impl Web {
             weight: web["basis_weight_kg_m2"].as_f64(),
             // Older folders have no error but that by chance.
             patches: all.iter().filter_map(patch).collect(),
-            untold: untold.collect(),
+            not_reported: not_reported.collect(),
             clouds,
             // A map of basis weight has no blur of a camera.
             has_camera: all.iter().any(|patch| patch["blur_of_a_pixel"].is_number()),
@@ -109,7 +109,7 @@ impl Web {
 
     /// Sides of its patches [m], of those without a CV too.
     pub(super) fn sides(&self) -> impl Iterator<Item = f64> {
-        self.patches.iter().map(|patch| patch.side).chain(self.untold.iter().map(|(side, _)| *side))
+        self.patches.iter().map(|patch| patch.side).chain(self.not_reported.iter().map(|(side, _)| *side))
     }
 
     /// The CV over patches of a size, or why there is none.
@@ -134,7 +134,7 @@ impl Web {
     fn missing(&self, side: f64) -> String {
         let shorter = |map: &MapFile| map.sides().into_iter().fold(f64::INFINITY, f64::min);
         let name = &self.name;
-        if let Some((_, why)) = self.untold.iter().find(|(patch, _)| are_alike(*patch, side)) {
+        if let Some((_, why)) = self.not_reported.iter().find(|(patch, _)| are_alike(*patch, side)) {
             return format!("{why} ({name})");
         }
         match &self.map {
@@ -258,7 +258,7 @@ pub(super) fn measure(
     ComparedMeasure { label, column, unit, per_si, means, difference, remark, doubt }
 }
 
-/// That the interval of a number reaches far further to one side than its standard error tells.
+/// That the interval of a number reaches far further to one side than its standard error reports.
 fn far_end(number: &WebNumber, up: bool, per_si: f64) -> Option<String> {
     let ([low, high], error) = (number.interval()?, number.standard_error?);
     let is_far = number.error_towards(up)? > FAR * error;

@@ -186,12 +186,12 @@ mod tests {
                 assert!((distance(power) / distance(1) - 1.0).abs() < 1e-9, "{power}");
             }
             let verdict = of(1).cells()[3].clone();
-            let told = if first.value > 1.0 && !is_beyond {
+            let expected = if first.value > 1.0 && !is_beyond {
                 "not significant: 8.6 has the 95 % interval 7.45 to 23.8"
             } else {
                 "significant"
             };
-            assert_eq!(verdict, told);
+            assert_eq!(verdict, expected);
         }
     }
 }

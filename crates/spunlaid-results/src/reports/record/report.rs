@@ -68,14 +68,15 @@ fn table<T>(measures: &'static [Measure<T>], found: &T) -> Table {
 
 /// With the numbers of the table below it, and their intervals.
 fn headline(analysis: &Analysis) -> String {
-    let told = |name: &str| {
+    let shown_of = |name: &str| {
         let row = measure::measured(RECORD_MEASURES, analysis).find(|row| row.measure.label == name);
         row.map_or_else(String::new, |row| {
             let [value, low, high] = with_interval(&row, analysis);
             format!("{value}{THIN}{} ({low} to {high})", row.measure.unit.shown)
         })
     };
-    let [velocity, intensity, length] = ["Mean velocity", "Turbulence intensity", "Length scale"].map(told);
+    let [velocity, intensity, length] =
+        ["Mean velocity", "Turbulence intensity", "Length scale"].map(shown_of);
     format!(
         "The air flows at {velocity} with a turbulence intensity of {intensity} and a length scale of {length}."
     )

@@ -12,7 +12,7 @@ pub(super) const FINE_ENOUGH: f64 = 0.03;
 pub(super) const SURE: f64 = 2.0;
 
 /// Change of unknown order from which on a number has not converged with the mesh [-]: it has no error then, because
-/// nobody knows how far it is from that of very fine elements.
+/// its distance from that of very fine elements is not known.
 const NOT_CONVERGED: f64 = 0.1;
 
 /// Changes of a check that are surely beyond what is small enough, and whether the errors contain them.
@@ -75,7 +75,7 @@ fn least(check: &FinerCheck, change: &Change) -> f64 {
 }
 
 /// The error of a statistic, where the order of convergence is known; else what the finer flights change, which is the
-/// least that can be told.
+/// least that can be reported.
 pub(super) fn errors(check: &FinerCheck, change: &Change) -> Vec<Estimate> {
     let times = |estimate: &Estimate, factor: f64| Estimate {
         mean: factor * estimate.mean,
@@ -88,9 +88,9 @@ pub(super) fn errors(check: &FinerCheck, change: &Change) -> Vec<Estimate> {
     }
 }
 
-/// What a check tells of the error of a statistic: `frequency is off by +25 ± 2 %`, or what differs where its order is
+/// What a check reports of the error of a number: `frequency is off by +25 ± 2 %`, or what differs where its order is
 /// not known.
-pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
+pub(super) fn describe_change(check: &FinerCheck, change: &Change, case: &Case) -> String {
     let (label, errors) = (change.statistic.label.to_lowercase(), errors(check, change));
     let at = |i: usize| errors.get(i).map(percent).unwrap_or_default();
     let is_limit = check.refined == Refinement::TimeStep && check.is_resolved;
@@ -109,8 +109,8 @@ pub(super) fn told(check: &FinerCheck, change: &Change, case: &Case) -> String {
 }
 
 /// All that a check finds beyond its limit; none if there is nothing.
-fn all_told(check: &FinerCheck, case: &Case) -> Option<String> {
-    let each: Vec<String> = beyond(check, true).map(|change| told(check, change, case)).collect();
+fn describe_changes(check: &FinerCheck, case: &Case) -> Option<String> {
+    let each: Vec<String> = beyond(check, true).map(|change| describe_change(check, change, case)).collect();
     let is_open = |change: &Change| check.error_over(change).is_none() && change.from_quarter.is_some();
     let end = match beyond(check, true).any(is_open) {
         true => ", which does not show how far this is from very fine elements",
@@ -190,8 +190,8 @@ pub fn notes(checks: &FinerChecks, case: &Case) -> Vec<String> {
             1 => "a single replicate has no error that could contain this",
             _ => "the errors contain this",
         };
-        let told = all_told(check, case)?;
-        Some(format!("the check of the {name} is beyond its limit of {limit} %: {told}; {kept}"))
+        let changes = describe_changes(check, case)?;
+        Some(format!("the check of the {name} is beyond its limit of {limit} %: {changes}; {kept}"))
     };
     let each = [(&checks.step, Refinement::TimeStep), (&checks.mesh, Refinement::Elements)];
     let of_each = each.into_iter().filter_map(|(check, refined)| match check {

@@ -1,7 +1,7 @@
 //! What a finer time step and finer elements change, in words. Terminal and report say the same.
 
 use super::doubt::{
-    FINE_ENOUGH, SURE, compared_with, counted, errors, finer_elements, percent, told, unchecked,
+    FINE_ENOUGH, SURE, compared_with, counted, describe_change, errors, finer_elements, percent, unchecked,
 };
 use crate::numbers::{capitalised, significant};
 use spunlaid::air::EddyModel;
@@ -32,7 +32,7 @@ fn words_of_check(check: &FinerCheck, case: &Case, results: &Results) -> CheckWo
     );
     let path = check.path.iter();
     let path = path.map(|path| format!("Path of the free end differs by {} of its amplitude", percent(path)));
-    let found = check.changes.iter().map(|change| capitalised(&told(check, change, case)));
+    let found = check.changes.iter().map(|change| capitalised(&describe_change(check, change, case)));
     let part = check.is_of_a_part(&case.run).then(|| {
         format!(
             "This is so in the first {} of {} s; the whole run may differ by more or less",

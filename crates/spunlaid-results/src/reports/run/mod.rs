@@ -69,7 +69,7 @@ pub struct Flown {
 /// With a results folder, an interruption ends the flights and is no error if a fibre has landed.
 ///
 /// * `with_shapes` – whether shapes are kept
-/// * `found` – told the number of replicates that an interrupted process has left, if there are any
+/// * `found` – called with the number of replicates that an interrupted process has left, if there are any
 ///
 /// # Errors
 /// If too few fibres are left ([`fly_for_checks`]), a table cannot be written, or the flights are interrupted.

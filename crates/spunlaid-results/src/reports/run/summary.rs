@@ -71,7 +71,7 @@ pub fn lost_fibres(lost: &[LostFibre]) -> Json {
 /// turbulence: `path_difference`, the rms distance between two paths, divided by the amplitude; and the relative
 /// changes of statistics.
 fn check(check: &FinerCheck) -> Json {
-    let mut told = json!({
+    let mut object = json!({
         "duration_s": check.duration,
         // Computing time, counted in steps of elements.
         "share_of_run": check.share_of_run,
@@ -81,9 +81,9 @@ fn check(check: &FinerCheck) -> Json {
     });
     for (name, difference, error_over_difference) in check.differences() {
         let factor = json!({"error_over_difference": error_over_difference});
-        told[name] = joined([with_values(difference), factor]);
+        object[name] = joined([with_values(difference), factor]);
     }
-    told
+    object
 }
 
 /// A result over the replicates. Some have a median or a largest value, which then represents all replicates; a mean,

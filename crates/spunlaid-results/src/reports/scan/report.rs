@@ -85,20 +85,21 @@ pub fn scan_report<'a>(
 
 /// What is known of the CV over patches; where it is assumed, nothing.
 fn judged(findings: &Findings, PatchFindings { patch_cv, interval, .. }: &PatchFindings) -> Judged {
-    let told = findings.guess.is_none().then_some((patch_cv.cv, patch_cv.standard_error));
+    let reported = findings.assumption.is_none().then_some((patch_cv.cv, patch_cv.standard_error));
     let (patch, of_map, chance) = (patch_cv.patch, patch_cv.cv, None);
-    Judged { patch, of_map, told, interval: interval.ok().filter(|_| told.is_some()), chance }
+    Judged { patch, of_map, reported, interval: interval.ok().filter(|_| reported.is_some()), chance }
 }
 
 fn title(findings: &Findings) -> String {
     let nearest_patch = nearest_to_seen(findings.patches.iter().map(|patch| patch.patch_cv.patch));
     let patch = nearest_patch.map(|i| &findings.patches[i].patch_cv);
-    let (Some(guess), Some(patch)) = (findings.guess, patch) else {
+    let (Some(assumption), Some(patch)) = (findings.assumption, patch) else {
         return headline(patch, false, None);
     };
-    let varies =
-        |by: &str| format!("CV {by} {} over {} patches: {guess}.", rough(patch), millimetres(patch.patch));
-    match guess {
+    let varies = |by: &str| {
+        format!("CV {by} {} over {} patches: {assumption}.", rough(patch), millimetres(patch.patch))
+    };
+    match assumption {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
         ScanWarning::White => varies("at least"),
         ScanWarning::Shading => varies("about"),
@@ -122,7 +123,7 @@ fn cv(patch: &PatchCv) -> String {
 /// How uneven it is.
 fn uneven(findings: &Findings) -> Section<'static> {
     let heads = ["Patch", "CV", "95 % interval"].into_iter();
-    let heads = heads.chain(told_of(findings).map(|measure| measure.label));
+    let heads = heads.chain(reported_measures(findings).map(|measure| measure.label));
     let is_map = is_map(findings);
     Section::new("verdict", "What makes it non-uniform")
         .paragraphs(verdict(findings))
@@ -183,7 +184,7 @@ fn is_map(findings: &Findings) -> bool {
 }
 
 /// The measures that stand behind the interval.
-fn told_of(findings: &Findings) -> impl Iterator<Item = &'static Measure<PatchFindings>> + use<'_> {
+fn reported_measures(findings: &Findings) -> impl Iterator<Item = &'static Measure<PatchFindings>> + use<'_> {
     let is_known = |measure: &&'static Measure<PatchFindings>| {
         findings.patches.iter().any(|patch| measure.of(patch).value.is_some())
     };
@@ -201,7 +202,7 @@ fn row(findings: &Findings, patch: &PatchFindings) -> Row {
         ),
     ];
     // The CV stands before the interval.
-    cells.extend(told_of(findings).map(|measure| shown(&measure.of(patch)).unwrap_or_default()));
+    cells.extend(reported_measures(findings).map(|measure| shown(&measure.of(patch)).unwrap_or_default()));
     Row::new(millimetres(patch.patch_cv.patch), cells)
 }
 
@@ -231,7 +232,7 @@ fn verdict(findings: &Findings) -> Vec<String> {
         "Cloudiness index, wavelengths from {} to {}: {}.",
         millimetres(SEEN[0]),
         millimetres(SEEN[1]),
-        per_cent(index, error.filter(|_| findings.guess.is_none()))
+        per_cent(index, error.filter(|_| findings.assumption.is_none()))
     ));
     let of_texture = format!(
         "Texture along the machine direction: {}; ½ is no direction, 1 is all fine streaks along the machine \

@@ -53,20 +53,20 @@ pub fn part_of_case(case: &Case) -> Option<Json> {
 
 /// The measures of a spinline. Those of a curtain are of its first row.
 fn part(SpinResults { rows, influences }: &SpinResults) -> Json {
-    let mut told = rows.first().map_or_else(|| json!({}), measures);
+    let mut object = rows.first().map_or_else(|| json!({}), measures);
     if rows.len() > 1 {
-        told["rows"] = rows.iter().map(measures).collect();
+        object["rows"] = rows.iter().map(measures).collect();
     }
-    told["influences"] = influences.iter().map(summarise_influence).collect();
-    told["model_error"] = model_error(rows.first().is_some_and(|row| row.has_low_birefringence)).into();
-    told
+    object["influences"] = influences.iter().map(summarise_influence).collect();
+    object["model_error"] = model_error(rows.first().is_some_and(|row| row.has_low_birefringence)).into();
+    object
 }
 
 fn measures(row: &Solution) -> Json {
-    let mut told = values(SPINLINE_MEASURES, row);
-    told["solidification"]["by"] = row.solidification.by.name().into();
-    told["second_steady_state"] = row.has_second.into();
-    told
+    let mut object = values(SPINLINE_MEASURES, row);
+    object["solidification"]["by"] = row.solidification.by.name().into();
+    object["second_steady_state"] = row.has_second.into();
+    object
 }
 
 /// What is changed, how, and what it does.
@@ -104,7 +104,7 @@ pub const COLUMNS: &[StationColumn] = &[
 ];
 
 /// Writes the stations of all threads, one thread after the other. If there are several, the columns before those of
-/// [`COLUMNS`] tell them apart: `layer` where the layers of a web have different spinlines, and `row` of a curtain.
+/// [`COLUMNS`] distinguish them: `layer` where the layers of a web have different spinlines, and `row` of a curtain.
 ///
 /// * `spinlines` – the number of the layer, from 1, and the solution of each row
 pub fn write_stations(staging: &Staging<'_>, spinlines: &[(usize, &[Solution])]) -> Result<(), Failure> {

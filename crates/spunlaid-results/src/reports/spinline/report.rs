@@ -13,8 +13,8 @@ use spunlaid_charts::Figure;
 
 /// Figures on the first screen: speed and temperature.
 const MAIN: usize = 2;
-/// Influences that are told in a sentence each.
-const TOLD: usize = 3;
+/// Influences that are reported in a sentence each.
+const LISTED: usize = 3;
 
 /// A spinline.
 ///
@@ -70,10 +70,10 @@ pub(crate) fn section<'a>(
     let results = first.map(|first| Table::of_measures(SPINLINE_MEASURES, first)).unwrap_or_default();
     let is_low = first.is_some_and(|row| row.has_low_birefringence);
     let section = section.paragraphs(sentences.into_iter().chain(curtain(rows)));
-    let told: Vec<String> = influences.iter().take(TOLD).map(influence).collect();
-    let section = match &told[..] {
+    let sentences: Vec<String> = influences.iter().take(LISTED).map(influence).collect();
+    let section = match &sentences[..] {
         [] => section,
-        _ => section.heading("What decides the diameter").with(Part::List(told)),
+        _ => section.heading("What decides the diameter").with(Part::List(sentences)),
     };
     section
         .heading("All numbers")

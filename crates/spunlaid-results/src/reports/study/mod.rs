@@ -189,8 +189,8 @@ impl Contents for FoundStudy<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
         let figures = study_figures(study, &self.results, &self.rankings.of_measures);
-        let told = (&self.rankings.of_measures[..], refusal.as_deref(), &self.claims[..]);
-        let report = || Ok(study_report(study, &self.results, told, &figures, [text, base_text]));
+        let judged = (&self.rankings.of_measures[..], refusal.as_deref(), &self.claims[..]);
+        let report = || Ok(study_report(study, &self.results, judged, &figures, [text, base_text]));
         maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
     }
 }

@@ -21,7 +21,7 @@ const IN_SHORT: [&str; 4] = ["cv", "basis_weight", "md_cd_ratio", "thin_places"]
 /// A study.
 ///
 /// * `results` – of every point
-/// * `rankings`, `claims` – main effects; empty if the study cannot tell them, and why; and claims, judged
+/// * `rankings`, `claims` – main effects; empty if the study cannot give them, and why; and claims, judged
 /// * `texts` – the study as a file, and the case or web that it varies
 pub fn study_report<'a>(
     study: &Study,
@@ -52,7 +52,7 @@ pub fn study_report<'a>(
         .with(files(study, texts))
 }
 
-/// What matters most; why that cannot be told; or nothing if there is nothing to choose from.
+/// What matters most; why that cannot be reported; or nothing if there is nothing to choose from.
 fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option<Section<'static>> {
     let section = Section::new("ranking", "What matters most");
     if let Some(refusal) = refusal {
@@ -195,7 +195,7 @@ fn question(study: &Study) -> String {
 }
 
 /// What matters most for the first quantity of the tables, and by how much; that nothing does beyond chance;
-/// or none if the study does not tell.
+/// or none if the study does not give it.
 fn answer(study: &Study, rankings: &[Ranking]) -> Option<String> {
     let quantity = shown::quantities(study).into_iter().find(|i| ranking_of(rankings, *i).is_some())?;
     let effects = &ranking_of(rankings, quantity)?.effects;

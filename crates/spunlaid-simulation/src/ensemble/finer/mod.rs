@@ -217,7 +217,7 @@ impl FinerCheck {
     }
 
     /// The error of a statistic over the change that was found [-]; `None` where the order of convergence is not
-    /// known, so that the change is the least that can be told.
+    /// known, so that the change is the least that can be reported.
     ///
     /// Half the elements leave a quarter of the error, so the change is three quarters of it, where a second
     /// refinement shows this order. A laid fibre folds more finely than its elements, and has no order.

@@ -164,7 +164,7 @@ impl Sources {
         Ok(merged.finish(curtain.filaments_per_metre))
     }
 
-    /// Whether the force by the drag is that by the balance of momentum, as far as the flights tell. It is not while
+    /// Whether the force by the drag is that by the balance of momentum, as far as the flights show. It is not while
     /// the filaments still come down or swing themselves in: their momentum then changes, and the sources are those
     /// of no steady air.
     pub fn are_steady(&self) -> bool {

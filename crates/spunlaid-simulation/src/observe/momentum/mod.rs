@@ -4,7 +4,7 @@
 //! ```text
 //! nodes of a flight, or of a snapshot → NodeStates → MomentumBalance, sums over instants in classes of distance
 //!   → force on the air down to each class and to the belt, fibre per length of the way
-//!   └ StretchedBalance: of fibres in one air, in stretches of time that tell the error
+//!   └ StretchedBalance: of fibres in one air, in stretches of time that give the error
 //! ```
 
 #[cfg(test)]
@@ -27,7 +27,7 @@ const THIRD: f64 = 0.06;
 /// a node at `x` counts as `φ(x) = (b − x)/(b − a)`, one above the class and zero below it, and the momentum that
 /// passes a plane is `m v_x²/(b − a)` of each node in the class. Sums over a class are therefore the means of those
 /// over the classes that it is divided into. The drag is the force itself; the balance checks it, and stands for it
-/// where a scheme does not tell the drag.                                                 theory.md (116)
+/// where a scheme does not give the drag.                                                 theory.md (116)
 #[derive(Clone, Debug)]
 pub(crate) struct MomentumBalance {
     distance: f64,
@@ -289,7 +289,7 @@ pub(crate) fn tension_lag(flight: &Flight) -> f64 {
     if flight.scheme() == Scheme::ImplicitTension { flight.time_step() } else { 0.0 }
 }
 
-/// Length of a stretch of time that hardly knows of the next but one, in times from the inlet to the belt.
+/// Length of a stretch of time that is hardly correlated with the next but one, in times from the inlet to the belt.
 const WAYS_OF_STRETCH: f64 = 2.0;
 
 /// Balances of one or more fibres of a case in stretches of time, one after the other.

@@ -135,7 +135,7 @@ fn analytic_a_thread_without_drag_drives_no_air() {
 /// Over many series of values, each of which keeps a part of the one before, the reported variance of the mean is
 /// that of the weighted sums of the known covariances `kᵈ`, and its scatter the sum of all.
 #[test]
-fn stat_the_error_of_a_series_knows_what_its_values_have_in_common() {
+fn stat_the_error_of_a_series_contains_what_its_values_have_in_common() {
     const SERIES: usize = 4000;
     const VALUES: usize = 12;
     let mut state = 1_u64;

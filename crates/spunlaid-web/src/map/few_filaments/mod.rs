@@ -42,7 +42,7 @@ pub enum Arrangement {
 pub struct Subsample<'a> {
     /// The sheet on which they are laid, with the patches that are looked at.
     pub sheet: &'a Sheet,
-    /// Number of blocks of the sheet that are told apart, across and along.
+    /// Number of blocks of the sheet that are distinguished, across and along.
     pub blocks: [usize; 2],
     /// Of each row of filaments the curves in order across, as places on the sheet in cross and in machine
     /// direction [m]; None of one that was lost.
@@ -66,11 +66,11 @@ pub struct FilledMaps {
     pub of_all: Map,
     /// From every second one of them.
     pub of_every_second: Map,
-    /// Sides of the patches over which they tell the CV [m].
+    /// Sides of the patches over which they give the CV [m].
     pub patches: Range<f64>,
 }
 
-/// Side of a patch of a row below which its CV knows the pitch [m].
+/// Side of a patch of a row below which its CV depends on the pitch [m].
 pub fn small_patch(pitch: f64) -> f64 {
     PITCHES * pitch
 }
@@ -84,7 +84,7 @@ const PITCHES: f64 = 2.5;
 /// How far smaller patches are off, as a share of the CV, whatever halves say: 0.3 to 2.4 % in four lines of
 /// which all filaments were simulated.
 pub(super) const SMALL: f64 = 0.02;
-/// Side of a block, which is larger than a cloud, so that one hardly knows of the next [m].
+/// Side of a block, which is larger than a cloud, so that one is hardly correlated with the next [m].
 const BLOCK: f64 = 0.05;
 
 /// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half
@@ -125,7 +125,7 @@ impl Subsample<'_> {
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
         let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
         let area = sheet[0] * sheet[1];
-        let mut told = SubsampleEstimate {
+        let mut estimate = SubsampleEstimate {
             filaments,
             lost,
             sheet,
@@ -139,7 +139,7 @@ impl Subsample<'_> {
         let mut of_variance: Vec<(f64, f64)> = Vec::new();
         let clouds = filled.map(|filled| [&filled.of_all, &filled.of_every_second].map(Clouds::measure));
         if let Some([Some(all), Some(half)]) = clouds {
-            told.octaves = all.apart(&half);
+            estimate.octaves = all.apart(&half);
         }
         for ((found, blocks), (products, patch)) in
             found.into_iter().zip(products.into_iter().zip(&self.sheet.patches))
@@ -180,7 +180,7 @@ impl Subsample<'_> {
             let of_filled = filled.and_then(|filled| patch_cv(&filled.of_all, self.side(*patch)));
             let of_places = if self.arrangement == Arrangement::AtRandom { whole[1] } else { 0.0 };
             if let Some((mut by_filling, of_filled)) = by_filling {
-                told.blocks.push(of_filled);
+                estimate.blocks.push(of_filled);
                 // Filled maps of all and of every second one may agree and both be wrong. In a slot the few
                 // say the CV without them too: what is between the two beyond its error is one of the filling.
                 if self.arrangement == Arrangement::Slot {
@@ -188,16 +188,16 @@ impl Subsample<'_> {
                     by_filling.by_pitch = by_filling.by_pitch.max(apart.max(0.0).sqrt());
                 }
                 of_variance.push((*patch, 2.0 * by_filling.by_pitch / by_filling.cv));
-                told.cvs.push(by_filling);
+                estimate.cvs.push(by_filling);
                 continue;
             }
-            told.blocks.push(blocks);
+            estimate.blocks.push(blocks);
             let beyond_filling = of_filled.map_or(0.0, |filled| whole[0] - of_places - filled.cv * filled.cv);
             if let Some(filled) = of_filled {
                 of_variance
                     .push((*patch, (2.0 * by_pitch / cv).hypot(beyond_filling / (filled.cv * filled.cv))));
             }
-            told.cvs.push(SubsampleCv {
+            estimate.cvs.push(SubsampleCv {
                 patch: *patch,
                 cv,
                 // The waves of the few hold the chance of their depths too, which is an error by the few. The
@@ -211,14 +211,14 @@ impl Subsample<'_> {
                 beyond_sheet: 0.0,
             });
         }
-        for ([from, to], error) in &mut told.octaves {
+        for ([from, to], error) in &mut estimate.octaves {
             *error = error.max(error_of_waves([*from, *to], &of_variance));
         }
-        Ok(told)
+        Ok(estimate)
     }
 
     /// The CV of the map in which the filaments between the simulated ones are filled in, and its blocks; None over
-    /// patches that it does not tell.
+    /// patches that it does not give.
     ///
     /// * `few` – CV of the simulated ones alone
     /// * `slot` – part of CV² that filaments of a slot make each for itself
@@ -248,7 +248,7 @@ impl Subsample<'_> {
         // Filled-in filaments lie more alike than they do, and lack what is missing. Over small patches the two
         // errors may cancel in the halves, which then say too little.
         let small = if patch < small_patch(self.pitch()) { SMALL * cv } else { 0.0 };
-        let told = SubsampleCv {
+        let estimate = SubsampleCv {
             patch,
             cv,
             by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
@@ -259,7 +259,7 @@ impl Subsample<'_> {
             beyond_filling: 0.0,
             beyond_sheet: 0.0,
         };
-        Some((told, of_blocks))
+        Some((estimate, of_blocks))
     }
 
     /// Distance of neighbours in the row that has most of them [m].

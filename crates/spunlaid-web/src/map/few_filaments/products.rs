@@ -18,8 +18,8 @@ pub(super) struct Products {
 }
 
 impl Products {
-    /// The variance of what they tell of CV², because each filament hangs at a depth of its own: the sum of
-    /// squares of what a filament at another depth would change, told by neighbours.      theory.md (83e)
+    /// The variance of what they give of CV², because each filament hangs at a depth of its own: the sum of
+    /// squares of what a filament at another depth would change, reported by neighbours.      theory.md (83e)
     ///
     /// What two filaments have in common by chance is in what either of them changes, so it would count twice. It
     /// is what the even and the odd ones do not give alike.

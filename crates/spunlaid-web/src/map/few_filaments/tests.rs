@@ -166,12 +166,12 @@ fn limit_independent_filaments_have_an_own_part_only() {
 /// Filaments that share four fifths of their variance with their neighbours and have the rest for themselves,
 /// as in a slot: every tenth one says what all do, and how far it is off.
 #[test]
-fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
+fn stat_every_tenth_filament_of_a_slot_gives_the_cv_of_all() {
     const SHARED: f64 = 0.8;
     const FIELDS: u64 = 6;
     let sheet = sheet(&[2.0, 5.0, 10.0]);
     // Of each size of patches: mean of what is found over what is right, of the few alone over it, and of the
-    // squares of the deviation and of the told error.
+    // squares of the deviation and of the reported error.
     let mut sums = [[0.0; 4]; 3];
     for seed in 0..FIELDS {
         let field = Field::new(3 + seed);
@@ -186,19 +186,19 @@ fn stat_every_tenth_filament_of_a_slot_tells_the_cv_of_all() {
             sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part / FIELDS as f64);
         }
     }
-    for [found, few, squares, told] in sums {
-        println!("{found:.3}, few {few:.3}, off by {:.3}, told {:.3}", squares.sqrt(), told.sqrt());
+    for [found, few, squares, estimated] in sums {
+        println!("{found:.3}, few {few:.3}, off by {:.3}, estimated {:.3}", squares.sqrt(), estimated.sqrt());
         // The 48 depths make some per cent in each field.
         assert!((found - 1.0).abs() < 0.03, "{found}");
         // Without the correction they are far off.
         assert!(few > 1.05, "{few}");
-        assert!((0.2..4.0).contains(&(told / squares)), "{told} {squares}");
+        assert!((0.2..4.0).contains(&(estimated / squares)), "{estimated} {squares}");
     }
 }
 
-/// How far a few depths of a slot are off from all, against the told error, where the even and the odd half
+/// How far a few depths of a slot are off from all, against the reported error, where the even and the odd half
 /// often agree by chance: many choices of the simulated filaments in one field. On the short sheet a filament has
-/// a fifth more or less fibre than another one, and so has the mean of all: that tells nothing of the CV.
+/// a fifth more or less fibre than another one, and so has the mean of all: that reports nothing of the CV.
 #[test]
 fn stat_the_error_of_few_depths_is_their_scatter() {
     const SHARED: f64 = 0.7;
@@ -221,17 +221,17 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
             let count = CHOICES as f64;
             let mean = found.iter().map(|cvs| cvs[patch].cv).sum::<f64>() / count;
             let scatter = found.iter().map(|cvs| (cvs[patch].cv - mean).powi(2)).sum::<f64>() / (count - 1.0);
-            let told = found.iter().map(|cvs| cvs[patch].by_pitch.powi(2)).sum::<f64>() / count;
+            let estimated = found.iter().map(|cvs| cvs[patch].by_pitch.powi(2)).sum::<f64>() / count;
             let least = found.iter().map(|cvs| cvs[patch].by_pitch).fold(f64::INFINITY, f64::min);
-            let ratio = (told / scatter).sqrt();
+            let ratio = (estimated / scatter).sqrt();
             println!(
-                "cv {mean:.4}, scatter {:.4}, told {:.4}, least {least:.4}",
+                "cv {mean:.4}, scatter {:.4}, estimated {:.4}, least {least:.4}",
                 scatter.sqrt(),
-                told.sqrt()
+                estimated.sqrt()
             );
-            // 24 choices know their scatter within 15 %, and what is told holds the pitch too.
+            // 24 choices know their scatter within 15 %, and what is reported holds the pitch too.
             assert!((0.75..1.5).contains(&ratio), "{ratio}");
-            // No choice has an error near to nothing, as the halves of one had, which told a fifth of the scatter.
+            // No choice has an error near to nothing, as the halves of one had, which reported a fifth of the scatter.
             assert!(least > 0.4 * scatter.sqrt(), "{least} {}", scatter.sqrt());
         }
     }
@@ -239,7 +239,7 @@ fn stat_the_error_of_few_depths_is_their_scatter() {
 
 /// A row of filaments at random places of one field: an even row of a few gives the CV, with what the places do.
 #[test]
-fn stat_an_even_row_tells_the_cv_of_random_places() {
+fn stat_an_even_row_gives_the_cv_of_random_places() {
     const WEBS: u64 = 12;
     let sheet = sheet(&[5.0]);
     let field = Field::new(4);
@@ -263,9 +263,9 @@ fn stat_an_even_row_tells_the_cv_of_random_places() {
 }
 
 /// Over patches as small as the pitch, the row that is simulated is a comb; with the filaments between them
-/// filled in, it tells what random places do.
+/// filled in, it reports what random places do.
 #[test]
-fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
+fn stat_small_patches_of_random_places_are_given_by_the_filled_row() {
     const WEBS: u64 = 6;
     let (sheet, field) = (sheet(&[2.0]), Field::new(4));
     let row = |count: usize| even(count).map(|z| field.curve(z));
@@ -284,7 +284,7 @@ fn stat_small_patches_of_random_places_are_told_by_the_filled_row() {
     // Six webs, whose streaks differ.
     assert!((found.cv / mean - 1.0).abs() < 0.06, "{found:?} {mean}");
     assert!(comb.cv > 1.08 * mean, "{comb:?} {mean}");
-    // The two halves tell the same here, and a filling has an error all the same.
+    // The two halves give the same here, and a filling has an error all the same.
     assert!(found.by_pitch > 0.01 * found.cv && found.by_pitch < 0.03 * found.cv, "{found:?}");
 }
 

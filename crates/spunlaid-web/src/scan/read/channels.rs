@@ -7,7 +7,7 @@ pub(super) enum Extra {
     Opacity,
     /// How opaque the pixel is; its colours have been multiplied by that.
     Multiplied,
-    /// The file does not tell. It is taken as opacity if it is a mask.
+    /// The file does not say. It is taken as opacity if it is a mask.
     Unknown,
 }
 

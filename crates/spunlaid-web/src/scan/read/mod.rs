@@ -17,7 +17,7 @@ use std::path::Path;
 pub(crate) const MOST_PIXELS: usize = 1 << 26;
 /// Least number of pixels either way.
 pub(crate) const LEAST_SIDE: usize = 16;
-/// Pixels of a scan as a file may tell them [m]. Others are the mistake of a unit.
+/// Pixels of a scan as a file may give them [m]. Others are the mistake of a unit.
 const SCANNED: std::ops::RangeInclusive<f64> = 0.1e-6..=5e-3;
 /// The sides of a square pixel differ by less than this share.
 const SQUARE: f64 = 1e-3;
@@ -31,7 +31,7 @@ struct RawPicture {
     rows: usize,
     full_scale: Option<f64>,
     weight_of_black: Option<f64>,
-    /// Width and height of a pixel, if the file tells them [m].
+    /// Width and height of a pixel, if the file reports them [m].
     pixel: Option<[f64; 2]>,
     colour: bool,
     /// By what the file says that its levels are coded, if they are not proportional to light.
@@ -69,7 +69,7 @@ impl RawPicture {
 
 /// Reads a picture or a map. The format is recognised from the content of the file.
 ///
-/// * `pixel` – side of a pixel [m]; if none, PNG and TIFF tell it by their resolution
+/// * `pixel` – side of a pixel [m]; if none, PNG and TIFF give it by their resolution
 ///
 /// # Errors
 /// When the file cannot be read or holds no picture within the limits; the message says where and why.
@@ -142,7 +142,7 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     })
 }
 
-/// The side of a pixel, as it was given or else as the file tells it, and what the file tells [m].
+/// The side of a pixel, as it was given or else as the file reports it, and what the file reports [m].
 ///
 /// * `is_map` – whether the file is a map, whose cells may be of any size
 fn side_of_a_pixel(
@@ -227,7 +227,7 @@ fn picture_refused(bytes: &[u8]) -> Option<&'static str> {
         (b"\xff\x0a", "a JPEG XL image"),
         (b"%PDF-", "a PDF document"),
     ];
-    // These tell their kind after a length. Words may begin like a BMP picture, but hold no zero bytes.
+    // These state their kind after a length. Words may begin like a BMP picture, but hold no zero bytes.
     let at = |place: usize, wanted: &[u8]| bytes.get(place..place + wanted.len()) == Some(wanted);
     let later = [
         (at(0, b"BM") && at(6, &[0; 4]), "a BMP image"),

@@ -37,7 +37,7 @@ pub(super) fn upright(raw: RawPicture) -> RawPicture {
     RawPicture { values, columns, rows, pixel, orientation: 1, ..raw }
 }
 
-/// The orientation in the Exif data of a picture; 1 if they tell none.
+/// The orientation in the Exif data of a picture; 1 if they give none.
 pub(super) fn of_exif(exif: &[u8]) -> u16 {
     tag_of_exif(exif.strip_prefix(b"Exif\0\0").unwrap_or(exif)).unwrap_or(1)
 }

@@ -6,9 +6,9 @@ use png::{BitDepth, Decoder, DecodingError, Limits, Transformations, Unit};
 use spunlaid_ground::Fault;
 use std::io::{Cursor, ErrorKind};
 
-/// Keyword of the text that tells the basis weight of a black pixel of a map [kg/m²].
+/// Keyword of the text that reports the basis weight of a black pixel of a map [kg/m²].
 pub const WEIGHT_OF_BLACK: &str = "basis_weight_of_black_kg_m2";
-/// Keyword of the text that tells the side of a cell of a map [m].
+/// Keyword of the text that reports the side of a cell of a map [m].
 pub const CELL: &str = "cell_m";
 
 pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {

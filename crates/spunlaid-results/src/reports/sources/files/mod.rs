@@ -44,7 +44,7 @@ pub fn unsteady(case: &Case, sources: &Sources) -> Option<String> {
 /// Spin-up that is proposed, in ways down or in spin-ups that were too short.
 const WAYS: f64 = 3.0;
 
-/// Share of the force outside of the cells from which on it is told.
+/// Share of the force outside of the cells from which on it is reported.
 const MUCH_OUTSIDE: f64 = 0.01;
 
 /// What is said if much of the force is outside of the cells.

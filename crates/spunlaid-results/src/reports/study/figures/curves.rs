@@ -105,7 +105,7 @@ pub(super) fn family(
         for (position, (measure, called)) in group.members.iter().enumerate() {
             let marker = if position == 0 { Marker::Circle } else { Marker::Triangle };
             let label = parameter.key.pretty(level);
-            // Markers without lines have shapes of their own, as long as the shape does not tell the results apart.
+            // Markers without lines have shapes of their own, as long as the shape does not distinguish the results.
             let dash = if place.is_joined() || group.members.len() > 1 { dash } else { &[] };
             let series = Series { marker: Some(marker), dash, ..Series::new(&label, colour) }
                 .named(&format!("{called} at {label}"));

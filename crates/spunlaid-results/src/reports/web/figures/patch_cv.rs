@@ -41,7 +41,7 @@ pub(super) fn scanned(findings: &scan::Findings) -> Figure {
 /// The coefficient of variation over the size of the patches.
 pub(super) fn over_patches(web: &Web, findings: &Findings) -> Figure {
     let map = findings.patches.iter().filter_map(PatchFindings::with_total_error);
-    let map: Vec<_> = map.map(|told| point(&told)).collect();
+    let map: Vec<_> = map.map(|reported| point(&reported)).collect();
     let patches = || findings.patches.iter();
     let single =
         patches().filter_map(|patch| Some((patch.map.patch * MM, patch.single_fibres?.0 * PER_CENT)));

@@ -21,7 +21,7 @@ pub(super) fn of_line(advice: &Advice, findings: &Findings, beside: &str) -> Jso
 }
 
 /// Other values of assumed values, and the CVs of all webs with these and of the web as it is.
-pub(super) fn of_guesses(assumed_values: &Advice, findings: &Findings, beside: &str) -> Json {
+pub(super) fn of_assumed_values(assumed_values: &Advice, findings: &Findings, beside: &str) -> Json {
     let range = |effect: &Effect<f64>| {
         let cv = cv_over(findings, effect.of);
         let [cv_from, cv_to] = assumed_values.range(effect.of).map(|ratio| ratio * cv);
@@ -54,26 +54,26 @@ fn alone(change: &Change) -> Option<usize> {
 /// The CV of the web as it is.
 fn cv_over(findings: &Findings, patch: f64) -> f64 {
     let found = findings.patches.iter().find(|found| found.map.patch == patch);
-    found.and_then(|found| found.reported()).map_or(f64::NAN, |told| told.cv)
+    found.and_then(|found| found.reported()).map_or(f64::NAN, |reported| reported.cv)
 }
 
 /// Adds the changes that could not be simulated or laid, if there are any.
-fn with_failed(mut told: Json, advice: &Advice) -> Json {
+fn with_failed(mut object: Json, advice: &Advice) -> Json {
     let failed = |(change, why): &(Change, String)| {
         let (setting, layer) = (change.setting.name, alone(change));
         json!({"setting": setting, "layer": layer, "keys": keys(change), "why": why})
     };
     if !advice.failed.is_empty() {
-        told["failed"] = advice.failed.iter().map(failed).collect();
+        object["failed"] = advice.failed.iter().map(failed).collect();
     }
-    told
+    object
 }
 
 fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assumed: bool) -> Json {
     let patch = |tried: &SensitivityRun, effect: &Effect<f64>| {
         let (cv, difference) = (cv_over(findings, effect.of), &effect.difference);
         let at_first = tried.at_first.iter().find(|first| first.of == effect.of);
-        let told = json!({
+        let object = json!({
             "patch_m": effect.of,
             "cv": cv * (1.0 + difference.value),
             "cv_difference_standard_error": cv * difference.standard_error,
@@ -89,14 +89,14 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assu
             "clouds_in_common": effect.in_common,
             "cv_change_in_first_air": at_first.map(|first| first.difference.value),
         });
-        joined([told, known(more)])
+        joined([object, known(more)])
     };
     let changed_web = |tried: &SensitivityRun| {
         let SensitivityRun { change, effects, at_first } = tried;
         let ChangedWeb { set, spec, belt_speed, mass_flow, .. } = &change.experiment;
-        let guess = keys(change).into_iter().next().filter(|_| are_assumed).unwrap_or_default();
+        let assumed = keys(change).into_iter().next().filter(|_| are_assumed).unwrap_or_default();
         let layer = alone(change);
-        let mut told = json!({
+        let mut object = json!({
             "setting": change.setting.name,
             "turned": change.setting.turned.name(),
             // Counted from 1; null where several or all layers change.
@@ -113,13 +113,13 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assu
             "throughput_change": mass_flow[1] / mass_flow[0] - 1.0,
         });
         if layer.is_none() && !change.layers.is_empty() {
-            told["layers"] = change.layers.as_slice().into();
+            object["layers"] = change.layers.as_slice().into();
         }
         if advice.is_confirmed {
-            told["simulated_again"] = (!at_first.is_empty()).into();
+            object["simulated_again"] = (!at_first.is_empty()).into();
         }
-        told["patches"] = effects.iter().map(|effect| patch(tried, effect)).collect();
-        joined([guess, told])
+        object["patches"] = effects.iter().map(|effect| patch(tried, effect)).collect();
+        joined([assumed, object])
     };
     advice.tried.iter().map(changed_web).collect()
 }

@@ -37,13 +37,13 @@ fn some<T>(measures: &'static [Measure<T>], of: &[T]) -> Option<Json> {
     (!of.is_empty()).then(|| all(measures, of))
 }
 
-/// Side of the patches of which the terminal tells [m].
+/// Side of the patches of which the terminal reports [m].
 const SHOWN: f64 = 5e-3;
 
-/// What is told in two units.
+/// What is reported in two units.
 const AIR: &str = "Air permeability";
 
-/// Most streaks of which the terminal tells.
+/// Most streaks of which the terminal reports.
 const MOST_STREAKS: usize = 5;
 
 /// What a buyer counts of a fabric: names and numbers. Thin places and strips come first.
@@ -63,15 +63,15 @@ pub fn fabric_rows(fabric: &Fabric) -> Vec<[String; 2]> {
     for row in rows("", &FABRIC_MEASURES[of_edges..], fabric) {
         let is_air = row[0] == AIR;
         all.push(row);
-        // As tests tell it.
+        // As tests give it.
         let litres =
-            fabric.air.filter(|_| is_air).map(|air| told(air.permeability.times(1e3), "l/(m² s)", None));
+            fabric.air.filter(|_| is_air).map(|air| shown(air.permeability.times(1e3), "l/(m² s)", None));
         all.extend(litres.map(|litres| ["the same".to_owned(), litres]));
     }
-    let (name, told) = (&STREAK_MEASURES[0], &STREAK_MEASURES[3..]);
+    let (name, measures) = (&STREAK_MEASURES[0], &STREAK_MEASURES[3..]);
     for streak in fabric.streaks.iter().take(MOST_STREAKS) {
         let place = known_text(&name.of(streak)).unwrap_or_default();
-        all.extend(rows(&format!("Streak at {place}: "), told, streak));
+        all.extend(rows(&format!("Streak at {place}: "), measures, streak));
     }
     all
 }
@@ -89,11 +89,11 @@ fn rows<T>(before: &str, measures: &'static [Measure<T>], of: &T) -> Vec<[String
 pub fn known_text<T>(row: &Measured<T>) -> Option<String> {
     let Some(Value::Reported(known)) = &row.value else { return None };
     let unit = row.measure.unit.readable(known.value());
-    Some(told(known.times(unit.per_si), unit.shown, row.measure.digits))
+    Some(shown(known.times(unit.per_si), unit.shown, row.measure.digits))
 }
 
 /// A number in words, with its unit.
-fn told(known: Known, unit: &str, digits: Option<i32>) -> String {
+fn shown(known: Known, unit: &str, digits: Option<i32>) -> String {
     let shown = match known {
         Known::Exact(value) => number_to(value, digits.unwrap_or(3)),
         Known::Value(value, error) => plus_minus(value, error),

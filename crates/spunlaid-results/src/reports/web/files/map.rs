@@ -57,7 +57,7 @@ pub(super) fn array(map: &Map, mut to: impl Write) -> io::Result<()> {
     to.flush()
 }
 
-/// A 16-bit grey picture of the web, lighter where there is less; the file tells the basis weight of black and white.
+/// A 16-bit grey picture of the web, lighter where there is less; the file reports the basis weight of black and white.
 fn picture(map: &Map) -> Result<Vec<u8>, String> {
     let most = map.cells.iter().copied().max().unwrap_or(0).max(1);
     let level = |quanta: u32| 65535 - (f64::from(quanta) / f64::from(most) * 65535.0).round() as u16;

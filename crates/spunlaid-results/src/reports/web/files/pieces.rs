@@ -64,7 +64,7 @@ impl MapFile {
     /// * `pixel` – side of a pixel [m]
     ///
     /// # Errors
-    /// If the file cannot be read, or is not the map that the summary tells of: why, in words.
+    /// If the file cannot be read, or is not the map that the summary reports of: why, in words.
     pub fn piece(&self, sides: [f64; 2], pixel: f64) -> Result<Map, String> {
         let [columns, rows] = sides.map(|side| (side / pixel + ROUNDING) as usize);
         let unreadable = |error: std::io::Error| format!("its map.npy cannot be read: {error}");

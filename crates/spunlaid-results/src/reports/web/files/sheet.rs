@@ -61,9 +61,9 @@ fn rows(findings: &Findings, fabric: &Fabric) -> Vec<[String; 2]> {
         ],
     ];
     for patch in &findings.patches {
-        let cv = patch.with_total_error().map(|told| {
-            let error = told.standard_error.map(|error| 100.0 * error);
-            format!("{}{THIN}%", plus_minus(100.0 * told.cv, error))
+        let cv = patch.with_total_error().map(|reported| {
+            let error = reported.standard_error.map(|error| 100.0 * error);
+            format!("{}{THIN}%", plus_minus(100.0 * reported.cv, error))
         });
         let cv = cv.unwrap_or_else(|| "not known: too few filaments simulated".to_owned());
         let side = number(1e3 * patch.map.patch);

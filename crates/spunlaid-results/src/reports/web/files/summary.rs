@@ -92,11 +92,11 @@ pub fn summary_of_web(
         let interval = patch.interval().ok_or_else(|| why.to_owned());
         let side = patch.map.patch;
         let mut numbers = numbers_of_patch(side, PATCH_MEASURES, patch, interval);
-        // With half and twice of each assumed value, of which the error knows nothing.
+        // With half and twice of each assumed value, which the error excludes.
         let known =
             |assumed_values: &&Advice| assumed_values.tried.iter().any(|tried| tried.on(side).is_some());
-        if let (Some(assumed_values), Some(told)) = (assumed_values.filter(known), patch.reported()) {
-            numbers["cv_assumed"] = json(assumed_values.range(side).map(|ratio| ratio * told.cv));
+        if let (Some(assumed_values), Some(reported)) = (assumed_values.filter(known), patch.reported()) {
+            numbers["cv_assumed"] = json(assumed_values.range(side).map(|ratio| ratio * reported.cv));
         }
         numbers
     });
@@ -129,7 +129,7 @@ pub fn summary_of_web(
         "web": joined([map, laid, declared]),
         "fabric": fabric::summary(fabric),
         "advice": advice.map(|advice| effects::of_line(advice, findings, beside)),
-        "assumed_values": assumed_values.map(|assumed_values| effects::of_guesses(assumed_values, findings, beside)),
+        "assumed_values": assumed_values.map(|tried| effects::of_assumed_values(tried, findings, beside)),
         "neighbours": neighbours(findings, name),
         "charge": charged.as_array().is_some_and(|charged| !charged.is_empty()).then_some(charged),
         "performance": performance,
@@ -152,13 +152,13 @@ pub fn summary_of_scan(
     let (weight, clouds) = (findings.map.basis_weight(), findings.clouds.as_ref());
     let texture = clouds.map(Clouds::texture_md);
     let mut web = of_map(&findings.map, weight, clouds, texture, patches.collect());
-    if let Some(guess) = findings.guess {
+    if let Some(assumption) = findings.assumption {
         // Chance is not all that the error of a variance is made of.
         let octaves = web["clouds"].as_array_mut().into_iter().flatten();
         octaves.for_each(|octave| octave["standard_error"] = Json::Null);
         if !web["cloudiness"].is_null() {
             web["cloudiness"]["standard_error"] = Json::Null;
-            web["cloudiness"]["no_interval"] = guess.to_string().into();
+            web["cloudiness"]["no_interval"] = assumption.to_string().into();
         }
     }
     if !findings.mean_known {
@@ -280,7 +280,7 @@ fn neighbours<'a>(findings: &Findings, name: impl Fn(usize) -> &'a str) -> Optio
 /// The numbers of the patches of one size. Those that are not known are left out; the CV, which is the first,
 /// is null.
 ///
-/// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be told
+/// * `interval` – 95 % confidence interval of the CV of all such webs, or why it cannot be reported
 fn numbers_of_patch<T>(
     side: f64,
     measures: &'static [Measure<T>],

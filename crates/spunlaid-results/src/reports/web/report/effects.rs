@@ -265,7 +265,7 @@ pub(super) fn effects_table(
 }
 
 /// What the CV of a web is with half and twice of each number that its file calls an assumed value, because the error
-/// of the CV knows nothing of them: the guess that matters most first.
+/// of the CV excludes them: the assumption with the largest effect first.
 pub(super) fn assumed_card(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Card {
     let card = |rows, words: String| Card {
         id: "measure",
@@ -348,16 +348,16 @@ fn failed_words(assumed_values: &Advice) -> String {
 fn value_and_cv(tried: &SensitivityRun, patch: f64, cv: f64) -> Option<(String, String)> {
     let key = tried.change.keys.first()?;
     let value = key.pretty(key.to).replace(' ', &HARD.to_string());
-    let told = tried.on(patch).map_or_else(
+    let cv_text = tried.on(patch).map_or_else(
         || "not known".to_owned(),
         |Effect { difference: Difference { value, standard_error, .. }, .. }| {
             // An error of rounding is none.
             let error = Some(PER_CENT * cv * standard_error).filter(|error| *error > 1e-9);
-            let told = plus_minus(PER_CENT * cv * (1.0 + value), error);
-            format!("{told}{THIN}%")
+            let cv_text = plus_minus(PER_CENT * cv * (1.0 + value), error);
+            format!("{cv_text}{THIN}%")
         },
     );
-    Some((format!("{}: {value}", label(&key.key)), told))
+    Some((format!("{}: {value}", label(&key.key)), cv_text))
 }
 
 /// `a, b and c`.

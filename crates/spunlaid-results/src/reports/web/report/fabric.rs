@@ -44,9 +44,9 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
     let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();
     section = compare(section, ("Strips", "Direction"), STRIP_MEASURES, &strips);
-    let [place, told @ ..] = STREAK_MEASURES else { return section };
+    let [place, measures @ ..] = STREAK_MEASURES else { return section };
     let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
-    compare(section, ("Streaks of the defects", place.label), told, &streaks)
+    compare(section, ("Streaks of the defects", place.label), measures, &streaks)
 }
 
 /// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.

@@ -121,7 +121,11 @@ pub(crate) fn marks_note(fabric: &Fabric) -> String {
     if !fabric.streaks.is_empty() {
         words.push("pink, the bands that are searched for the defects of the line".to_owned());
     }
-    if words.is_empty() { String::new() } else { format!(" Marks that can be switched on: {}.", words.join("; ")) }
+    if words.is_empty() {
+        String::new()
+    } else {
+        format!(" Marks that can be switched on: {}.", words.join("; "))
+    }
 }
 
 /// Base64 of lengths in mm.

@@ -137,8 +137,16 @@ fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
 
 /// What the web was made from.
 fn file(layers: &[Layer], toml: &str) -> Section<'static> {
-    let heads =
-        ["Layer", "Filaments", "Basis weight", "σ MD", "σ CD", "A", "Residual of the fit", "of which sampling error"];
+    let heads = [
+        "Layer",
+        "Filaments",
+        "Basis weight",
+        "σ MD",
+        "σ CD",
+        "A",
+        "Residual of the fit",
+        "of which sampling error",
+    ];
     Section::new("file", "The web file")
         .table(Table::new(heads).rows(layers.iter().map(layer)))
         .file("web-toml", toml)
@@ -190,10 +198,10 @@ const AS_HEAVY: f64 = 0.005;
 fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
     let patch = findings.seen();
     if patch.is_none_or(|patch| patch.doubt.is_none()) {
-        let told = patch.and_then(PatchFindings::with_total_error);
-        let assumed = told.as_ref().filter(|_| !spec.assumed.is_empty());
-        let assumed = assumed.map(|told| assumed_words(told, tried.assumed_values));
-        return headline(told.as_ref(), findings.laid.evidence() == Evidence::Known, assumed);
+        let reported = patch.and_then(PatchFindings::with_total_error);
+        let assumed = reported.as_ref().filter(|_| !spec.assumed.is_empty());
+        let assumed = assumed.map(|reported| assumed_words(reported, tried.assumed_values));
+        return headline(reported.as_ref(), findings.laid.evidence() == Evidence::Known, assumed);
     }
     let few = findings.laid.few().filter(|few| few.doubt().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
@@ -207,13 +215,13 @@ fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Strin
 }
 
 /// What half and twice of the assumed values make of the CV, for a headline.
-fn assumed_words(told: &PatchCv, assumed_values: Option<&Advice>) -> String {
-    let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(told.patch).is_some());
-    match assumed_values.filter(known).map(|assumed_values| assumed_values.range(told.patch)) {
+fn assumed_words(reported: &PatchCv, assumed_values: Option<&Advice>) -> String {
+    let known = |advice: &&Advice| advice.tried.iter().any(|tried| tried.on(reported.patch).is_some());
+    match assumed_values.filter(known).map(|assumed_values| assumed_values.range(reported.patch)) {
         None => "the error excludes assumed values".to_owned(),
         Some([1.0, 1.0]) => "and no other with the assumed values".to_owned(),
         Some(ends) => {
-            let [from, to] = ends.map(|end| significant(PER_CENT * end * told.cv, 2));
+            let [from, to] = ends.map(|end| significant(PER_CENT * end * reported.cv, 2));
             format!("{from} to {to}{THIN}% with the assumed values")
         }
     }
@@ -221,10 +229,11 @@ fn assumed_words(told: &PatchCv, assumed_values: Option<&Advice>) -> String {
 
 /// What is said below the pictures of a web and of what chance makes of it.
 pub(crate) fn below(judged: Option<Judged>) -> [String; 2] {
-    let Some(Judged { patch, told, chance, .. }) = judged else { return Default::default() };
+    let Some(Judged { patch, reported, chance, .. }) = judged else { return Default::default() };
     let over = format!(" over {}", millimetres(patch));
     [
-        told.map_or_else(String::new, |(cv, error)| format!("CV of this web: {}{over}", per_cent(cv, error))),
+        reported
+            .map_or_else(String::new, |(cv, error)| format!("CV of this web: {}{over}", per_cent(cv, error))),
         chance.map_or_else(String::new, |cv| {
             format!("Random straight fibres: {}{THIN}%", significant(PER_CENT * cv, 3))
         }),
@@ -259,7 +268,7 @@ fn air_sentence(findings: &Findings) -> String {
 
 /// What the charge of the filaments does; nothing of filaments without charge.
 fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
-    let told = |(number, charged): (usize, &ChargedCurtain)| {
+    let reported = |(number, charged): (usize, &ChargedCurtain)| {
         let layer = spec.layers.get(number)?;
         let last = charged.heights.last()?;
         let [behind, .., before] = last.places;
@@ -273,7 +282,7 @@ fn charge(spec: &WebSpec, findings: &Findings) -> Section<'static> {
             Dimension::ElectricField.pretty(BREAKDOWN),
         ))
     };
-    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(told)).printed()
+    Section::new("charge", "Charge").paragraphs(findings.laid.charged().filter_map(reported)).printed()
 }
 
 /// What the error in the headline is made of, in sentences.

@@ -93,11 +93,11 @@ fn cell(number: Option<String>, unit: Unit) -> String {
 /// Side of the patches, CV with its error by all causes, or by chance alone if the others are not known,
 /// error by chance, and interval.
 fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
-    let told = patch.with_total_error();
+    let reported = patch.with_total_error();
     let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
     [
         format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),
-        told.map_or("–".to_owned(), |told| per_cent(told.cv, told.standard_error)),
+        reported.map_or("–".to_owned(), |reported| per_cent(reported.cv, reported.standard_error)),
         cell(patch.map.standard_error.map(|error| significant(100.0 * error, 2)), PERCENT),
         cell(patch.interval().map(ends), PERCENT),
     ]

@@ -45,7 +45,7 @@ pub(crate) struct Judged {
     /// CV of the map.
     pub(crate) of_map: f64,
     /// CV of the web with its error; None if it is not known.
-    pub(crate) told: Option<(f64, Option<f64>)>,
+    pub(crate) reported: Option<(f64, Option<f64>)>,
     /// That of 95 % of such webs.
     pub(crate) interval: Option<[f64; 2]>,
     /// That of straight fibres at random, if it is known.
@@ -57,7 +57,7 @@ impl From<&PatchFindings> for Judged {
         Self {
             patch: patch.map.patch,
             of_map: patch.of_map,
-            told: patch.with_total_error().map(|told| (told.cv, told.standard_error)),
+            reported: patch.with_total_error().map(|reported| (reported.cv, reported.standard_error)),
             interval: patch.interval(),
             chance: Some(patch.straight_fibres),
         }
@@ -70,7 +70,7 @@ impl Scale {
     /// # Errors
     /// If a picture cannot be drawn.
     pub(crate) fn new(map: &Map, judged: Judged) -> Result<Option<Self>, Failure> {
-        let Judged { patch, of_map, told, interval, chance } = judged;
+        let Judged { patch, of_map, reported, interval, chance } = judged;
         let pictures = with_clouds(map, patch, &LEVELS.map(|level| level / of_map));
         let Some(pictures) = pictures.filter(|_| of_map > 0.0) else { return Ok(None) };
         let pictures = pictures.map_err(|reason| undrawable("scale", &reason))?;
@@ -79,19 +79,19 @@ impl Scale {
         let marks = (interval.into_iter().map(|ends| ends.map(place)))
             .map(|[from, to]| ("band", from, to - from))
             .chain(chance.map(|cv| ("chance", place(cv), 0.0)))
-            .chain(told.map(|(cv, _)| ("own", place(cv), 0.0)))
+            .chain(reported.map(|(cv, _)| ("own", place(cv), 0.0)))
             .collect();
         Ok(Some(Self { tiles, marks, words: words(judged) }))
     }
 }
 
 /// What the scale says of a web.
-pub(crate) fn words(Judged { patch, told, interval, chance, .. }: Judged) -> String {
+pub(crate) fn words(Judged { patch, reported, interval, chance, .. }: Judged) -> String {
     let size = millimetres(patch);
     let chance = chance.map_or_else(String::new, |cv| {
         format!(" Straight fibres at random positions give {}{THIN}%.", significant(100.0 * cv, 3))
     });
-    let Some((cv, error)) = told else {
+    let Some((cv, error)) = reported else {
         return format!("The CV of this web over patches of {size} is not known.{chance}");
     };
     let interval = interval.map_or_else(String::new, |ends| {

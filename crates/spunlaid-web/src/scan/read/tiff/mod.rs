@@ -121,7 +121,7 @@ fn channels(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<usize, Fault> {
     Err(unsupported(&found, GREY))
 }
 
-/// The largest level of a camera with fewer bits than the numbers of the file, if the file tells it. Other
+/// The largest level of a camera with fewer bits than the numbers of the file, if the file reports it. Other
 /// values of the tag are the largest level that was found, which says nothing of the camera.
 ///
 /// * `is_negative` – whether the decoder has subtracted the levels from `full`
@@ -159,7 +159,7 @@ fn extra(decoder: &mut Decoder<Cursor<&[u8]>>) -> Extra {
     }
 }
 
-/// Leaves out the number that stands for missing ones, as GDAL and programs of geography tell it.
+/// Leaves out the number that stands for missing ones, as GDAL and programs of geography give it.
 fn leave_out_missing(decoder: &mut Decoder<Cursor<&[u8]>>, values: &mut [f64]) {
     let Ok(Some(Value::Ascii(text))) = decoder.find_tag(Tag::GdalNodata) else { return };
     if let Ok(missing) = text.trim().parse::<f64>() {
@@ -193,7 +193,7 @@ fn seek_full<R: Read + Seek>(decoder: &mut Decoder<R>) -> Result<bool, Fault> {
     Ok(pages.iter().filter(|page| whole(page)).count() > 1)
 }
 
-/// What tells the pages of a file apart.
+/// What distinguishes the pages of a file.
 #[derive(Clone, Copy, Debug, Default)]
 struct Page {
     /// Their number; zero if the page cannot be read.
@@ -284,7 +284,7 @@ fn compression_name(number: u16) -> String {
 const BEGINNING: usize = 1 << 16;
 const INCH: f64 = 25.4e-3;
 
-/// Width and height of a pixel [m], if the file tells them.
+/// Width and height of a pixel [m], if the file reports them.
 fn sides<R: Read + Seek>(decoder: &mut Decoder<R>) -> Option<[f64; 2]> {
     let text = description(decoder).unwrap_or_default();
     if text.contains("<OME") && text.contains("PhysicalSizeX=") {
@@ -333,7 +333,7 @@ fn units_of_imagej(text: &str) -> Option<[Option<f64>; 2]> {
     Some([metres(across), metres(value("yunit").unwrap_or(across))])
 }
 
-/// Sides by the attributes of OME-XML; their unit is a micrometre where none is told.
+/// Sides by the attributes of OME-XML; their unit is a micrometre where none is reported.
 ///
 /// Source: OME data model 2016-06, `Pixels`.
 fn of_ome(text: &str) -> Option<[f64; 2]> {

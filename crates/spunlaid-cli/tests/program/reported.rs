@@ -1,4 +1,4 @@
-//! A number is told once: what a terminal shows stands on the page in the same words, and each value with an error on
+//! A number is reported once: what a terminal shows is on the page in the same words, and each value with an error on
 //! the page is one of the file of numbers, with the same error, unit and rounding. So it is for every command.
 
 use crate::desk::{Desk, FED, success};
@@ -43,16 +43,18 @@ fn terminal_says_what_the_page_says(said: &str, page: &[Vec<String>]) -> usize {
     let cells =
         |line: &str| line.trim().split("  ").map(plain).filter(|cell| !cell.is_empty()).collect::<Vec<_>>();
     let mut count = 0;
-    for told in lines.map(cells) {
+    for reported in lines.map(cells) {
         // What explains a row stands beside it on a terminal, and below its name on the page.
         let is_on = |row: &Vec<String>| {
             let all = row.join(" ");
-            told.iter().all(|cell| all.contains(cell.trim_matches(['(', ')'])))
+            reported.iter().all(|cell| all.contains(cell.trim_matches(['(', ')'])))
         };
         assert!(
             page.iter().any(is_on),
-            "not on the page: {told:?}\n{:?}",
-            page.iter().filter(|row| row.iter().any(|cell| cell.starts_with(&told[0]))).collect::<Vec<_>>()
+            "not on the page: {reported:?}\n{:?}",
+            page.iter()
+                .filter(|row| row.iter().any(|cell| cell.starts_with(&reported[0])))
+                .collect::<Vec<_>>()
         );
         count += 1;
     }
@@ -87,8 +89,8 @@ fn values_with_errors(text: &str) -> Vec<[String; 2]> {
 
 /// Every value with an error on the page is one of the numbers of its files.
 fn page_says_what_the_files_say(page: &[Vec<String>], numbers: &[Vec<f64>]) -> usize {
-    let told: BTreeSet<_> = page.iter().flatten().flat_map(|cell| values_with_errors(cell)).collect();
-    for [value, error] in &told {
+    let reported: BTreeSet<_> = page.iter().flatten().flat_map(|cell| values_with_errors(cell)).collect();
+    for [value, error] in &reported {
         let [v, e] = [value, error].map(|text| text.replace('−', "-").parse::<f64>().unwrap());
         let text = format!("{value} ± {error}");
         let is_it = |(number, own): (f64, f64)| {
@@ -102,11 +104,11 @@ fn page_says_what_the_files_say(page: &[Vec<String>], numbers: &[Vec<f64>]) -> u
         let pairs = |row: &Vec<f64>| row.iter().any(|number| row.iter().any(|own| is_it((*number, *own))));
         assert!(numbers.iter().any(pairs), "not in the files: {text}");
     }
-    told.len()
+    reported.len()
 }
 
 /// Terminal, page and files of a command, and how many rows and numbers with errors there are at least.
-fn tells_once(desk: &Desk, command: &str, folder: &str, least: [usize; 2]) {
+fn assert_numbers_agree(desk: &Desk, command: &str, folder: &str, least: [usize; 2]) {
     let said = success(&mut desk.spunlaid(&format!("{command} --out {folder}")));
     let page = rows(&String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap());
     let mut numbers = Vec::new();
@@ -143,19 +145,19 @@ fn identical_numbers_in_terminal_page_and_files_of_every_command() {
         ("compare w scan", "webs", [5, 5]),
         ("sweep study.toml", "study", [6, 10]),
     ] {
-        tells_once(&desk, command, folder, least);
+        assert_numbers_agree(&desk, command, folder, least);
     }
     let case = FED.replace("speed = \"3 m/s\"", "speed = \"10 m/s\"");
     fs::write(desk.path("fed.toml"), case.replace("duration", "spin_up = \"10 ms\"\nduration")).unwrap();
     let web = "[laydown]\ncase = 'fed.toml'\n[line]\nfilaments_per_metre = 2000\n[web]\nwidth = '0.4 m'\nlength = \
         '0.15 m'\npatches = ['5 mm', '10 mm', '20 mm']\nsimulated = 250\n";
     fs::write(desk.path("few.toml"), web).unwrap();
-    tells_once(&desk, "web few.toml --advice", "few", [15, 10]);
+    assert_numbers_agree(&desk, "web few.toml --advice", "few", [15, 10]);
     let line = sources::desk();
-    tells_once(&line, "air line.toml --sources", "sources", [5, 5]);
+    assert_numbers_agree(&line, "air line.toml --sources", "sources", [5, 5]);
     let fitted = fit::desk();
-    tells_once(&fitted, "analyse truth/map.png", "scan", [5, 5]);
+    assert_numbers_agree(&fitted, "analyse truth/map.png", "scan", [5, 5]);
     let fit = "fit web.toml --to scan --vary line.filaments_per_metre --webs 10";
     // The file has the scatter of a web as a share.
-    tells_once(&fitted, fit, "fit", [1, 0]);
+    assert_numbers_agree(&fitted, fit, "fit", [1, 0]);
 }
