@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::reports::run::{Flights, RunFolder, fly as simulated, found};
+use spunlaid_results::reports::run::{FlightRecords, RunFolder, fly as simulated, found};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -36,7 +36,7 @@ pub(crate) fn fly(
     let simulated = watched(py, &watch, progress.as_ref(), || {
         let mut staging = Staging::new(&place, ENTRIES, false, &watch.stop)?;
         let simulated = simulated(&case, &plans, computing, Some(&staging), shapes, |_| ())?;
-        simulated.kept.iter().for_each(Flights::finish);
+        simulated.kept.iter().for_each(FlightRecords::finish);
         staging.publish().map(|()| simulated)
     })?;
     let (is_whole, paths) = (simulated.paths.is_some(), simulated.paths);

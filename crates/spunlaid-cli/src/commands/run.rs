@@ -9,7 +9,7 @@ use crate::{progress, say};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::FinerPlans;
 use spunlaid_results::reports::finished::read_summary_of_run;
-use spunlaid_results::reports::run::{Flights, Flown, RunFolder, fly, found};
+use spunlaid_results::reports::run::{FlightRecords, RunFolder, SimulatedRun, fly, found};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -30,7 +30,7 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), before);
     let (steps, label) = (case.run.steps * asked, format!("simulating {fibres}"));
     let simulated = progress::follow(&fibre_steps, steps, &label, quiet, work)?;
-    let Flown { results, paths, replicates, kept } = simulated;
+    let SimulatedRun { results, paths, replicates, kept } = simulated;
     let paused = || Failure::Paused { done: replicates, total: Some(asked), noun: "fibre" };
     // Results of as many replicates are not replaced by those of a part of them.
     let holds_more = |folder| {
@@ -57,6 +57,6 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     if paths.is_none() {
         return Err(paused());
     }
-    kept.iter().for_each(Flights::finish);
+    kept.iter().for_each(FlightRecords::finish);
     lost.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }

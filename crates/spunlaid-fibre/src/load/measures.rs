@@ -41,8 +41,8 @@ pub const LOAD_MEASURES: &[Measure<Load>] = &[
         .digits(3),
     OfLoad::new("eddy_damping", "Damping of the eddies, at most", RATIO, Known(|load| load.damping))
         .meaning(
-            "upper bound of the damping of the eddies by the filaments, down to the belt: their amplitude \
-             falls by less than the factor exp(−this number)",
+            "upper bound of the damping of the eddies by the filaments down to the belt: the amplitude falls by \
+             less than exp(−this number)",
         )
         .digits(2),
     OfLoad::new(
@@ -76,10 +76,7 @@ pub const LOAD_POSITION_MEASURES: &[Measure<LoadPlace>] = &[
         NEWTONS_PER_METRE,
         Mean(|place| (place.force, place.standard_error)),
     )
-    .meaning(
-        "force with which the filaments drive the air between the inlet and here, per metre of width; \
-         negative where the air drives them",
-    ),
+    .meaning("force of the filaments on the air between the inlet and here, per metre of width"),
     OfPlace::new("share_of_momentum", "of the air’s momentum", PERCENT, Known(LoadPlace::share_of_momentum))
         .meaning("this force over the mass flow of the slot times the mean velocity here")
         .digits(2),

@@ -72,7 +72,7 @@ pub const SPINLINE_MEASURES: &[Measure<Solution>] = &[
     spun("solidification.cooling_rate_k_s", "Cooling rate at solidification", KELVIN_PER_SECOND, |found| {
         found.solidification.cooling_rate
     })
-    .meaning("rate at which the filament cools where it becomes solid")
+    .meaning("cooling rate where the filament becomes solid")
     .kept("cooling_rate", "cooling_rate_k_s")
     .figure(&figure("cooling_rate", "Cooling rate at solidification", "cooling rate")),
     spun("largest_strain_rate_per_s", "Largest strain rate", PER_SECOND, |found| found.largest_strain_rate)

@@ -39,13 +39,13 @@ pub(crate) struct Panel {
     pub(crate) keys: Vec<String>,
     /// Of the axis.
     pub(crate) label: String,
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<EffectRow>,
     /// Of the numbers at the ends of bars.
     pub(crate) decimals: usize,
 }
 
 /// A change with its effects.
-pub(crate) struct Row {
+pub(crate) struct EffectRow {
     pub(crate) name: String,
     /// What changes, below the name.
     pub(crate) detail: String,

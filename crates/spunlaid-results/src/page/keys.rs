@@ -230,29 +230,26 @@ fn may_change(key: &KeyEntry) -> String {
 
 const HEAD: &str = "# The keys of a case
 
-This page is made by `spunlaid keys --markdown > docs/keys.md`. `spunlaid keys WORD` shows the keys with this word in
-their name or meaning, or with this unit: `spunlaid keys dtex`.
+`spunlaid keys --markdown > docs/keys.md` writes this page. `spunlaid keys WORD` shows the keys with this word in their
+name or meaning, or with this unit: `spunlaid keys dtex`.
 
-A quantity is written with its unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as
-`kg/m³`. `--set air.velocity=\"20 m/s\"` sets a key for one run, and `--set air.velocity=\"+20 %\"` or `\"+2 m/s\"`
-changes the value that it has; so do the values of a study, of a fit and of Python. (Of a key that takes negative
-values, `\"-2 mm\"` is a value.) A study can vary all keys but those marked *fixed*;
-those marked *flight* can change during a flight. A range is the usual one: the program warns of a value outside of
-it, most likely in a wrong unit, and uses it. Quantities are above zero unless their row says otherwise.
+A quantity has a unit, in quotes: `diameter = \"50 µm\"`; `um` is the same as `µm`, and `kg/m^3` as `kg/m³`.
+`--set air.velocity=\"20 m/s\"` sets a key for one run, and `--set air.velocity=\"+20 %\"` or `\"+2 m/s\"` changes its
+value, as in a study, a fit and Python. (For a key that takes negative values, `\"-2 mm\"` is a value.) A study can
+vary all keys but those marked *fixed*; those marked *flight* can change during a flight. Ranges are the usual ones:
+outside of them the program warns. Quantities are above zero unless their row says otherwise.
 ";
 const WEB_HEAD: &str = "# The keys of a web
 
-This page is made by `spunlaid keys --web --markdown > docs/web_keys.md`. Keys are written, marked and searched as
-those of a case ([keys.md](keys.md)): `spunlaid keys --web gsm`. `--set layer.2.line.filaments_per_metre=4000` sets
-one of a layer, by its number or name; without `layer` and a number it is set in all layers that have it.
-`line.rows.1.pitch` is that of a row of holes.
+`spunlaid keys --web --markdown > docs/web_keys.md` writes this page. [keys.md](keys.md) explains how keys are written,
+marked and searched. `--set layer.2.line.filaments_per_metre=4000` sets a key of a layer, by its number or name;
+without `layer` and a number it sets the key of all layers that have it. `line.rows.1.pitch` is that of a row of holes.
 ";
 
 const STUDY_HEAD: &str = "# The keys of a study
 
-This page is made by `spunlaid keys --study --markdown > docs/study_keys.md`. A key `*` stands for any key of the
-case, the web or the spinline that varies; of `[replicates.until]` for any result. [studies.md](studies.md) says how
-to use them.
+`spunlaid keys --study --markdown > docs/study_keys.md` writes this page. `*` is any key of the case, the web or the
+spinline that varies; in `[replicates.until]` it is any result. [studies.md](studies.md) explains their use.
 ";
 
 /// The keys as a Markdown document with one table for each table of the file.

@@ -12,7 +12,7 @@ pub(crate) struct Table {
     /// Heads over several columns, with the number of these columns, above the others.
     spans: Vec<(String, usize)>,
     pub(crate) columns: Vec<Column>,
-    pub(crate) groups: Vec<Group>,
+    pub(crate) groups: Vec<RowGroup>,
     /// Below all rows.
     foot: Option<Row>,
 }
@@ -51,7 +51,7 @@ pub(crate) enum Content {
 
 /// Rows that belong together.
 #[derive(Debug)]
-pub(crate) struct Group {
+pub(crate) struct RowGroup {
     /// Empty if all rows are one group.
     pub(crate) title: String,
     pub(crate) rows: Vec<Row>,
@@ -140,7 +140,7 @@ impl Table {
     }
 
     pub(crate) fn group(mut self, title: String, rows: impl IntoIterator<Item = Row>) -> Self {
-        self.groups.push(Group { title, rows: rows.into_iter().collect() });
+        self.groups.push(RowGroup { title, rows: rows.into_iter().collect() });
         self
     }
 

@@ -107,8 +107,7 @@ pub(super) const FORCES: Declaration = Declaration {
             name: FORCE_ON_AIR,
             column: "force_on_air_n",
             label: "Force on the air",
-            meaning: "mean force along x with which the fibre drives the air between the inlet and each \
-                 distance; negative where the air drives the fibre",
+            meaning: "mean force of the fibre on the air along x between the inlet and each distance",
             unit: MILLINEWTONS,
             kind: MeasureKind::Way,
             group: FIBRE,

@@ -254,9 +254,9 @@ pub(super) const MEAN_FREQUENCY: Declaration = Declaration {
         is_main: true,
         column: "mean_frequency_hz",
         label: "Mean frequency",
-        meaning: "mean of the frequencies of its spectra in y and z up to the cut-off of the turbulence, \
-             each weighted by its part of the square of the amplitude. It is not defined in runs shorter \
-             than some periods of the cut-off, or where it is recorded less than twice in such a period",
+        meaning: "mean frequency of its spectra in y and z up to the cut-off of the turbulence, weighted by power. \
+             Not defined in runs shorter than some periods of the cut-off, or recorded less than twice in such a \
+             period",
         unit: HERTZ,
         figure: &figure("mean_frequency", "Mean frequency", "mean frequency"),
         series: "*y* and *z*",

@@ -63,8 +63,8 @@ pub(super) const DISSIPATION: Declaration = Declaration {
                 "Axial waves damped by the scheme",
             )
             .meaning(
-                "energy that the scheme has taken out by damping axial waves, over the energy that \
-                 flowed; median over time. It is not an error: the full balance includes it",
+                "energy that the scheme has removed from axial waves, over the energy that flowed; median over \
+                 time. It is not an error: the full balance includes it",
             )
             .aggregate(Aggregate::Median)
             .series("typical"),

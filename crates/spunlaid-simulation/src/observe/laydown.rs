@@ -19,8 +19,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
         SPREAD
             .observed("sigma_md", "sigma_md_m", "Standard deviation in machine direction")
             .meaning(
-                "standard deviation in machine direction of the position of the laid fibre about its \
-                 straight trace, that of a fibre which always lands at one position",
+                "standard deviation in machine direction of the laid fibre about the straight trace of a fibre that \
+                 always lands at one position",
             )
             .series("machine direction"),
         SPREAD
@@ -53,8 +53,8 @@ pub(super) const DECLARATION: Declaration = Declaration {
                 "Belt speed found from the laid fibre, over the true one",
             )
             .meaning(
-                "belt speed found from the laid fibre (mean of −d md/ds, times the feed speed) over \
-                 that of the case: a check, one within its error",
+                "belt speed from the laid fibre (mean of −d md/ds, times the feed speed) over that of the case: one \
+                 within its error",
             )
             .figure(&figure("belt_speed_ratio", "Ratio of belt speeds", "ratio of belt speeds")),
         RATIO_OF
@@ -68,14 +68,14 @@ pub(super) const DECLARATION: Declaration = Declaration {
         RATIO_OF
             .observed("chord_over_arc", "chord_over_arc", "Chord over arc at 10 mm")
             .meaning(
-                "mean length on the belt of 10 mm of fibre over 10 mm: the texture. A finer mesh \
-                 makes it smaller; with elements longer than 10 mm it is not defined",
+                "mean length on the belt of 10 mm of fibre over 10 mm: the texture. It is smaller with a finer \
+                 mesh, and not defined for elements longer than 10 mm",
             )
             .figure(&figure("chord_over_arc", "Chord over arc at 10 mm", "chord over arc")),
         RATIO_OF
             .observed("laid_length", "laid_length_m", "Length laid")
             .meaning(
-                "length of fibre laid after the spin-up, from which the statistics are, in whole elements",
+                "length of fibre laid after the spin-up, in whole elements",
             )
             .unit(METRES)
             .figure(&figure("laid_length", "Length laid", "length laid")),

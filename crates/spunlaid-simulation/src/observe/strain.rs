@@ -15,9 +15,9 @@ pub(super) const USUAL: Declaration = Declaration {
         ..measure(
             "strain_99",
             "Strain, 99 % of the time",
-            "strain at the root that is not exceeded during 99 % of the time after the spin-up, averaged \
-             over the period of the slowest axial wave, 4 L √(density / Young's modulus), or over a \
-             longer output interval. Compare it with the strain that the polymer can take",
+            "strain at the root, averaged over the period of the slowest axial wave, 4 L √(density / Young's \
+             modulus), or a longer output interval, that is not exceeded during 99 % of the time after the spin-up. \
+             Compare it with the limit of the polymer",
             Aggregate::Mean,
             "99 % of the time",
         )
@@ -31,9 +31,8 @@ pub(super) const LARGEST: Declaration = Declaration {
     measures: &[measure(
         "max_strain",
         "Largest strain",
-        "largest absolute strain of any element, the start included, where axial waves run along the \
-         fibre. It depends on duration and output interval, and with implicit tension on the time \
-         step",
+        "largest absolute strain of any element, including the start with its axial waves. It depends on duration \
+         and output interval, and with implicit tension on the time step",
         Aggregate::Largest,
         "largest",
     )],

@@ -126,12 +126,11 @@ fn list<T: 'static>(text: &mut String, title: &str, measures: impl Iterator<Item
 
 /// With `BLESS=1` it writes the page.
 #[test]
-fn every_measure_stands_in_the_docs() {
-    let mut text = "# All measures\n\nThis page is written from the declarations of the measures \
-        (`simulation/observe/` of the library, `measures.rs` of other rooms). Names are those of `summary.json`, \
-        of a velocity record those of `analysis.json`, and end with the unit; a name without one is that of a \
-        ratio or a count. Studies keep those marked *study*, some under another name, here of patches of 10 mm \
-        and of strips along MD. [results.md](results.md) says where they stand.\n"
+fn every_measure_is_in_the_docs() {
+    let mut text = "# All measures\n\nA test writes this page from the declarations of the measures. Names are those \
+        of `summary.json`, of a velocity record those of `analysis.json`, and end with the unit; a name without a unit \
+        is a ratio or a count. Studies have those marked *study*, some under another name, here of patches of 10 mm \
+        and of strips along MD. [results.md](results.md) describes the files.\n"
         .to_owned();
     let mut groups: Vec<Group> = Vec::new();
     let observed = || DECLARED.iter().flat_map(|declaration| declaration.measures);
@@ -147,7 +146,7 @@ fn every_measure_stands_in_the_docs() {
     list(&mut text, "A web", measure::with_errors(WEB_MEASURES));
     list(&mut text, "The fabric of a web", measure::with_errors(FABRIC_MEASURES));
     list(&mut text, "The patches of a fabric", measure::with_errors(FABRIC_PATCH_MEASURES));
-    list(&mut text, "The thinnest places of a fabric", measure::with_errors(THINNEST_PATCH_MEASURES));
+    list(&mut text, "The thinnest spots of a fabric", measure::with_errors(THINNEST_PATCH_MEASURES));
     list(&mut text, "Strips of a fabric", measure::with_errors(STRIP_MEASURES));
     list(&mut text, "Streaks of a fabric, of the defects of its line", measure::with_errors(STREAK_MEASURES));
     list(&mut text, "A scan", measure::with_errors(SCAN_MEASURES));
@@ -159,7 +158,11 @@ fn every_measure_stands_in_the_docs() {
     list(&mut text, "A component of a velocity record", measure::with_errors(COMPONENT_MEASURES));
     list(&mut text, "A spinline", measure::with_errors(SPINLINE_MEASURES));
     list(&mut text, "The load of the filaments on their air", measure::with_errors(LOAD_MEASURES));
-    list(&mut text, "The load between the inlet and a place", measure::with_errors(LOAD_POSITION_MEASURES));
+    list(
+        &mut text,
+        "The load between the inlet and a position",
+        measure::with_errors(LOAD_POSITION_MEASURES),
+    );
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/measures.md");
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(&path, &text).unwrap();

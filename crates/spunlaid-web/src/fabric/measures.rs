@@ -22,9 +22,9 @@ const METRES: Unit = Unit { shown: "m", per_si: 1.0 };
 /// The numbers of a whole fabric.
 pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
     OfFabric::new("width_m", "Width", MILLIMETRES, Reported(|fabric| Some(Exact(fabric.width))))
-        .meaning("width of the part of the web whose numbers these are"),
+        .meaning("width of the part of the web for these numbers"),
     OfFabric::new("trim_m", "Trim", MILLIMETRES, Reported(|fabric| fabric.trim.map(Exact)))
-        .meaning("what is cut off of the web at both edges together"),
+        .meaning("width cut off at both edges together"),
     OfFabric::new(
         "usable_width_m",
         "Width within the tolerance of the weight",
@@ -43,7 +43,7 @@ pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
         PERCENT,
         Reported(|fabric| Some(Exact(fabric.usable?.trim))),
     )
-    .meaning("what is cut off for it, as a fraction of the web"),
+    .meaning("its trim, as a fraction of the web"),
     OfFabric::new(
         "stiffness_ratio",
         "Stiffness MD/CD, of the directions alone",
@@ -80,8 +80,7 @@ pub const FABRIC_MEASURES: &[Measure<Fabric>] = &[
     )
     .meaning(
         "mean speed of the air at the pressure of the test, over patches of 2 mm, from half to twice the \
-         permeability by the formulas of Davies and of Jackson and James. Trust the ratio of two webs, \
-         not the number",
+         permeability by the formulas of Davies and of Jackson and James. Only the ratio of two webs is reliable",
     )
     .named("air_permeability")
     .figure(&figure("air_permeability", "Air permeability", "air permeability")),

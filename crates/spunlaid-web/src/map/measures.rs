@@ -20,7 +20,7 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         .figure(&figure("cv", "CV of the basis weight", "CV of the web"))
         .errors(&[
             share("cv_standard_error", "Sampling error of the CV", |patch| patch.map.standard_error)
-                .meaning("standard error of the CV: another piece of the same web would have another CV")
+                .meaning("standard error of the CV between pieces of the same web")
                 .kept("cv_#_mm_chance", "cv_#_mm_chance")
                 .role(OfOne),
             OfPatch::new("cv_degrees", "", RATIO, Known(|patch| patch.map.degrees()))
@@ -43,12 +43,9 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         RATIO,
         Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
     )
-    .meaning("part of CV² that each filament of a web in shared turbulence contributes by itself"),
+    .meaning("part of CV² that each filament contributes by itself"),
     share("cv_independent", "CV of the same filaments in independent turbulence", PatchFindings::independent)
-        .meaning(
-            "CV that the filaments of a web in shared turbulence would give in independent turbulence, by \
-             their surrogate",
-        )
+        .meaning("CV of the same filaments in independent turbulence, by their surrogate")
         .kept("cv_#_mm_independent", "cv_#_mm_independent")
         .figure(&figure(
             "cv_independent",

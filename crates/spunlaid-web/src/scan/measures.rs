@@ -61,7 +61,7 @@ pub const SCANNED_PATCH_MEASURES: &[Measure<PatchFindings>] = &[
             PERCENT,
             Known(|patch| patch.patch_cv.standard_error),
         )
-        .meaning("standard error of the CV: another piece of the same web would have another CV")
+        .meaning("standard error of the CV between pieces of the same web")
         .role(ErrorRole::OfOne)]),
     OfPatch::new("cv_noise", "Noise of the pixels", PERCENT, Number(|patch| patch.noise))
         .meaning("CV of the noise of the camera: as given and taken out, or at most")

@@ -18,7 +18,7 @@ const OF_PACK: f64 = 0.357;
 const MASS_OF_PACK: f64 = 1.06;
 
 /// The holes of a layer, and how they lay.
-struct Layer {
+struct LaidLayer {
     /// In words, behind a noun; empty of a line of one layer.
     of: String,
     name: String,
@@ -30,7 +30,7 @@ struct Layer {
     pitches: Vec<f64>,
 }
 
-impl Layer {
+impl LaidLayer {
     /// Amplitude of the dip that one blocked hole leaves, over the basis weight.             theory.md (115c)
     fn dip(&self) -> f64 {
         1.0 / (self.holes * (2.0 * PI).sqrt() * self.sigma)
@@ -73,7 +73,7 @@ fn list(json: &Json) -> impl Iterator<Item = &Json> {
     json.as_array().into_iter().flatten()
 }
 
-fn layers(web: &Web) -> Vec<Layer> {
+fn layers(web: &Web) -> Vec<LaidLayer> {
     let Some(width) = web.width else { return Vec::new() };
     let all: Vec<&Json> = list(&web.layers).collect();
     let weight: f64 = all.iter().filter_map(|json| json["basis_weight_kg_m2"].as_f64()).sum();
@@ -81,7 +81,7 @@ fn layers(web: &Web) -> Vec<Layer> {
         let number = |name: &str| json[name].as_f64();
         let name = json["name"].as_str()?.to_owned();
         let share = number("basis_weight_kg_m2")? / weight;
-        Some(Layer {
+        Some(LaidLayer {
             of: if all.len() > 1 { format!(" of layer {name}") } else { String::new() },
             name,
             holes: number("filaments")? / width / share,
@@ -116,9 +116,9 @@ fn millimetres(length: f64) -> String {
 }
 
 /// What a layer says of a streak: in words, the name of the cause if it is one, and the number of holes.
-fn of_streak(streak: &Streak, layers: &[Layer]) -> Cause {
+fn of_streak(streak: &Streak, layers: &[LaidLayer]) -> Cause {
     let Streak { place, amplitude, error, sigma, range } = *streak;
-    let said = |layer: &Layer| {
+    let said = |layer: &LaidLayer| {
         // The mass of the streak, in that of a hole: of the fit whose width is that of one filament, if it may be that.
         let is_hole = (range[0]..=range[1]).contains(&layer.sigma);
         let wide = if is_hole { sigma.hypot(layer.sigma) / SQRT_2 } else { sigma };
@@ -170,9 +170,9 @@ fn of_streak(streak: &Streak, layers: &[Layer]) -> Cause {
 }
 
 /// Which spacing of holes, or of packs, makes a period.
-fn of_period(wave: &Json, layers: &[Layer]) -> Option<Cause> {
+fn of_period(wave: &Json, layers: &[LaidLayer]) -> Option<Cause> {
     let (period, [amplitude, error]) = (wave["period_m"].as_f64()?, height(wave)?);
-    let said = |layer: &Layer| {
+    let said = |layer: &LaidLayer| {
         let (of, left) = (&layer.of, layer.left(period));
         // Of the share of the layer in the basis weight.
         let needed = amplitude / left / layer.share;
@@ -229,7 +229,7 @@ fn of_defect(defect: &Json, streaks: &[Streak]) -> Option<Cause> {
 }
 
 /// What one blocked hole of a layer makes, whether the scan would show it, and what is left of the pitch of its holes.
-fn of_layer(layer: &Layer, scan: &Web) -> Vec<Cause> {
+fn of_layer(layer: &LaidLayer, scan: &Web) -> Vec<Cause> {
     let (of, dip) = (&layer.of, layer.dip());
     let far = |limit: &(f64, f64)| (limit.0 / layer.sigma).ln().abs();
     let limits = list(&scan.scan["streak_limits"])

@@ -13,7 +13,7 @@ mod tables;
 
 pub use checked::about_case;
 pub use report::frames::{CAMERA, SCENE};
-pub use simulated::Flights;
+pub use simulated::FlightRecords;
 pub use tables::unit_of_column;
 
 use crate::Failure;
@@ -51,15 +51,15 @@ pub const POSITIONS: u64 = 4_000_000;
 
 /// What was simulated of a case.
 #[derive(Debug)]
-pub struct Flown {
+pub struct SimulatedRun {
     /// The results of the replicates, the lost ones among them.
     pub results: Results,
     /// What the checks compare; `None` if the flights were interrupted.
     pub paths: Option<RunPaths>,
     /// Number of replicates, from the first on, that have landed or are lost.
     pub replicates: u64,
-    /// Flights that are kept until the results are complete; then [`Flights::finish`] forgets them.
-    pub kept: Option<Flights>,
+    /// Flights that are kept until the results are complete; then [`FlightRecords::finish`] forgets them.
+    pub kept: Option<FlightRecords>,
 }
 
 /// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights
@@ -80,11 +80,11 @@ pub fn fly(
     staging: Option<&Staging<'_>>,
     with_shapes: bool,
     found: impl FnOnce(u64),
-) -> Result<Flown, Failure> {
+) -> Result<SimulatedRun, Failure> {
     let shapes = if with_shapes { KeepShapes::within(case, POSITIONS) } else { KeepShapes::NONE };
     let keep = Recorded { shapes, ..Recorded::CURVES };
-    let flights = staging.map(|staging| Flights::open(staging, case, Some(keep))).transpose()?;
-    if let Some(left) = flights.as_ref().map(Flights::earlier).filter(|left| *left > 0) {
+    let flights = staging.map(|staging| FlightRecords::open(staging, case, Some(keep))).transpose()?;
+    if let Some(left) = flights.as_ref().map(FlightRecords::earlier).filter(|left| *left > 0) {
         found(left);
     }
     let tables = staging.zip(flights.as_ref()).map(|(staging, flights)| Tables::create(staging, flights));
@@ -127,7 +127,7 @@ pub fn fly(
     };
     flights.iter().for_each(|flights| flights.interrupted.store(paths.is_none(), Ordering::Relaxed));
     tables.map_or(Ok(()), Tables::finish)?;
-    Ok(Flown { results: collector.finish(), paths, replicates, kept: flights })
+    Ok(SimulatedRun { results: collector.finish(), paths, replicates, kept: flights })
 }
 
 /// Everything of a run that goes into the files.

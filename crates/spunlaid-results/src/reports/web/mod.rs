@@ -22,7 +22,7 @@ use crate::reports::spinline::files::{STATIONS, SpinResults, part_of_case, write
 use figures::effects::effects_figure;
 use figures::web_figures;
 use files::picture::Pictures;
-use files::summary::Layer;
+use files::summary::LayerSummary;
 use report::effects::Advised;
 use report::spinlines::LayerSpinline;
 use report::web_report;
@@ -192,11 +192,11 @@ impl Contents for WebFolder {
 }
 
 /// What layers were laid from, for the files.
-fn rows(spec: &WebSpec, web: &Web) -> Vec<Layer> {
+fn rows(spec: &WebSpec, web: &Web) -> Vec<LayerSummary> {
     let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
         let fit = drawn.fibres.simulated().and_then(|simulated| simulated.residual);
         let surrogate = drawn.fibres.surrogate();
-        Layer {
+        LayerSummary {
             name: layer.name.clone().unwrap_or_else(|| (i + 1).to_string()),
             linear_density_kg_m: drawn.linear_density,
             feed_speed_m_s: drawn.feed_speed,

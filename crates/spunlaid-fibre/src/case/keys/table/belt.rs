@@ -70,18 +70,14 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_friction!(suction))
         .value("200 Pa")
         .meaning(
-            "Pressure difference that pulls the fibre on to the belt; times the diameter, a force per \
-             length of fibre.",
+            "Pressure difference that pulls the fibre onto the belt; times the diameter, a force per length.",
         )
         .label("Suction")
         .slider(0.0, 2000.0),
     quantity("belt.kept_length", Dimension::Length, Positive, (1e-7, 2.0))
         .access(at!(fed, line, kept_length))
         .follows("a quarter of the distance to the belt")
-        .meaning(
-            "Length of fibre behind the newest touch-down that still moves. The rest is laid; arches \
-             in the air stay where they are.",
-        )
+        .meaning("Length of fibre behind the newest touch-down that still moves. Arches behind it stay.")
         .label("Length that still moves on the belt")
         .slider(5e-3, 0.2),
 ];

@@ -47,9 +47,9 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(drag.across))
         .value("ju-shambaugh")
         .meaning(
-            "Law of the drag across the fibre. \"marheineke-wegener\" agrees with measurements from \
-             fine fibres to thick cylinders; \"ju-shambaugh\" is the paper's. Or a CSV file with the columns \
-             `reynolds` and `coefficient`. Sources and ranges: docs/theory.md.",
+            "Law of the drag across the fibre: \"marheineke-wegener\" agrees with measurements, \"ju-shambaugh\" is \
+             the paper's; or a CSV file with the columns `reynolds` and `coefficient`. Sources and ranges: \
+             docs/theory.md.",
         )
         .gives("drag.across")
         .varies()

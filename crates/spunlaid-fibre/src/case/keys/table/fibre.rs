@@ -102,8 +102,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(fibre.bending_viscosity_time))
         .value("0 s")
         .meaning(
-            "Time constant τ of the bending viscosity, which damps the bending of a soft polymer: the \
-             bending moment is EI (κ + τ dκ/dt), with the curvature κ.",
+            "Time constant τ of the bending viscosity of a soft polymer: the bending moment is EI (κ + τ dκ/dt), \
+             with the curvature κ.",
         )
         .label("Bending viscosity *τ*")
         .slider(0.0, 1e-3)

@@ -2,7 +2,7 @@
 //! interrupted.
 //!
 //! ```text
-//! flights → Flights (memory; beyond its room, the file) → Tables and the file, when the turn of a fibre has come
+//! flights → FlightRecords (memory; beyond its room, the file) → Tables and the file, when the turn of a fibre has come
 //!
 //! .<folder>-<case>.simulated   the file, from where the first fibre has landed until the results are complete
 //! ```
@@ -50,7 +50,7 @@ const LANDED: u64 = 4;
 
 /// What is recorded of the fibres in flight, for [`Tables`]. Their shapes are in files of their own.
 #[derive(Debug)]
-pub struct Flights {
+pub struct FlightRecords {
     log: Log,
     /// Where the file lies before a fibre has landed, and from then on; whether it has been moved.
     places: [PathBuf; 2],
@@ -150,7 +150,7 @@ impl Row for LaidPoint {
     }
 }
 
-impl Flights {
+impl FlightRecords {
     /// Opens the file. What was simulated of the same case for the same folder is in it.
     ///
     /// * `keep` – what is kept of a fibre; none of flights that have landed before, which no process goes on with
@@ -167,7 +167,7 @@ impl Flights {
         let later = [staging.place("energy.parquet").1, staging.place(SHAPE).1];
         let (version, sum) = (env!("CARGO_PKG_VERSION"), Experiment::from(case.clone()).checksum());
         let identity = format!("spunlaid-simulated version={version} case={sum:08x} {keep:?}");
-        // Flights of another case stay until that case goes on.
+        // Flights another case stay until that case goes on.
         let own = (identity.bytes()).fold(0_u32, |own, byte| own.wrapping_mul(31).wrapping_add(byte.into()));
         let places =
             [scratch.join("simulated"), results.with_file_name(format!(".{name}-{own:08x}.simulated"))];
@@ -366,7 +366,7 @@ impl Flights {
     }
 }
 
-impl Drop for Flights {
+impl Drop for FlightRecords {
     fn drop(&mut self) {
         let steps = self.steps_of_each * self.landed.load(Ordering::Relaxed) as f64;
         if !self.interrupted.load(Ordering::Relaxed) && self.earlier.is_empty() && steps < FEW {
@@ -375,7 +375,7 @@ impl Drop for Flights {
     }
 }
 
-impl Recorder for Flights {
+impl Recorder for FlightRecords {
     fn begin(&self, replicate: u64) {
         self.leave_out(replicate);
     }
@@ -424,7 +424,7 @@ fn values(mut rest: &[f64]) -> Vec<(&'static FibreMeasure, Value)> {
 /// The tables of a run. Each has a row for each replicate and recorded instant, or laid point: `replicate`
 /// (counted from 1), then its columns.
 pub struct Tables<'a> {
-    flights: &'a Flights,
+    flights: &'a FlightRecords,
     samples: Vec<(Vec<Column>, Parquet)>,
     laid: Option<Parquet>,
 }
@@ -434,7 +434,7 @@ impl<'a> Tables<'a> {
     ///
     /// # Errors
     /// If one cannot be written.
-    pub fn create(staging: &Staging<'_>, flights: &'a Flights) -> Result<Self, Failure> {
+    pub fn create(staging: &Staging<'_>, flights: &'a FlightRecords) -> Result<Self, Failure> {
         let create = |name: &str, columns: Vec<&str>| {
             let all = [whole("replicate")].into_iter().chain(columns.into_iter().map(number));
             Parquet::create(staging.place(name), &all.collect::<Vec<_>>(), ROWS)

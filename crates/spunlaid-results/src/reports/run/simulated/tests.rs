@@ -64,7 +64,7 @@ struct Process {
 fn process(desk: &Path, case: &Case, until: u64) -> Process {
     let staging = Staging::new(&desk.join("r"), ENTRIES, true, &STOP).unwrap();
     let keep = Recorded { shapes: KeepShapes::within(case, 100_000), ..Recorded::CURVES };
-    let simulated = Flights::open(&staging, case, Some(keep)).unwrap();
+    let simulated = FlightRecords::open(&staging, case, Some(keep)).unwrap();
     let mut tables = Tables::create(&staging, &simulated).unwrap();
     let mut trajectories = Vec::new();
     let mut take = |trajectory: Trajectory| {
@@ -199,7 +199,7 @@ fn identical_tables_whatever_stays_in_memory() {
     let written = |at_once: bool| {
         let desk = tempfile::tempdir().unwrap();
         let staging = Staging::new(&desk.path().join("r"), ENTRIES, false, &STOP).unwrap();
-        let simulated = Flights::open(&staging, &case, None).unwrap();
+        let simulated = FlightRecords::open(&staging, &case, None).unwrap();
         let mut tables = Tables::create(&staging, &simulated).unwrap();
         let sample = |replicate: u64, instant: usize| {
             let time = instant as f64 * 1e-3;
@@ -232,7 +232,7 @@ fn identical_tables_whatever_stays_in_memory() {
 fn what_is_forgotten_does_not_come_back() {
     let (desk, case) = (tempfile::tempdir().unwrap(), case(FED));
     let staging = Staging::new(&desk.path().join("r"), ENTRIES, false, &STOP).unwrap();
-    let simulated = Flights::open(&staging, &case, None).unwrap();
+    let simulated = FlightRecords::open(&staging, &case, None).unwrap();
     let points = |count: usize| vec![LaidPoint { fed: 1.0, time: 2.0, md: 3.0, cd: 4.0 }; count];
     simulated.lay(0, &points(ROOM / size_of::<LaidPoint>() + 1)).unwrap();
     assert!(simulated.log.count([POINTS, 0]) > 0);
@@ -250,7 +250,7 @@ fn identical_tables_when_the_file_has_lost_what_memory_has() {
         (0..5000).map(|i| Sample { time: f64::from(i), kinetic: 1.0, ..Sample::default() }).collect();
     let written = |loses: bool| {
         let staging = Staging::new(&desk.path().join("r"), ENTRIES, true, &STOP).unwrap();
-        let simulated = Flights::open(&staging, &case, None).unwrap();
+        let simulated = FlightRecords::open(&staging, &case, None).unwrap();
         let mut tables = Tables::create(&staging, &simulated).unwrap();
         samples.chunks(64).for_each(|some| simulated.samples(0, some).unwrap());
         if loses {

@@ -1,6 +1,6 @@
 //! The figures of a spinline.
 
-use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
+use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
 use spunlaid::fibre::{Solution, Station, ZERO_CELSIUS};
 use spunlaid::input::{Influence, OfFilament};
 use spunlaid_charts::label::plain;
@@ -248,7 +248,7 @@ fn influences_figure(prefix: &str, influences: &[Influence]) -> Figure {
         let row = |influence: &Influence| {
             let effect = influence.on(OfFilament::Diameter).map(|effect| in_unit(&effect.difference, factor));
             let (name, detail) = (influence.change.setting.words.to_owned(), String::new());
-            Row { name, detail, effects: vec![effect] }
+            EffectRow { name, detail, effects: vec![effect] }
         };
         let changed =
             influences.iter().filter(|influence| influence.change.keys[0].by_kelvin == by_kelvin).take(MOST);

@@ -1,6 +1,6 @@
 //! Results over one factor: alone, as a family of curves for a second factor, or with all others as in the base case.
 
-use super::quantity::{FactorAxis, Group, name_of_key};
+use super::quantity::{FactorAxis, QuantityGroup, name_of_key};
 use super::{FAMILY, file_name};
 use crate::figures::{COLOURS, joined};
 use spunlaid::experiment::{PointResults, Study};
@@ -22,7 +22,7 @@ pub(super) const BARS: &str = "The bars show one standard error of the mean over
 /// A point of the figure: abscissa, value, error.
 type Spot = (f64, f64, Option<f64>);
 
-fn series(group: &Group, position: usize) -> Series {
+fn series(group: &QuantityGroup, position: usize) -> Series {
     let label = &group.members[position].1;
     match (position, group.members.len()) {
         (_, 3..) => Series::spots(label, COLOURS[position % FAMILY]),
@@ -33,7 +33,7 @@ fn series(group: &Group, position: usize) -> Series {
 }
 
 /// Results over the first factor at all points, joined by a line.
-pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Figure {
+pub(super) fn one(study: &Study, results: &[PointResults], group: &QuantityGroup) -> Figure {
     let all: Vec<usize> = (0..results.len()).collect();
     let others: Vec<String> =
         study.factors.iter().skip(1).map(|factor| name_of_key(&factor.key.name)).collect();
@@ -50,7 +50,7 @@ pub(super) fn one(study: &Study, results: &[PointResults], group: &Group) -> Fig
 }
 
 /// Results over a factor at the points where all others are as in the base case, which is the first point.
-pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, factor: usize) -> Figure {
+pub(super) fn alone(study: &Study, results: &[PointResults], group: &QuantityGroup, factor: usize) -> Figure {
     let count = study.factors.len();
     let is_alone = |point: &usize| {
         let values = &study.points[*point].values;
@@ -67,7 +67,7 @@ pub(super) fn alone(study: &Study, results: &[PointResults], group: &Group, fact
 fn over_factor(
     study: &Study,
     results: &[PointResults],
-    group: &Group,
+    group: &QuantityGroup,
     factor: usize,
     points: &[usize],
     words: &str,
@@ -90,7 +90,7 @@ fn over_factor(
 pub(super) fn family(
     study: &Study,
     results: &[PointResults],
-    group: &Group,
+    group: &QuantityGroup,
     along: usize,
     family: usize,
 ) -> Figure {
@@ -144,7 +144,7 @@ pub(super) fn family(
 fn spots(
     study: &Study,
     results: &[PointResults],
-    group: &Group,
+    group: &QuantityGroup,
     measure: usize,
     (factor, along, aside): (usize, &FactorAxis, f64),
     points: &[usize],

@@ -1,6 +1,6 @@
 //! Results over two factors with many values: a colour map.
 
-use super::quantity::{FactorAxis, Group, label_of_key, name_of_key};
+use super::quantity::{FactorAxis, QuantityGroup, label_of_key, name_of_key};
 use crate::numbers::significant;
 use spunlaid::experiment::{PointResults, Study};
 use spunlaid_charts::palette::{Colour, INK, PAPER};
@@ -28,11 +28,17 @@ const COLOURS: [(f64, f64, f64); 8] = [
 ];
 
 /// A map of each result of a group; the first factor is on the vertical axis, the second on the horizontal one.
-pub(super) fn maps(study: &Study, results: &[PointResults], group: &Group) -> Vec<Figure> {
+pub(super) fn maps(study: &Study, results: &[PointResults], group: &QuantityGroup) -> Vec<Figure> {
     group.members.iter().map(|(measure, label)| map(study, results, group, *measure, label)).collect()
 }
 
-fn map(study: &Study, results: &[PointResults], group: &Group, measure: usize, label: &str) -> Figure {
+fn map(
+    study: &Study,
+    results: &[PointResults],
+    group: &QuantityGroup,
+    measure: usize,
+    label: &str,
+) -> Figure {
     let [up, along] = [0, 1].map(|i| study.factors[i].values());
     let value = |i: usize, j: usize| {
         results.get(i * along.len() + j).map_or(f64::NAN, |point| point.mean(measure) * group.unit.per_si)

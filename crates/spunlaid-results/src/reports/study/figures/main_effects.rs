@@ -2,7 +2,7 @@
 
 use super::curves::BARS;
 use super::file_name;
-use super::quantity::{FactorAxis, Group, name_of_key};
+use super::quantity::{FactorAxis, QuantityGroup, name_of_key};
 use spunlaid::experiment::{Factor, PointResults, Ranking, Study};
 use spunlaid_charts::{Chart, Figure, Series, even};
 
@@ -16,7 +16,7 @@ pub(super) fn figure(
     study: &Study,
     results: &[PointResults],
     rankings: &[Ranking],
-    group: &Group,
+    group: &QuantityGroup,
     factor: usize,
 ) -> Figure {
     let varied = &study.factors[factor];

@@ -8,7 +8,7 @@ mod ranking;
 #[cfg(test)]
 mod tests;
 
-use quantity::Group;
+use quantity::QuantityGroup;
 use spunlaid::experiment::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
 
@@ -20,7 +20,7 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
     let groups = quantity::groups(study).into_iter().filter_map(|group| group.applying(results));
     let groups: Vec<_> = match (study.design, study.factors.len()) {
         (_, 0 | 1) | (Design::Paired, _) => groups.collect(),
-        _ => groups.map(quantity::Group::with_few_series).collect(),
+        _ => groups.map(quantity::QuantityGroup::with_few_series).collect(),
     };
     let mut figures = Vec::new();
     match (study.design, study.factors.len()) {
@@ -63,6 +63,6 @@ pub fn study_figures(study: &Study, results: &[PointResults], rankings: &[Rankin
 }
 
 /// Part of a file name: `air.velocity` to `air_velocity`.
-fn file_name(group: &Group, key: &str) -> String {
+fn file_name(group: &QuantityGroup, key: &str) -> String {
     format!("{}_over_{}", group.figure.name, key.replace('.', "_"))
 }

@@ -12,7 +12,7 @@ use spunlaid_charts::{Axis, Spacing};
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.
 #[derive(Clone, Debug)]
-pub(super) struct Group {
+pub(super) struct QuantityGroup {
     pub(super) figure: &'static measure::Figure,
     pub(super) title: String,
     pub(super) unit: Unit,
@@ -21,8 +21,8 @@ pub(super) struct Group {
 }
 
 /// All groups, in the order of the declarations. Quantities without a figure are left out.
-pub(super) fn groups(study: &Study) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
+pub(super) fn groups(study: &Study) -> Vec<QuantityGroup> {
+    let mut groups: Vec<QuantityGroup> = Vec::new();
     for (i, quantity) in
         study.quantities.iter().enumerate().filter(|(_, quantity)| !quantity.figure.name.is_empty())
     {
@@ -31,14 +31,19 @@ pub(super) fn groups(study: &Study) -> Vec<Group> {
             Some(group) => group.members.push(member),
             None => {
                 let (figure, unit) = (quantity.figure, quantity.unit);
-                groups.push(Group { figure, title: figure.title.to_owned(), unit, members: vec![member] });
+                groups.push(QuantityGroup {
+                    figure,
+                    title: figure.title.to_owned(),
+                    unit,
+                    members: vec![member],
+                });
             }
         }
     }
     groups
 }
 
-impl Group {
+impl QuantityGroup {
     /// The same group with one size of patches, the middle one, if it has many series.
     pub(super) fn with_few_series(mut self) -> Self {
         if self.members.len() > 2 {

@@ -1,7 +1,7 @@
 //! Main effects of the factors with their confidence intervals, the largest at the top.
 
-use super::quantity::{FactorAxis, Group, label_of_key};
-use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
+use super::quantity::{FactorAxis, QuantityGroup, label_of_key};
+use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
 use crate::figures::with_unit;
 use crate::numbers::range;
 use spunlaid::experiment::{Contrast, Ranking, Study};
@@ -19,7 +19,7 @@ fn change_of(study: &Study, Contrast { factor, from, to }: Contrast) -> String {
 }
 
 /// The effects of all factors on a group of results.
-pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figure {
+pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &QuantityGroup) -> Figure {
     let of_measure = |measure: usize| rankings.iter().find(|ranking| ranking.measure == measure);
     let members = group.members.iter().take(2);
     let shown: Vec<(&Ranking, &str)> =
@@ -31,7 +31,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &Group) -> Figu
         let effect = |(ranking, _): &(&Ranking, &str)| {
             ranking.of(main.of).map(|effect| in_unit(&effect.difference, group.unit.per_si))
         };
-        Row {
+        EffectRow {
             name: label_of_key(&study.factors[main.of.factor].key.name),
             detail: change_of(study, main.of),
             effects: shown.iter().map(effect).collect(),

@@ -2,7 +2,7 @@
 
 use super::PER_CENT;
 use crate::effects::{describe, name};
-use crate::figures::effects::{EffectsFigure, Panel, Row, in_unit};
+use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
 use spunlaid::experiment::{Advice, SensitivityRun, setting};
 use spunlaid::ground::{Difference, Dimension};
 use spunlaid::simulation::WebSpec;
@@ -22,8 +22,10 @@ pub fn effects_figure(spec: &WebSpec, advice: &Advice) -> Option<Figure> {
         }
     }
     let difference = |tried: &SensitivityRun| Some(in_unit(&tried.on(patch)?.difference, PER_CENT));
-    let size = |row: &Row| row.effects.iter().flatten().map(|effect| effect.value.abs()).fold(0.0, f64::max);
-    let mut rows: Vec<Row> = rows.into_iter().map(|(name, same)| row(name, &same, &difference)).collect();
+    let size =
+        |row: &EffectRow| row.effects.iter().flatten().map(|effect| effect.value.abs()).fold(0.0, f64::max);
+    let mut rows: Vec<EffectRow> =
+        rows.into_iter().map(|(name, same)| row(name, &same, &difference)).collect();
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let side = Dimension::Length.pretty_to(patch, 3);
     let keys = if are_assumed { ["half", "twice"] } else { ["less", "more"] };
@@ -59,7 +61,7 @@ fn row(
     name: String,
     same: &[&SensitivityRun],
     difference: &dyn Fn(&SensitivityRun) -> Option<Difference>,
-) -> Row {
+) -> EffectRow {
     let key = |tried: &&SensitivityRun| tried.change.keys.first().cloned();
     let values: Vec<String> = same.iter().filter_map(key).map(|key| key.pretty(key.to)).collect();
     let from = same.first().and_then(key).map_or_else(String::new, |key| key.pretty(key.from));
@@ -68,5 +70,5 @@ fn row(
         difference(same.iter().find(is_it)?)
     };
     let detail = format!("{} instead of {from}", values.join(" or "));
-    Row { name, detail, effects: [true, false].map(effect).to_vec() }
+    EffectRow { name, detail, effects: [true, false].map(effect).to_vec() }
 }

@@ -87,7 +87,7 @@ fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assu
         let more = json!({
             "of_own_part": effect.own,
             "clouds_in_common": effect.in_common,
-            "cv_change_in_first_air": at_first.map(|first| first.difference.value),
+            "first_cv_change": at_first.map(|first| first.difference.value),
         });
         joined([object, known(more)])
     };

@@ -23,7 +23,7 @@ use spunlaid::web::{
 
 /// What a layer was laid from.
 #[derive(Clone, Debug, Serialize)]
-pub struct Layer {
+pub struct LayerSummary {
     /// Its name.
     pub name: String,
     /// Line density of a filament [kg/m].
@@ -79,7 +79,7 @@ pub fn summary_of_web(
     web: &Web,
     (findings, fabric): (&Findings, &Fabric),
     (advice, assumed_values, beside): (Option<&Advice>, Option<&Advice>, &str),
-    layers: &[Layer],
+    layers: &[LayerSummary],
     performance: Performance,
     notes: &[String],
 ) -> String {

@@ -9,7 +9,7 @@ use crate::page::table::{Layout, Row, Table};
 use crate::page::words::{grams, grams_with_error};
 use crate::reports::web::files::effects::HOUR;
 use crate::reports::web::files::fabric::fabric_rows;
-use crate::reports::web::files::summary::Layer;
+use crate::reports::web::files::summary::LayerSummary;
 use spunlaid::experiment::plausible::implausible;
 use spunlaid::fibre::body::diameter_of;
 use spunlaid::ground::Dimension;
@@ -50,7 +50,7 @@ impl From<Card> for Section<'static> {
 const MOST_LAYERS: usize = 3;
 
 /// The line itself, and whether it is one.
-pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Card {
+pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[LayerSummary]) -> Card {
     let row = |name: &str, value: String| Row::new(name, [value]);
     let made = spec.weight();
     let faster = format!("a belt {FASTER}{THIN}% faster makes {}", grams(made / (1.0 + 0.01 * FASTER)));
@@ -60,7 +60,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[Layer]) -> Car
         row("Belt", speed(spec.belt_speed())),
         row("Basis weight", grams(made)).detail(piece),
     ];
-    let numbers = |(layer, of): (&Layer, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
+    let numbers = |(layer, of): (&LayerSummary, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
     let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
     // Equal layers are shown once.
     let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
@@ -92,7 +92,7 @@ fn speed(speed: f64) -> String {
 ///
 /// * `density` – of its filaments [kg/m³]
 /// * `width` – of the sheet [m]
-fn numbers(layer: &Layer, density: f64, width: f64) -> Vec<(&'static str, String)> {
+fn numbers(layer: &LayerSummary, density: f64, width: f64) -> Vec<(&'static str, String)> {
     let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
     let size = diameter_of(titre, density);
     let holes = significant(layer.filaments as f64 / width, 4);

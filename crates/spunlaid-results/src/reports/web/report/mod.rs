@@ -9,7 +9,7 @@ pub(crate) mod scale;
 pub(crate) mod spinlines;
 
 use super::files::picture::Pictures;
-use super::files::summary::Layer;
+use super::files::summary::LayerSummary;
 use crate::Failure;
 use crate::effects::PER_CENT;
 use crate::files::origin::Performance;
@@ -49,7 +49,7 @@ pub fn web_report<'a>(
     (spec, toml, web): (&WebSpec, &str, &Web),
     (findings, fabric): (&Findings, &Fabric),
     tried: Advised<'_>,
-    (layers, spinlines): (&[Layer], &'a [LayerSpinline]),
+    (layers, spinlines): (&[LayerSummary], &'a [LayerSpinline]),
     (pictures, strands): (&Pictures, &[WindowCurve]),
     figures: &'a [Figure],
     performance: Performance,
@@ -126,7 +126,7 @@ fn uneven(web: &Web, findings: &Findings, verdict: Vec<String>) -> Section<'stat
 }
 
 /// The loads of the layers on their air, with the names of these where there are several.
-fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
+fn named_loads(layers: &[LayerSummary]) -> Vec<(Option<&str>, &Load)> {
     layers
         .iter()
         .filter_map(|layer| {
@@ -136,7 +136,7 @@ fn named_loads(layers: &[Layer]) -> Vec<(Option<&str>, &Load)> {
 }
 
 /// What the web was made from.
-fn file(layers: &[Layer], toml: &str) -> Section<'static> {
+fn file(layers: &[LayerSummary], toml: &str) -> Section<'static> {
     let heads = [
         "Layer",
         "Filaments",
@@ -337,7 +337,7 @@ fn simulated(findings: &Findings) -> String {
     format!("{filaments} filaments were simulated, evenly spaced across, on a sheet of {sheets}{coarse}")
 }
 
-fn layer(layer: &Layer) -> Row {
+fn layer(layer: &LayerSummary) -> Row {
     let spread = |sigma: Option<f64>| sigma.map_or("–".to_owned(), millimetres);
     let cells = [
         layer.filaments.to_string(),

@@ -5,7 +5,7 @@ use crate::page::document::Section;
 use crate::page::words::grams;
 use crate::reports::spinline::files::{SpinResults, solidification};
 use crate::reports::spinline::report::section;
-use crate::reports::web::files::summary::Layer;
+use crate::reports::web::files::summary::LayerSummary;
 use spunlaid::web::Web;
 use spunlaid_charts::Figure;
 
@@ -25,7 +25,7 @@ pub struct LayerSpinline {
 /// The spinlines of a web, a section for each.
 pub(super) fn sections_of_web<'a>(
     web: &Web,
-    layers: &[Layer],
+    layers: &[LayerSummary],
     spinlines: &'a [LayerSpinline],
 ) -> Vec<Section<'a>> {
     let of_layers = |(number, spinline): (usize, &'a LayerSpinline)| {
@@ -47,7 +47,7 @@ pub(super) fn sections_of_web<'a>(
 /// The way from the die to the web, with its basis weight from the holes, in a sentence.
 ///
 /// * `holes` – filaments per metre of width [1/m]
-fn way(layer: &Layer, holes: f64, spinline: &LayerSpinline, is_named: bool) -> String {
+fn way(layer: &LayerSummary, holes: f64, spinline: &LayerSpinline, is_named: bool) -> String {
     let Some(solution) = spinline.results.rows.first() else { return String::new() };
     let from_holes = holes * spinline.throughput / layer.belt_speed_m_s;
     let apart = (from_holes / layer.basis_weight_kg_m2 - 1.0).abs();

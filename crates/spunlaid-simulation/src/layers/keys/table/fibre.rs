@@ -65,16 +65,16 @@ pub(super) const LAYDOWN: &[WebKey] = &[
         .reported(|_: &WebSpec| None)
         .follows("the tables of a case in this file, or the three numbers")
         .meaning(
-            "Path of the case of a fed fibre, relative to this file. It is simulated, and its laid fibres make the \
-             web. Keys that this file contains too, such as `air.velocity`, replace those of the case.",
+            "Path of the case of a fed fibre, relative to this file. Keys that this file contains too, such as \
+             `air.velocity`, replace those of the case.",
         ),
     positive("laydown.sigma_md", Dimension::Length, (1e-5, 1.0))
         .access(of_surrogate!(sigma_md))
         .needed_if(KNOWN, "18.4 mm")
         .follows(IDENTIFIED)
         .meaning(
-            "Standard deviation of a laid filament in machine direction: σ₁ of the surrogate. These numbers do not \
-             contain the correlation of neighbours, so the CV of such a web is a lower bound.",
+            "Standard deviation of a laid filament in machine direction: σ₁ of the surrogate. The CV of such a web, \
+             without the correlation of neighbours, is a lower bound.",
         )
         .label("Standard deviation in machine direction"),
     positive("laydown.sigma_cd", Dimension::Length, (1e-5, 1.0))

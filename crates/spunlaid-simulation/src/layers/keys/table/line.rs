@@ -147,17 +147,16 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .follows("random positions in cross direction, all in the middle of the slot")
         .meaning(
-            "Gap of the slot in machine direction. The `filaments_per_metre` then have a uniform pitch \
-             across the web, each at a random position in the gap, where simulated ones meet other \
-             eddies. The air passes the same slot, which gives the load of the filaments on it.",
+            "Gap of the slot in machine direction. The `filaments_per_metre` then have a uniform pitch across the \
+             web and random positions in the gap. The gap also gives the load of the filaments on the air.",
         )
         .label("Slot gap"),
     quantity("line.charge", Dimension::SpecificCharge, Sign::Any, (1e-5, 1e-2))
         .access(at!(layer, layer_mut, charge))
         .follows("none")
         .meaning(
-            "Charge per mass of the filaments from a charging bar, which drives them apart along the machine \
-             direction. Only simulated filaments have one. No measured charge of a spunbond line is known to us.",
+            "Charge per mass of simulated filaments from a charging bar; they repel each other along the machine \
+             direction. No measured charge of a spunbond line is known.",
         )
         .synonyms(&["charging", "electrostatic", "corona", "electret"])
         .label("Charge of the filaments"),
@@ -176,9 +175,8 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .follows("no plates")
         .meaning(
-            "With `line.charge`: distance of two earthed plates from the middle of the slot, one on \
-             each side, from inlet to belt. The nearer plate pulls a curtain that is off the middle. \
-             They stop no filament.",
+            "With `line.charge`: distance of two earthed plates from the middle of the slot, from inlet to belt. \
+             The nearer one attracts the curtain. They stop no filament.",
         )
         .synonyms(&["plates", "images"])
         .label("Distance of earthed plates"),
@@ -240,9 +238,8 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, from))
         .follows("from the edge of the web on")
         .meaning(
-            "Where the holes that feed more or less than the others begin, from the edge of the web: \
-             `defects = [{ from = \"0.5 m\" }, …]`. `from` alone is the nearest hole, by default a \
-             blocked one; with `to`, all holes between.",
+            "Start of the holes with a defect, from the edge of the web: `defects = [{ from = \"0.5 m\" }, …]`. \
+             `from` alone is the nearest hole, by default a blocked one; with `to`, all holes between.",
         )
         .synonyms(&["blocked hole", "blocked holes", "plugged hole", "defect", "streak", "stripe"])
         .label("Position where a defect begins"),
@@ -265,8 +262,8 @@ pub(super) const DEFECTS: &[WebKey] = &[
         .access(at!(defect, defect_mut, titre))
         .value("0")
         .meaning(
-            "Mass per length of these filaments over that of the others, up to 2; 0 for blocked holes. \
-             They are assumed to lie as the others do.",
+            "Mass per length of these filaments over that of the others, up to 2; 0 for blocked holes. They are \
+             laid like the others.",
         )
         .label("Titre of filaments with a defect"),
     quantity("line.defects.after", Dimension::Time, Sign::NotNegative, (1e-6, 1e4))

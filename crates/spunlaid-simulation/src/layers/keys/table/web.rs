@@ -35,8 +35,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .access(at!(sheet.length))
         .required("1 m")
         .meaning(
-            "Size of the web in machine direction, a whole number of cells. It is a stretch of the belt; \
-             the end of a web of known numbers joins its beginning.",
+            "Size of the web in machine direction, a whole number of cells. The end of a web of known numbers joins \
+             its beginning.",
         )
         .label("Length of the web"),
     key("web.patches", Kind::Lengths)
@@ -75,9 +75,9 @@ pub(super) const KEYS: &[WebKey] = &[
         })
         .value("periodic")
         .meaning(
-            "What happens to fibre beyond the edges in cross direction. `periodic`: it enters at the \
-             other edge. `cut`: it is cut off, and the thinner strips, up to 3 σ_CD inwards of the \
-             outermost filament, are left out of CV, clouds and autocorrelation.",
+            "Fibre beyond the edges in cross direction enters at the other edge (`periodic`) or is cut off (`cut`). \
+             The thinner strips of cut edges, up to 3 σ_CD inwards of the outermost filament, are left out of CV, \
+             clouds and autocorrelation.",
         )
         .label("Edges"),
     key("web.simulated", Kind::Whole(1, MOST_FILAMENTS))
@@ -99,9 +99,9 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[AUTO, ALL])
         .follows("eight per length scale of the air, on a sheet of at most 0.2 m²")
         .meaning(
-            "Filaments per metre of width that are simulated; the others are estimated from them, because \
-             neighbours land almost alike. `all` simulates every filament; `auto` as many as the length \
-             scale of the air requires, and up to four times as many if these are not enough.",
+            "Simulated filaments per metre of width, from which the others are estimated. `all` simulates every \
+             filament; `auto` as many as the length scale of the air requires, up to four times as many if \
+             necessary.",
         )
         .label("Simulated filaments per metre"),
     quantity("web.error", Dimension::Ratio, Sign::Share, (1e-3, 1.0))
@@ -127,8 +127,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .follows("4 %; for a web so small that all of it is simulated, what its own clouds give")
         .meaning(
-            "Standard error of the CV over 10 mm that is wanted, as a fraction of the CV. Sheets in independent \
-             turbulence are simulated coarsely until it is reached. `none` simulates one sheet only.",
+            "Wanted standard error of the CV over 10 mm, as a fraction of the CV, by more sheets in independent \
+             turbulence with a coarse mesh. `none` simulates one sheet only.",
         )
         .synonyms(&["precision", "uncertainty"])
         .label("Wanted error of the CV"),
@@ -147,8 +147,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .fixed()
         .follows("`none`: no limit")
         .meaning(
-            "Wall-clock time after which no more sheets are begun to reach web.error. The result then \
-             depends on the speed of the machine.",
+            "Wall-clock time after which no more sheets are begun. The result then depends on the speed of the \
+             machine.",
         )
         .label("Time limit of the wanted error"),
     positive("web.memory_limit", Dimension::Memory, (1e7, 1e13))
@@ -156,8 +156,7 @@ pub(super) const KEYS: &[WebKey] = &[
         .value("4 GB")
         .fixed()
         .meaning(
-            "Largest memory for the field of eddies of a web in shared turbulence. A web that needs more \
-             is refused before it is simulated.",
+            "Largest memory for the field of eddies. A web that needs more is rejected before its simulation.",
         )
         .label("Memory limit"),
     key("web.assumed", Kind::Text("line.slot_gap, air.length_factor"))
@@ -171,8 +170,8 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("`none`: every number counts as known")
         .meaning(
-            "Keys of the web and of its cases whose numbers are assumed values, with commas. `spunlaid \
-             web` also gives the CV for half and twice each value. Remove what you have measured.",
+            "Keys of the web and of its cases with assumed values, separated by commas. `spunlaid web` also gives \
+             the CV for half and twice each value.",
         )
         .synonyms(&["assumed", "uncertain", "made up"])
         .label("Assumed values"),
@@ -187,15 +186,15 @@ pub(super) const KEYS: &[WebKey] = &[
         .or_words(&[NONE])
         .follows("throughput, titre, air_speed, drawing_air, die_temperature, quench, charge")
         .meaning(
-            "Settings that can be changed while the line runs, with commas; advice names these first. Others need a \
-             stopped line (distance, depth) or another line (holes, turbulence, row_places).",
+            "Settings that can be changed while the line runs, separated by commas; advice names these first. \
+             Others need a stopped line (distance, slot_gap) or another line (holes, turbulence, row_places).",
         )
         .synonyms(&["advice", "knobs", "what can be changed"])
         .label("Settings of the running line"),
     positive("web.window", Dimension::Length, (1e-5, 10.0))
         .access(at!(window))
         .follows("20 mm, at most the web's smaller side")
-        .meaning("Side of the square in the middle of the web whose single fibres are written as polylines.")
+        .meaning("Side of the square in the middle of the web whose fibres are written as polylines.")
         .label("Window"),
 ];
 
@@ -210,15 +209,15 @@ pub(super) const FABRIC: &[WebKey] = &[
     positive("fabric.saleable_width", Dimension::Length, (1e-2, 30.0))
         .access(at!(fabric.saleable_width))
         .follows("all of the web between its edges")
-        .meaning("Width in the middle of the web that is sold, to which all numbers of the fabric belong.")
+        .meaning("Width in the middle of the web that is sold, for all numbers of the fabric.")
         .synonyms(&["trim", "slit width", "net width"])
         .label("Saleable width"),
     quantity("fabric.tolerance", Dimension::Ratio, Sign::Share, (1e-3, 0.5))
         .access(at!(fabric.tolerance))
         .value("5 %")
         .meaning(
-            "How far the weight may be from that of the middle half of the web, with `web.edges = \
-             \"cut\"`: it gives the usable width and its trim.",
+            "With `web.edges = \"cut\"`, the allowed deviation from the mean weight of the middle half, which gives \
+             the usable width and its trim.",
         )
         .label("Tolerance of the weight"),
     positive("fabric.strip_width", Dimension::Length, (1e-3, 1.0))
@@ -237,8 +236,7 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.strip.section))
         .value("5 mm")
         .meaning(
-            "Length of a section of a strip. If the fibres alone made the strength, a strip would \
-             tear at its lightest section.",
+            "Length of a section of a strip; by the fibres alone, a strip tears at its lightest section.",
         )
         .synonyms(&["tensile", "weakest link"])
         .label("Section of a strip"),
@@ -252,8 +250,7 @@ pub(super) const FABRIC: &[WebKey] = &[
         .access(at!(fabric.measured_opacity))
         .follows("no opacity is given")
         .meaning(
-            "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included. The program \
-             adds the effect of the basis weight and its clouds.",
+            "Measured opacity (ISO 2471) of a fabric of the same filaments, pigment included.",
         )
         .synonyms(&["cover", "whiteness"])
         .label("Measured opacity"),

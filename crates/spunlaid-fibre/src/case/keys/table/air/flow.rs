@@ -213,8 +213,7 @@ pub(in super::super) const KEYS: &[Key] = &[
         .follows("`velocity` gives the speed of the air")
         .meaning(
             "Pressure of the cabin above that under the belt, which blows the air through the slot. It gives \
-             `velocity`, or the factor on a profile, whose velocity at the root is that at the slot: \
-             isentropic flow, times `speed_coefficient`.",
+             `velocity`, or the factor on a profile, at the root: isentropic flow, times `speed_coefficient`.",
         )
         .synonyms(&["cabin", "blower", "fan", "plenum", "chamber", "process air"])
         .label("Cabin pressure"),
@@ -233,8 +232,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .value("0.9")
         .read_after(&["air.cabin_pressure"])
         .meaning(
-            "Speed of the air at the slot over that of frictionless air at the same `cabin_pressure`. It is an \
-             assumed value; one measured pair gives it: `spunlaid new --web --cabin-pressure … --air-speed …`.",
+            "Speed of the air at the slot over that of frictionless air at the same `cabin_pressure`. Measured \
+             values of both give it: `spunlaid new --web --cabin-pressure … --air-speed …`.",
         )
         .label("Coefficient of speed of the slot"),
     choose("air.widening", || Widening::ALL.map(Widening::name).to_vec())
@@ -258,11 +257,10 @@ pub(in super::super) const KEYS: &[Key] = &[
                 Err(Fault::needs("air.profile", remedy))
             },
         })
-        .follows("the air only slows, and a web warns of it")
+        .follows("the air only slows, with a warning of a web")
         .meaning(
-            "Whether the mean flow of a profile widens where it slows. `md`: along y, the machine \
-             direction, as in a plane channel, with the velocity `−y dU/dx` from the middle of the \
-             slot. `none`: the air only slows, and no web warns of it.",
+            "Whether the mean flow of a profile widens where it slows. `md`: along the machine direction, with the \
+             velocity `−y dU/dx` from the middle of the slot. `none`: the air only slows, without a warning.",
         )
         .label("Widening of the mean flow"),
 ];

@@ -75,8 +75,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .inferred(from_air!(length_scale, |air| said(air)?.length_scale))
         .required("50 mm")
         .meaning(
-            "Integral length scale of the turbulence: the length of an eddy, along which the fluctuation \
-             is the same. A record, a profile or a field may give it.",
+            "Integral length scale of the turbulence: the length of an eddy. A record, a profile or a field may \
+             give it.",
         )
         .synonyms(&["eddy size", "integral length scale"])
         .label("Integral length scale *L*_{T}")

@@ -109,8 +109,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .value("independent")
         .default_if(FED, "convected")
         .meaning(
-            "How the turbulence is correlated along the fibre: independent eddies side by side, or a \
-             pattern that the mean flow carries along.",
+            "Correlation of the turbulence along the fibre: independent eddies, or a pattern that the mean flow \
+             carries along.",
         )
         .label("Eddies"),
     quantity("air.decay_time", Dimension::Time, Positive, (1e-6, 1000.0))
@@ -142,9 +142,8 @@ pub(in super::super) const KEYS: &[Key] = &[
         .access(at!(air.lateral))
         .value("uniform")
         .meaning(
-            "How the turbulence differs across the flow. `uniform`: not at all, and each fibre has \
-             its own. `von-karman`: as isotropic turbulence does, and fibres side by side share their \
-             eddies.",
+            "Structure of the turbulence across the flow. `uniform`: none, and each fibre has its own turbulence. \
+             `von-karman`: isotropic turbulence, shared by neighbouring fibres.",
         )
         .label("Turbulence across the flow"),
     quantity("air.lateral_cutoff", Dimension::Ratio, Positive, (5.0, 60.0))
@@ -172,8 +171,8 @@ pub(in super::super) const KEYS: &[Key] = &[
              what lasts for 256 integral times",
         )
         .meaning(
-            "Number of cosine waves whose sum is the turbulence. A sum lasts for harmonics / cut-off \
-             frequency; before that, it changes over to another sum.",
+            "Number of cosine waves whose sum is the turbulence. After harmonics / cut-off frequency it has changed \
+             to another sum.",
         )
         .label("Number of harmonics")
         .varies()

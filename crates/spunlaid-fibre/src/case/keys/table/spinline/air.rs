@@ -130,9 +130,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(spun, spinline, air_change.follows_air))
         .value("false")
         .meaning(
-            "Whether the velocity along the filament ends with that of `air` where the simulated fibre \
-             begins. Cabin pressure and air speed then change the whole spinline. A factor on the \
-             profile follows from it, instead of `velocity_factor`.",
+            "Whether a factor on the profile, instead of `velocity_factor`, makes it end with the velocity of `air` \
+             at the simulated fibre. Cabin pressure and air speed then change the whole spinline.",
         ),
     quantity("spinline.velocity_factor", Dimension::Ratio, NotNegative, (0.1, 10.0))
         .access(Access {

@@ -15,9 +15,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(at!(spun, spinline, law))
         .value("newtonian")
         .meaning(
-            "How the melt resists stretching: as a Newtonian liquid, or viscoelastic after Giesekus \
-             (`modulus` and `mobility` of [spinline.material]) or Phan-Thien–Tanner (`modulus` and \
-             `extensibility`).",
+            "Law of the melt: Newtonian, or viscoelastic after Giesekus (`modulus` and `mobility` of \
+             [spinline.material]) or Phan-Thien–Tanner (`modulus` and `extensibility`).",
         )
         .label("Law of the melt"),
     key("spinline.crystallisation", Kind::Switch)
@@ -40,8 +39,8 @@ pub(super) const KEYS: &[Key] = &[
         })
         .value("false")
         .meaning(
-            "Whether crystallisation is computed. The factor by which orientation speeds it up was \
-             chosen, not measured, so its positions are not predictions.",
+            "Whether crystallisation is computed. Its factor for orientation was chosen, not measured, so positions \
+             are not predictions.",
         )
         .label("Crystallisation")
         .varies(),
@@ -68,9 +67,8 @@ pub(super) const KEYS: &[Key] = &[
         .access(of_spinline!(drag_factor))
         .value("1.0")
         .meaning(
-            "Factor on the drag of the air along the filament. It is not known for any line: the laws of \
-             `drag.along` alone differ by a factor of 2.4. `spunlaid new --web --die-temperature …` \
-             finds the one with which the filament has the measured titre.",
+            "Factor on the drag of the air along the filament, not known for any line: the laws of `drag.along` \
+             differ by a factor of 2.4. `spunlaid new --web --die-temperature …` finds it from the measured titre.",
         )
         .synonyms(&["calibration", "titre"])
         .label("Factor on the drag of the spinline")
@@ -78,7 +76,7 @@ pub(super) const KEYS: &[Key] = &[
     quantity("spinline.break_stress", Dimension::Pressure, Positive, (1e5, 1e9))
         .access(of_spinline!(break_stress))
         .follows("no limit, because none is known well enough")
-        .meaning("Stress at which the filament breaks; a line that reaches it is refused.")
+        .meaning("Stress at which the filament breaks; a line that reaches it is rejected.")
         .label("Stress at break"),
 ];
 
@@ -151,8 +149,8 @@ pub(super) const END_KEYS: &[Key] = &[
         .value("0 N")
         .or_words(&[FLOWN])
         .meaning(
-            "Tension at a free end: the pull of the fibre below it. With `\"simulated\"` some fibres are simulated and \
-             the mean tension at their root is used; this is repeated until the speed changes by less than 0.1 %.",
+            "Tension at a free end: the pull of the fibre below it. `\"simulated\"` is the mean tension at the root \
+             of simulated fibres, iterated until the speed changes by less than 0.1 %.",
         )
         .label("Tension at the end"),
 ];

@@ -102,8 +102,7 @@ pub(super) const KEYS: &[Key] = &[
         (200.0, 700.0)
     )
     .meaning(
-        "Temperature at which `stress_optical_coefficient` holds; at others it is proportional to 1/T. If \
-             it is left out, the coefficient is the same at every temperature.",
+        "Temperature of `stress_optical_coefficient`, which is proportional to 1/T, or constant without this key.",
     )
     .label("Temperature of the stress-optical coefficient"),
     constant!("full_birefringence", Ratio, Positive, full_birefringence, (0.001, 1.0))
@@ -111,8 +110,7 @@ pub(super) const KEYS: &[Key] = &[
         .label("Birefringence of full orientation"),
     constant!("unoriented_modulus", Pressure, Positive, unoriented_modulus, (1e7, 1e12))
         .meaning(
-            "Young's modulus of the solid filament without orientation; the estimate of the modulus \
-             uses it.",
+            "Young's modulus of the solid filament without orientation.",
         )
         .label("Young’s modulus without orientation *E*_{0}"),
     constant!("oriented_modulus", Pressure, Positive, oriented_modulus, (1e7, 1e12))
@@ -141,8 +139,8 @@ pub(super) const KEYS: &[Key] = &[
         .label("Heat of fusion Δ*H*"),
     constant!("orientation_enhancement", Ratio, NotNegative, crystals.orientation_enhancement, (1.0, 1e5))
         .meaning(
-            "Factor C by which orientation speeds up crystallisation, exp(C f²). It was chosen, for \
-             pet by where the neck begins (700 to 1500).",
+            "Factor C by which orientation speeds up crystallisation, exp(C f²). It was chosen, for pet by the \
+             start of the neck (700 to 1500).",
         )
         .label("Enhancement by orientation *C*"),
     constant!("enhancement_limit", Ratio, Positive, crystals.enhancement_limit, (1.0, 1e8))

@@ -80,8 +80,8 @@ const LINE: &[Key] = &[
         .required("\"pp\"")
         .derived(no_spinline)
         .meaning(
-            "One of these, or a file with all constants of a polymer in a table [spinline.material]. \
-             Single constants may be written in [spinline.material] of the case.",
+            "A name, or a file with all constants in a table [spinline.material]. The same table of the case sets \
+             single constants.",
         )
         .label("Polymer")
         .varies(),
@@ -147,8 +147,8 @@ const CURTAIN: &[Key] = &[
         .access(at!(curtain_of, curtain, rows))
         .follows("one filament in the air as it is given")
         .meaning(
-            "Rows of holes that the quench air crosses one after another; each row warms and drags the \
-             air. The simulated fibre belongs to the first row.",
+            "Rows of holes, each of which warms and drags the quench air. The simulated fibre belongs to the first \
+             row.",
         )
         .label("Rows of holes")
         .varies(),
