@@ -203,7 +203,7 @@ fn few_of_changes(
             .iter()
             .flat_map(|base| [base.patch, base.cv, base.standard_error.unwrap_or(f64::NAN)])
             .collect();
-        let alone = tell(&[changed], &numbers, &|told| {
+        let alone = simulate(&[changed], &numbers, &|estimates| {
             let effects =
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(estimates.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
@@ -265,8 +265,8 @@ fn unwatched(_: Flights<'_>, work: &mut (dyn FnMut() + Send)) {
 /// How uneven a web of filaments in shared turbulence is.
 fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
     let of_map = |found: &PatchFindings| {
-        let (told, error) = (found.reported()?, found.total_error().whole());
-        Some(ExpectedCv::alone(told.patch, told.cv, error))
+        let (reported, error) = (found.reported()?, found.total_error().whole());
+        Some(ExpectedCv::alone(reported.patch, reported.cv, error))
     };
     patches.iter().filter_map(of_map).collect()
 }

@@ -151,7 +151,7 @@ fn keys(
         let parameter = &webs.parameters[key];
         let (parameter, value) = (parameter.clone(), parameter.value(coordinates[key]));
         let Some(index) = surface.keys.iter().position(|known| *known == key) else {
-            let interval = Err("it changes nothing of what is compared".to_owned());
+            let interval = Err("it has no effect on what is compared".to_owned());
             let (ends, warning) = ([IntervalEnd::OfRange; 2], Some(KeyWarning::NoEffect));
             return FittedKey { parameter, value, interval, ends, profile, warning };
         };

@@ -109,7 +109,8 @@ impl Document {
     /// The text is not TOML.
     pub(super) fn with(&self, key: &Key, to: Option<Value>) -> Result<Self, Vec<PageDiagnostic>> {
         // Where the text is not TOML, reading it says why, in the words of all commands.
-        let untold = |error: toml_edit::TomlError| diagnostic(format!("not valid TOML: {}", error.message()));
+        let invalid =
+            |error: toml_edit::TomlError| diagnostic(format!("not valid TOML: {}", error.message()));
         let parsed = self.text.parse::<DocumentMut>();
         let mut document = parsed.map_err(|error| self.read().err().unwrap_or_else(|| invalid(error)))?;
         let mut table: &mut dyn TableLike = document.as_table_mut();

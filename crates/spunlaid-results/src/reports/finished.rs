@@ -74,8 +74,9 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
         // A laid web.
         _ if scan.is_null() => None,
         Json::Null if scan.get("assumed").is_some() => None,
-        guess => {
-            let known = ScanWarning::GUESSES.into_iter().find(|(name, _)| guess.as_str() == Some(name));
+        assumption => {
+            let known =
+                ScanWarning::ASSUMPTIONS.into_iter().find(|(name, _)| assumption.as_str() == Some(name));
             let known = known
                 .ok_or_else(|| refused("it was analysed by another version; analyse it again".to_owned()));
             Some(known?.1)

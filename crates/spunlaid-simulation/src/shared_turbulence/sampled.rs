@@ -214,7 +214,7 @@ impl SubsamplePlan {
 
     /// What they say of all filaments.
     ///
-    /// * `blocks` – number of those that are reported of the sheet, across and along
+    /// * `blocks` – number of those that are estimate of the sheet, across and along
     /// * `curves` – of the filaments, from which those between them are filled in
     ///
     /// # Errors
@@ -237,9 +237,12 @@ impl SubsamplePlan {
         let covariances = Covariances::fit(curves, by.0);
         let filled =
             self.filled((sheet, simulated.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
-        let told = filaments.estimate(Some(&filled), by.0)?;
-        let correlation = covariances.smooth.map(|covariance| covariance.correlation([told.pitch, 0.0]));
-        Ok(with_pitches(SubsampleEstimate { correlation: Some(correlation[0].min(correlation[1])), ..told }))
+        let estimate = filaments.estimate(Some(&filled), by.0)?;
+        let correlation = covariances.smooth.map(|covariance| covariance.correlation([estimate.pitch, 0.0]));
+        Ok(with_pitches(SubsampleEstimate {
+            correlation: Some(correlation[0].min(correlation[1])),
+            ..estimate
+        }))
     }
 
     /// Maps in which the filaments between the simulated ones have been filled in.

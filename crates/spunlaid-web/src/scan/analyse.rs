@@ -119,7 +119,7 @@ fn patches(
     masked: &[bool],
     sides: &[usize],
     settings: &Settings,
-    guess: Option<ScanWarning>,
+    assumption: Option<ScanWarning>,
 ) -> Result<Vec<PatchFindings>, Fault> {
     let map = &weighed.map;
     let given = settings.noise.map(|noise| noise * weighed.per_noise);
@@ -143,7 +143,7 @@ fn patches(
         let found = found.ok_or_else(|| all_noise(patch, settings.noise))?;
         let few = FEWEST * side > map.columns.min(map.rows);
         let (cv, [low, high]) = (found.cv(), found.interval());
-        let doubt = guess
+        let doubt = assumption
             .or(blur.is_some_and(|blur| blur >= SHARP).then_some(ScanWarning::Blur))
             .or((few || !high.is_finite()).then_some(ScanWarning::Few));
         // Noise that is not taken out is at most in the CV, and what a pixel of blur takes away is missing.

@@ -69,7 +69,7 @@ pub struct Findings {
     pub pixels: Pixels,
     /// What is only an assumed value about the lamp or the numbers, if anything: then nothing that depends on it has an
     /// interval.
-    pub guess: Option<ScanWarning>,
+    pub assumption: Option<ScanWarning>,
     /// The parts of the picture that are not web and were left out.
     pub aside: ForeignParts,
     /// How uneven it is, patch by patch.

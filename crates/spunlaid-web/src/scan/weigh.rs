@@ -65,7 +65,7 @@ pub(super) struct WeighedPicture {
 
 impl WeighedPicture {
     /// What is only an assumed value about the lamp, if anything.
-    pub(super) fn guess(&self, light: Light) -> Option<ScanWarning> {
+    pub(super) fn assumption(&self, light: Light) -> Option<ScanWarning> {
         let is_white =
             matches!(light, Light::Transmitted { white: None, .. } | Light::Reflected { white: None, .. })
                 && self.white.is_some();

@@ -235,7 +235,7 @@ fn an_assumed_lamp_leaves_no_interval() {
         assert_eq!(small.patch_cv.standard_error.is_none(), doubt.is_some());
         // Three patches of 80 mm beside each other say nothing in any case.
         assert_eq!(large.interval, Err(doubt.unwrap_or(ScanWarning::Few)));
-        let told: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
+        let notes: Vec<String> = found.notes.iter().map(ToString::to_string).collect();
         assert_eq!(
             notes.iter().any(|note| note.contains("so no interval is given; take an image of the lamp")),
             doubt.is_some(),
@@ -255,7 +255,7 @@ fn without_the_lamp_the_cv_is_a_lower_bound() {
         let patches = SIDES.map(|side| side as f64 * PIXEL).to_vec();
         let light = Light::Transmitted { mean: None, white: None };
         let found = scanned(&scan, &Settings { patches, ..Settings::new(light) });
-        assert_eq!(found.guess, Some(ScanWarning::White));
+        assert_eq!(found.assumption, Some(ScanWarning::White));
         for (patch, truth) in found.patches.iter().zip(&truth) {
             let ratio = patch.patch_cv.cv / truth;
             println!("{name} {} {truth} {ratio}", patch.patch_cv.patch);

@@ -72,7 +72,7 @@ fn a_clipped_picture_of_the_lamp_leaves_no_interval() {
     ] {
         let scan = png16(COLUMNS, &levels16(&behind(&bright), most, clip));
         let found = found(&scan, &png16(COLUMNS, &levels16(&bright, most, clip)));
-        assert_eq!(found.guess, Some(ScanWarning::ClippedLamp), "{name}");
+        assert_eq!(found.assumption, Some(ScanWarning::ClippedLamp), "{name}");
         assert_eq!(found.patches[0].interval, Err(ScanWarning::ClippedLamp), "{name}");
         assert!(found.patches[0].patch_cv.standard_error.is_none());
         let reported = found.notes.iter().find(|note| note.message.contains("the lamp is clipped")).unwrap();
@@ -86,7 +86,7 @@ fn a_clipped_picture_of_the_lamp_leaves_no_interval() {
     };
     let [scan, lamp] = [&behind(&bright), &bright]
         .map(|light| png(COLUMNS, ColorType::Rgb, BitDepth::Eight, &colours(light)));
-    assert_eq!(found(&scan, &lamp).guess, Some(ScanWarning::ClippedLamp));
+    assert_eq!(found(&scan, &lamp).assumption, Some(ScanWarning::ClippedLamp));
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn a_lamp_that_is_darker_than_the_web_leaves_no_interval() {
     // A third of the exposure.
     let found = found(&scan, &png16(COLUMNS, &levels16(&light, 26_000.0, 65_535.0)));
     assert_eq!(
-        (found.guess, found.patches[0].interval),
+        (found.assumption, found.patches[0].interval),
         (Some(ScanWarning::DarkLamp), Err(ScanWarning::DarkLamp))
     );
     assert!(found.notes.iter().any(|note| note.message.contains("more light than the lamp gives")));
@@ -168,8 +168,8 @@ fn grey_levels_that_pass_for_weights_are_doubted() {
     let says =
         |found: &Findings| found.notes.iter().any(|note| note.message.contains("as those of an image"));
     for (name, file) in grey() {
-        let assumed = told(&file, Some(20e-3), true);
-        assert_eq!(assumed.guess, Some(ScanWarning::GreyLevels), "{name}");
+        let assumed = reported(&file, Some(20e-3), true);
+        assert_eq!(assumed.assumption, Some(ScanWarning::GreyLevels), "{name}");
         assert_eq!(assumed.patches[0].interval, Err(ScanWarning::GreyLevels), "{name}");
         assert!(says(&assumed), "{name}");
         // Who says that they are weights is believed, and reported.

@@ -31,7 +31,7 @@ fn every_row_is_whole() {
             // Both ends are allowed.
             let mut case = read_case("../../cases/profile.toml", &[]).unwrap().0;
             let set = [least, greatest].map(|end| key.set(&mut case, end));
-            let told = |problem: &spunlaid::ground::Diagnostic| {
+            let is_reported = |problem: &spunlaid::ground::Diagnostic| {
                 let text = problem.to_string();
                 text.contains("has no effect") || text.contains("is read from a file")
             };

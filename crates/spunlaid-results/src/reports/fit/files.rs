@@ -95,9 +95,9 @@ pub fn write_trials(staging: &Staging<'_>, fit: &Fit) -> Result<(), Failure> {
 /// Why the value of a key is not to be trusted, in words.
 pub fn warning(warning: KeyWarning) -> &'static str {
     match warning {
-        KeyWarning::NoEffect => "it changes nothing of what is compared",
-        KeyWarning::Unknown => "the scan does not determine it: every value of the range will do",
-        KeyWarning::AtEnd => "it lies at an end of its range",
+        KeyWarning::NoEffect => "it has no effect on what is compared",
+        KeyWarning::Unknown => "the scan does not determine it: every value of the range fits",
+        KeyWarning::AtEnd => "it is at an end of its range",
     }
 }
 
@@ -169,10 +169,8 @@ pub fn sentences(fit: &Fit) -> Vec<String> {
         let name = &key.parameter.key.name;
         if let Some(found) = key.warning {
             let advice = match found {
-                KeyWarning::NoEffect => "do not seek it",
-                KeyWarning::Unknown => {
-                    "leave it at a value that you know, or compare the spectrum too (--spectrum)"
-                }
+                KeyWarning::NoEffect => "do not fit it",
+                KeyWarning::Unknown => "set it to a known value, or compare the spectrum too (--spectrum)",
                 KeyWarning::AtEnd => "give it a wider range, if values beyond it make sense",
             };
             all.push(format!("{name}: {}; {advice}.", warning(found)));

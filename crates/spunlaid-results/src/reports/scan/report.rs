@@ -103,7 +103,7 @@ fn title(findings: &Findings) -> String {
         // The lamp is no lighter than the largest level, so the density is no larger than what was found.
         ScanWarning::White => varies("at least"),
         ScanWarning::Shading => varies("about"),
-        _ => format!("CV not known: {guess}."),
+        _ => format!("CV not known: {assumption}."),
     }
 }
 

@@ -21,8 +21,8 @@ pub fn write_json(
     let ranking = |ranking: &Ranking| {
         let effects: Json = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();
         // `explained`: share of the variation between points that straight lines explain.
-        let told = json!({"explained": ranking.explained, "effects": effects});
-        (study.quantities[ranking.measure].column.clone(), told)
+        let object = json!({"explained": ranking.explained, "effects": effects});
+        (study.quantities[ranking.measure].column.clone(), object)
     };
     // By the columns of the results; empty if the factors cannot be ranked.
     let ranking: Json = rankings.of_measures.iter().map(ranking).collect();

@@ -164,8 +164,9 @@ pub fn summary_of_scan(
     if !findings.mean_known {
         web["basis_weight_kg_m2"] = Json::Null;
     }
-    let guess = ScanWarning::GUESSES.into_iter().find(|(_, doubt)| Some(*doubt) == findings.guess);
-    let about = json!({"file": file, "assumed": guess.map(|(name, _)| name)});
+    let assumption =
+        ScanWarning::ASSUMPTIONS.into_iter().find(|(_, doubt)| Some(*doubt) == findings.assumption);
+    let about = json!({"file": file, "assumed": assumption.map(|(name, _)| name)});
     let parts = json!({
         "web": web,
         "fabric": fabric::summary(fabric),
