@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_few_tell_what_every_second_one_tells_too() {
         let cvs = vec![cv(0.002, 0.3), cv(0.01, -0.06), cv(0.02, 0.08), cv(0.05, 0.049)];
-        let told = SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() };
+        let told = SubsampleEstimate { correlation: Some(0.9), cvs, ..SubsampleEstimate::default() };
         let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| told.doubt_over(patch).is_some());
         assert_eq!(doubts, [false, true, true, false]);
         assert_eq!(told.doubt(), Some(SubsampleWarning::Halves(0.02, 0.08)));
@@ -215,13 +215,16 @@ mod tests {
     #[test]
     fn neighbours_with_little_in_common_tell_nothing_of_those_between_them() {
         let told = SubsampleEstimate {
-            correlation: 0.69,
+            correlation: Some(0.69),
             cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)],
             ..SubsampleEstimate::default()
         };
         assert_eq!(told.doubt_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
         assert_eq!(told.doubt(), Some(SubsampleWarning::Neighbours(0.69)));
-        assert_eq!(SubsampleEstimate { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..told }.doubt(), None);
+        assert_eq!(
+            SubsampleEstimate { correlation: Some(0.7), cvs: vec![cv(0.002, 0.0)], ..told }.doubt(),
+            None
+        );
     }
 
     /// Twenty filaments of three thousand left zero of the CV, and its error was not a number.
@@ -229,7 +232,8 @@ mod tests {
     fn a_cv_that_is_not_told_from_zero_is_doubted_over_patches_of_any_size() {
         let own = |cv: f64, by_pitch: f64| {
             let cvs = vec![SubsampleCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
-            SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() }.doubt_over(0.002)
+            SubsampleEstimate { correlation: Some(0.9), cvs, ..SubsampleEstimate::default() }
+                .doubt_over(0.002)
         };
         assert_eq!(own(0.2, 0.09), None);
         for (cv, by_pitch) in [(0.2, 0.11), (0.0, 0.0), (0.0, f64::NAN), (f64::NAN, 0.01), (0.1, f64::NAN)] {
@@ -244,7 +248,7 @@ mod tests {
             pitch,
             usual_pitch: 0.002,
             pitch_of_all: 1.0 / 6000.0,
-            correlation,
+            correlation: Some(correlation),
             cvs: vec![cv(0.01, off)],
             ..SubsampleEstimate::default()
         };
