@@ -100,11 +100,11 @@ impl Flyer<'_> {
             let told = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
-            let more = told.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
+            let more = told.warning().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
             let more = more.then(|| beam_on(spec, number, finer.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 let told = match &asked {
-                    Some(on) if told.doubt().is_none() => {
+                    Some(on) if told.warning().is_none() => {
                         let first = FineSheet { on, layer: &layer, simulated: &simulated, few: told };
                         sheets.until_sure(first)?
                     }
