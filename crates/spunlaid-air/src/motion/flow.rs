@@ -96,7 +96,7 @@ impl Air {
     pub fn velocity_at_slot(&self) -> Option<f64> {
         let velocity = match &self.flow {
             Flow::Uniform => self.velocity,
-            Flow::Profile(profile) => self.speed_factor * profile.velocity_at_root(),
+            Flow::Profile(profile) => self.speed_factor * profile.velocity_at_root()?,
             Flow::Field(_) => return None,
         };
         Some(velocity).filter(|velocity| *velocity > 0.0 && self.density > 0.0)

@@ -146,9 +146,9 @@ impl Profile {
         self.x.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min)
     }
 
-    /// The velocity at the root [m/s].
-    pub fn velocity_at_root(&self) -> f64 {
-        self.at(&self.velocity, 0.0).unwrap_or(f64::NAN)
+    /// The velocity at the root [m/s]; None of an empty table.
+    pub fn velocity_at_root(&self) -> Option<f64> {
+        self.at(&self.velocity, 0.0)
     }
 
     /// The value of a column at `x` [m].

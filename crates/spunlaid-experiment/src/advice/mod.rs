@@ -79,7 +79,7 @@ pub const MOST_STEPS: u64 = 20_000_000;
 /// filaments give the web. Where all filaments in shared turbulence are simulated, two maps are compared, and only
 /// large effects are seen. Assumed values must also fit into the memory beside each other.
 pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> bool {
-    let is_reported = findings.seen().is_none_or(|seen| seen.doubt.is_none());
+    let is_reported = findings.seen().is_none_or(|seen| seen.warning.is_none());
     let says_enough = is_reported && findings.laid.simulated.iter().all(|layer| layer.few.is_some());
     says_enough && are_short(spec, changes)
 }

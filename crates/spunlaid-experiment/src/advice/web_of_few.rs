@@ -104,7 +104,7 @@ impl WebOfFew {
             let (weight, number) = of_layer(layer)?;
             // Nothing is a change of a CV that is not reported at all.
             if let Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)) =
-                layer.1.doubt_over(patch)
+                layer.1.warning_over(patch)
             {
                 return None;
             }

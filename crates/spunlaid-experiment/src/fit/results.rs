@@ -166,7 +166,7 @@ fn keys(
             (near(low) || near(high)).then_some(KeyWarning::AtEnd)
         };
         let interval = interval.map(|end| parameter.value(end));
-        let interval = webs.target.doubt().map_or(Ok(interval), |doubt| Err(doubt.to_owned()));
+        let interval = webs.target.warning().map_or(Ok(interval), |warning| Err(warning.to_owned()));
         FittedKey { parameter, value, interval, ends: *ends, profile, warning }
     };
     profiles.into_iter().enumerate().map(key).collect()

@@ -18,7 +18,7 @@ pub struct MeasuredWeb {
     /// Whether the shading of the lamp was taken out as a polynomial.
     pub flat: bool,
     /// Why no interval can be given for anything of it, if so.
-    pub doubt: Option<String>,
+    pub warning: Option<String>,
 }
 
 impl MeasuredWeb {
@@ -34,7 +34,7 @@ impl MeasuredWeb {
             patches: findings.patches.iter().map(patch).collect(),
             has_known_noise: findings.noise.is_some(),
             flat: findings.shading.is_some(),
-            doubt: findings.assumption.map(|doubt| doubt.to_string()),
+            warning: findings.assumption.map(|warning| warning.to_string()),
         }
     }
 }
@@ -61,7 +61,7 @@ pub struct Target {
     pub(super) logarithms: Vec<f64>,
     /// Standard errors of the logarithms by each cause of the camera, common to all of them.
     pub(super) camera: Vec<Vec<f64>>,
-    doubt: Option<String>,
+    warning: Option<String>,
 }
 
 /// A patch is as many times smaller than the compared part at least.
@@ -138,7 +138,7 @@ impl Target {
             }
         }
         let camera = camera.errors(&textures.all, &logarithms);
-        Ok(Self { map, textures, logarithms, camera, doubt: measured.doubt.clone() })
+        Ok(Self { map, textures, logarithms, camera, warning: measured.warning.clone() })
     }
 
     /// A web of which nothing but these logarithms is known.
@@ -147,7 +147,7 @@ impl Target {
         let map =
             Map { columns: 0, rows: 0, cell: 1e-3, quantum: 1.0, closed: [false; 2], cells: Vec::new() };
         let textures = Textures { all: sides.iter().copied().map(Texture::Patch).collect(), flat: false };
-        Self { map, textures, logarithms, camera: Vec::new(), doubt: None }
+        Self { map, textures, logarithms, camera: Vec::new(), warning: None }
     }
 
     /// What is compared.
@@ -161,8 +161,8 @@ impl Target {
     }
 
     /// Why no interval can be given.
-    pub(crate) fn doubt(&self) -> Option<&str> {
-        self.doubt.as_deref()
+    pub(crate) fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
     }
 
     /// A checksum over all that the numbers of a simulated web depend on, and over the target's own.

@@ -221,7 +221,7 @@ impl LineFile {
     /// all layers have one table.
     fn shown(&self, first: &KnownKey) -> Shown {
         let of_table = |case: &Case| match &case.air.flow {
-            Flow::Profile(profile) => Some(profile.velocity_at_root()).filter(|speed| *speed > 0.0),
+            Flow::Profile(profile) => profile.velocity_at_root().filter(|speed| *speed > 0.0),
             Flow::Uniform | Flow::Field(_) => None,
         };
         let mut speeds = self.spec().cases().map(of_table);

@@ -84,7 +84,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
         with(&|patch| patch.evidence = Evidence::FewInOneAir),
         with(&|patch| {
             few(patch);
-            patch.doubt = Some(SubsampleWarning::Neighbours(0.1));
+            patch.warning = Some(SubsampleWarning::Neighbours(0.1));
             patch.map.standard_error = None;
             if let Some(few) = &mut patch.few {
                 (few.cv, few.by_chance, few.by_pitch, few.of_halves) = (0.0, None, f64::NAN, f64::NAN);
@@ -117,7 +117,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
         assert!(!text.contains("NaN") && !report.contains("NaN"), "{text}");
         let says_all = report.contains("every filament of the sheet was simulated");
         assert_eq!(says_all, findings.patches[0].evidence == Evidence::AllInOneAir, "{text}");
-        if findings.patches[0].doubt.is_some() {
+        if findings.patches[0].warning.is_some() {
             let patch = &summary["web"]["patches"][0];
             assert!(patch["cv"].is_null() && patch.get("cv").is_some(), "{patch}");
             assert_eq!(patch["no_interval"], "too few filaments simulated");

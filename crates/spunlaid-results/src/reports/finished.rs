@@ -70,7 +70,7 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
     let web = summary.get("web").ok_or_else(|| missing("web"))?;
     let all = web["patches"].as_array().ok_or_else(|| missing("patches of the web"))?;
     let scan = &summary["scan"];
-    let doubt = match &scan["assumed"] {
+    let warning = match &scan["assumed"] {
         // A laid web.
         _ if scan.is_null() => None,
         Json::Null if scan.get("assumed").is_some() => None,
@@ -103,6 +103,6 @@ pub fn read_measured_web(folder: &Path) -> Result<MeasuredWeb, Error> {
         patches,
         has_known_noise: scan["noise"].as_f64().is_some(),
         flat: scan["shading"].as_f64().is_some(),
-        doubt: doubt.map(|doubt| doubt.to_string()),
+        warning: warning.map(|warning| warning.to_string()),
     })
 }

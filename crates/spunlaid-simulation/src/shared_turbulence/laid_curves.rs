@@ -100,11 +100,11 @@ impl Flyer<'_> {
             let estimate = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
-            let more = estimate.doubt().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
+            let more = estimate.warning().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();
             let more = more.then(|| beam_on(spec, number, finer.as_ref())).transpose()?;
             let Some(more) = more.filter(|more| more.few.is_some()) else {
                 let estimate = match &asked {
-                    Some(on) if estimate.doubt().is_none() => {
+                    Some(on) if estimate.warning().is_none() => {
                         let first = FineSheet { on, layer: &layer, simulated: &simulated, few: estimate };
                         sheets.until_sure(first)?
                     }

@@ -110,7 +110,7 @@ impl PinnedLayer {
         let mut suffices = true;
         let mut is_enough = |few: &SubsampleEstimate| {
             suffices =
-                !matches!(few.doubt(), Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)));
+                !matches!(few.warning(), Some(SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_)));
             suffices
         };
         match Self::fly_at(PITCHES, spec, number, areas, &mut is_enough, see, by) {

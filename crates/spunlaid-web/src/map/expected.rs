@@ -258,7 +258,8 @@ mod tests {
         };
         let all: Vec<ExpectedCv> = (1..=SEEDS).map(found).collect();
         let count = SEEDS as f64;
-        let reported = (all.iter().map(|one| one.standard_error.powi(2)).sum::<f64>() / count).sqrt();
+        let reported =
+            (all.iter().map(|one| one.standard_error.unwrap().powi(2)).sum::<f64>() / count).sqrt();
         let scatter = Estimate::new(all.iter().map(|one| one.cv).collect()).standard_error.unwrap();
         let ratio = scatter * count.sqrt() / reported;
         assert!((0.6..1.6).contains(&ratio), "{ratio}");

@@ -140,7 +140,7 @@ impl SubsampleEstimate {
     }
 
     /// Why they do not give the CV over patches of a side; None if they do.
-    pub fn doubt_over(&self, patch: f64) -> Option<SubsampleWarning> {
+    pub fn warning_over(&self, patch: f64) -> Option<SubsampleWarning> {
         if let Some(correlation) = self.correlation.filter(|correlation| *correlation < TOGETHER) {
             return Some(SubsampleWarning::Neighbours(correlation));
         }
@@ -156,13 +156,13 @@ impl SubsampleEstimate {
     }
 
     /// Why they do not give the CV over patches of every side; None if they do. Of several reasons the strongest.
-    pub fn doubt(&self) -> Option<SubsampleWarning> {
-        let off = |doubt: &SubsampleWarning| match doubt {
+    pub fn warning(&self) -> Option<SubsampleWarning> {
+        let off = |warning: &SubsampleWarning| match warning {
             SubsampleWarning::Halves(_, off) => off.abs(),
             SubsampleWarning::Own(_) => f64::MAX,
             SubsampleWarning::Neighbours(_) => f64::INFINITY,
         };
-        let all = self.cvs.iter().filter_map(|cv| self.doubt_over(cv.patch));
+        let all = self.cvs.iter().filter_map(|cv| self.warning_over(cv.patch));
         all.max_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
@@ -170,7 +170,7 @@ impl SubsampleEstimate {
     /// airs, or two or four times as many, and more than now. None if all of them have to fly, or if the simulated
     /// ones give it.
     pub fn enough_per_metre(&self) -> Option<f64> {
-        let times = match self.doubt()? {
+        let times = match self.warning()? {
             SubsampleWarning::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
             SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_) => MORE,
         };
@@ -203,26 +203,26 @@ mod tests {
     #[test]
     fn a_few_give_what_every_second_one_gives_too() {
         let cvs = vec![cv(0.002, 0.3), cv(0.01, -0.06), cv(0.02, 0.08), cv(0.05, 0.049)];
-        let estimate = SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() };
-        let doubts = [0.002, 0.01, 0.02, 0.05].map(|patch| estimate.doubt_over(patch).is_some());
-        assert_eq!(doubts, [false, true, true, false]);
-        assert_eq!(estimate.doubt(), Some(SubsampleWarning::Halves(0.02, 0.08)));
+        let estimate = SubsampleEstimate { correlation: Some(0.9), cvs, ..SubsampleEstimate::default() };
+        let warnings = [0.002, 0.01, 0.02, 0.05].map(|patch| estimate.warning_over(patch).is_some());
+        assert_eq!(warnings, [false, true, true, false]);
+        assert_eq!(estimate.warning(), Some(SubsampleWarning::Halves(0.02, 0.08)));
         let within_chance = |cv: &SubsampleCv| SubsampleCv { by_chance: Some(0.012), ..*cv };
         let cvs = estimate.cvs.iter().map(within_chance).collect();
-        assert_eq!(SubsampleEstimate { cvs, ..estimate }.doubt(), None);
+        assert_eq!(SubsampleEstimate { cvs, ..estimate }.warning(), None);
     }
 
     #[test]
     fn neighbours_with_little_in_common_tell_nothing_of_those_between_them() {
         let estimate = SubsampleEstimate {
-            correlation: 0.69,
+            correlation: Some(0.69),
             cvs: vec![cv(0.002, 0.0), cv(0.01, 0.2)],
             ..SubsampleEstimate::default()
         };
-        assert_eq!(estimate.doubt_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
-        assert_eq!(estimate.doubt(), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(estimate.warning_over(0.002), Some(SubsampleWarning::Neighbours(0.69)));
+        assert_eq!(estimate.warning(), Some(SubsampleWarning::Neighbours(0.69)));
         assert_eq!(
-            SubsampleEstimate { correlation: 0.7, cvs: vec![cv(0.002, 0.0)], ..estimate }.doubt(),
+            SubsampleEstimate { correlation: Some(0.7), cvs: vec![cv(0.002, 0.0)], ..estimate }.warning(),
             None
         );
     }
@@ -232,7 +232,8 @@ mod tests {
     fn a_cv_that_is_not_distinguished_from_zero_is_doubted_over_patches_of_any_size() {
         let own = |cv: f64, by_pitch: f64| {
             let cvs = vec![SubsampleCv { cv, by_pitch, ..self::cv(0.002, 0.0) }];
-            SubsampleEstimate { correlation: 0.9, cvs, ..SubsampleEstimate::default() }.doubt_over(0.002)
+            SubsampleEstimate { correlation: Some(0.9), cvs, ..SubsampleEstimate::default() }
+                .warning_over(0.002)
         };
         assert_eq!(own(0.2, 0.09), None);
         for (cv, by_pitch) in [(0.2, 0.11), (0.0, 0.0), (0.0, f64::NAN), (f64::NAN, 0.01), (0.1, f64::NAN)] {
@@ -247,7 +248,7 @@ mod tests {
             pitch,
             usual_pitch: 0.002,
             pitch_of_all: 1.0 / 6000.0,
-            correlation,
+            correlation: Some(correlation),
             cvs: vec![cv(0.01, off)],
             ..SubsampleEstimate::default()
         };

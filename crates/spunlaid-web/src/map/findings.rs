@@ -86,7 +86,7 @@ impl Findings {
 pub struct PatchFindings {
     /// On the map; of filaments in shared turbulence of which a few were simulated, as these give it
     /// ([`PatchFindings::few`]), and on the map again, without an error, where they do not give it
-    /// ([`PatchFindings::doubt`]).
+    /// ([`PatchFindings::warning`]).
     pub map: PatchCv,
     /// The expected one of independent filaments at the places of the layers, from single paths of the
     /// surrogate, with the standard error by the few paths; None unless all layers have a surrogate.
@@ -101,7 +101,7 @@ pub struct PatchFindings {
     pub few: Option<SubsampleCv>,
     /// Why a few filaments do not give the CV of all: there is no number then. None if they do, or if all
     /// were simulated.
-    pub doubt: Option<SubsampleWarning>,
+    pub warning: Option<SubsampleWarning>,
     /// CV of the map itself, in which filaments between few simulated ones are filled in.
     pub of_map: f64,
 }
@@ -109,7 +109,7 @@ pub struct PatchFindings {
 impl PatchFindings {
     /// The CV of the web; None if a few filaments were simulated and do not give it.
     pub fn reported(&self) -> Option<PatchCv> {
-        self.doubt.is_none().then_some(self.map)
+        self.warning.is_none().then_some(self.map)
     }
 
     /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
@@ -125,7 +125,7 @@ impl PatchFindings {
         if self.evidence != Evidence::FewInOneAir {
             return Some(0.0);
         }
-        let estimate = self.few.filter(|_| self.doubt.is_none())?;
+        let estimate = self.few.filter(|_| self.warning.is_none())?;
         let off = estimate.cv / self.of_map - 1.0;
         Some(off.hypot(estimate.by_pitch / estimate.cv).copysign(off))
     }
@@ -142,7 +142,7 @@ impl PatchFindings {
         let flight = match self.evidence {
             Evidence::Known => None,
             Evidence::AllInOneAir => Some(0.0),
-            Evidence::FewInOneAir => self.few.filter(|_| self.doubt.is_none()).map(|few| few.by_pitch),
+            Evidence::FewInOneAir => self.few.filter(|_| self.warning.is_none()).map(|few| few.by_pitch),
         };
         ErrorBudget { chance: self.map.standard_error, flight }
     }
@@ -214,15 +214,15 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         let straight_fibres =
             alone.as_ref().map_or_else(|| straight(web, map.patch), |alone| alone[i].straight_fibres);
         let few = of_all_layers(web, &laid, map);
-        let doubt = laid.few().find_map(|few| few.doubt_over(map.patch));
-        let (of_map, is_reported) = (map.cv, doubt.is_none());
+        let warning = laid.few().find_map(|few| few.warning_over(map.patch));
+        let (of_map, is_reported) = (map.cv, warning.is_none());
         let map = match (evidence, few) {
             (_, Some(few)) if is_reported => PatchCv { cv: few.cv, standard_error: few.by_chance, ..map },
             // A map of pieces of another sheet says nothing of chance.
             (Evidence::FewInOneAir, _) => PatchCv { standard_error: None, ..map },
             _ => map,
         };
-        patches.push(PatchFindings { few, doubt, of_map, map, single_fibres, straight_fibres, evidence });
+        patches.push(PatchFindings { few, warning, of_map, map, single_fibres, straight_fibres, evidence });
     }
     let seen = nearest_to_seen(patches.iter().map(|patch| patch.map.patch));
     let side = seen.map_or(1, |i| (patches[i].map.patch / sheet.cell).round() as usize);
@@ -373,13 +373,13 @@ impl Findings {
     }
 }
 
-/// A doubt about patches of these sides [m]; none if there are none.
+/// A warning about patches of these sides [m]; none if there are none.
 fn of_sides(
     sides: impl Iterator<Item = f64>,
-    doubt: impl FnOnce(Vec<f64>) -> WebWarning,
+    warning: impl FnOnce(Vec<f64>) -> WebWarning,
 ) -> Option<WebWarning> {
     let sides: Vec<f64> = sides.collect();
-    (!sides.is_empty()).then(|| doubt(sides))
+    (!sides.is_empty()).then(|| warning(sides))
 }
 
 /// Filaments of a web in shared turbulence that were lost.
@@ -416,8 +416,8 @@ fn charged(laid: &LaidWeb) -> Vec<WebWarning> {
 fn few_filaments(web: &Web, findings: &Findings) -> Vec<WebWarning> {
     let few = || findings.laid.few();
     let too_few = few().filter_map(|few| {
-        let why = few.doubt()?;
-        let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.doubt_over(*patch).is_some());
+        let why = few.warning()?;
+        let sides = few.cvs.iter().map(|cv| cv.patch).filter(|patch| few.warning_over(*patch).is_some());
         let (pitch, enough) = (few.pitch, few.enough_per_metre());
         Some(WebWarning::Subsample { sides: sides.collect(), why, pitch, enough })
     });
@@ -445,7 +445,7 @@ fn few_filaments(web: &Web, findings: &Findings) -> Vec<WebWarning> {
         true => {}
     }
     let is_of_map = |patch: &&PatchFindings| {
-        matches!((patch.evidence, patch.few, patch.doubt), (Evidence::FewInOneAir, None, None))
+        matches!((patch.evidence, patch.few, patch.warning), (Evidence::FewInOneAir, None, None))
     };
     let of_map = findings.patches.iter().filter(is_of_map).map(|patch| patch.map.patch);
     warnings.extend(of_sides(of_map, |sides| WebWarning::SmallSheet { sides }));

@@ -41,7 +41,7 @@ pub const PATCH_MEASURES: &[Measure<PatchFindings>] = &[
         "own_share",
         "",
         RATIO,
-        Known(|patch| patch.few.filter(|_| patch.doubt.is_none()).map(|few| few.own / (few.cv * few.cv))),
+        Known(|patch| patch.few.filter(|_| patch.warning.is_none()).map(|few| few.own / (few.cv * few.cv))),
     )
     .meaning("part of CV² that each filament contributes by itself"),
     share("cv_independent", "CV of the same filaments in independent turbulence", PatchFindings::independent)

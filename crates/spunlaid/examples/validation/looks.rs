@@ -84,7 +84,7 @@ fn watch<T>(
             let cv = look.cvs.iter().find(|cv| is_side(cv.patch));
             let cv = cv.map(|cv| Difference {
                 value: cv.cv,
-                standard_error: cv.standard_error,
+                standard_error: cv.standard_error.unwrap_or(f64::NAN),
                 degrees: f64::INFINITY,
             });
             let change =

@@ -60,7 +60,7 @@ fn found(text: &str) -> Findings {
 fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell() {
     let [usual, fine, first] = ["\"auto\"", "2000", "500"].map(estimate);
     assert_eq!([&usual, &first].map(|few| few.filaments + few.lost), [320, 80]);
-    assert!(matches!(first.doubt(), Some(SubsampleWarning::Neighbours(_))), "{:?}", first.correlation);
+    assert!(matches!(first.warning(), Some(SubsampleWarning::Neighbours(_))), "{:?}", first.correlation);
     assert_eq!(format!("{usual:?}"), format!("{fine:?}"));
     assert!((usual.pitch - 0.5e-3).abs() < 1e-12 && (first.pitch - 2e-3).abs() < 1e-12);
 }

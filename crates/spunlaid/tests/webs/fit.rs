@@ -87,7 +87,8 @@ fn what_cannot_be_compared_is_refused() {
     let few = fitted(&file, &scan, false, 3, &mut Journal::in_memory()).unwrap_err().to_string();
     assert!(few.contains("too few for a difference that is significant at 95 %"), "{few}");
     // The lamp is an assumed value: values, but no intervals.
-    let assumed = MeasuredWeb { doubt: Some("the level of the lamp is an assumed value".to_owned()), ..scan };
+    let assumed =
+        MeasuredWeb { warning: Some("the level of the lamp is an assumed value".to_owned()), ..scan };
     let found = fitted(&file, &assumed, false, 8, &mut Journal::in_memory()).unwrap();
     assert_eq!(found.keys[0].interval, Err("the level of the lamp is an assumed value".to_owned()));
 }
@@ -126,7 +127,7 @@ simulated = 250
     let map = laid(&all, &[5e-3], 1);
     let patch = |side| MeasuredPatch { side, noise: 0.0, blur: 0.0 };
     let patches = [1e-3, 2e-3, 5e-3].map(patch).to_vec();
-    let scan = MeasuredWeb { map, patches, has_known_noise: true, flat: false, doubt: None };
+    let scan = MeasuredWeb { map, patches, has_known_noise: true, flat: false, warning: None };
     assert_eq!(model_errors(&all, &scan).unwrap(), Vec::<Vec<f64>>::new());
     let errors = model_errors(&few, &scan).unwrap();
     let first = few.start.spec.seed;

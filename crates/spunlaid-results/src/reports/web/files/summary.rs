@@ -85,7 +85,7 @@ pub fn summary_of_web(
 ) -> String {
     let name = |layer: usize| layers.get(layer).map_or("", |layer| layer.name.as_str());
     let patches = findings.patches.iter().map(|patch| {
-        let why = match patch.doubt {
+        let why = match patch.warning {
             None => "the map is too small",
             Some(_) => "too few filaments simulated",
         };
@@ -146,7 +146,7 @@ pub fn summary_of_scan(
     notes: &[String],
 ) -> String {
     let patches = findings.patches.iter().map(|patch| {
-        let interval = patch.interval.map_err(|doubt| doubt.to_string());
+        let interval = patch.interval.map_err(|warning| warning.to_string());
         numbers_of_patch(patch.patch_cv.patch, SCANNED_PATCH_MEASURES, patch, interval)
     });
     let (weight, clouds) = (findings.map.basis_weight(), findings.clouds.as_ref());
@@ -164,8 +164,7 @@ pub fn summary_of_scan(
     if !findings.mean_known {
         web["basis_weight_kg_m2"] = Json::Null;
     }
-    let assumption =
-        ScanWarning::ASSUMPTIONS.into_iter().find(|(_, doubt)| Some(*doubt) == findings.assumption);
+    let assumption = ScanWarning::ASSUMPTIONS.into_iter().find(|(_, warning)| Some(*warning) == findings.assumption);
     let about = json!({"file": file, "assumed": assumption.map(|(name, _)| name)});
     let parts = json!({
         "web": web,

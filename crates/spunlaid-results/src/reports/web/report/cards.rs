@@ -74,9 +74,12 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[LayerSummary])
         let of = if is_one_kind { String::new() } else { format!(" of layer {}", names.join(", ")) };
         rows.extend(kind.iter().map(|(name, value)| row(&format!("{name}{of}"), value.clone())));
     }
-    let doubts = implausible(spec);
-    rows.push(row("Within usual ranges", if doubts.is_empty() { "yes" } else { "no, see below" }.to_owned()));
-    let words = doubts.iter().map(|doubt| format!("{doubt}.")).collect();
+    let unusual = implausible(spec);
+    rows.push(row(
+        "Within usual ranges",
+        if unusual.is_empty() { "yes" } else { "no, see below" }.to_owned(),
+    ));
+    let words = unusual.iter().map(|number| format!("{number}.")).collect();
     Card { id: "line", title: "The line", rows, apart: Default::default(), words, summary: None }
 }
 

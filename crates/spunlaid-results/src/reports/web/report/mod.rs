@@ -197,13 +197,13 @@ const AS_HEAVY: f64 = 0.005;
 /// What is reported of the web first. Where a few filaments do not give how uneven it is, so many as would.
 fn headline_of(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> String {
     let patch = findings.seen();
-    if patch.is_none_or(|patch| patch.doubt.is_none()) {
+    if patch.is_none_or(|patch| patch.warning.is_none()) {
         let reported = patch.and_then(PatchFindings::with_total_error);
         let assumed = reported.as_ref().filter(|_| !spec.assumed.is_empty());
         let assumed = assumed.map(|reported| assumed_words(reported, tried.assumed_values));
         return headline(reported.as_ref(), findings.laid.evidence() == Evidence::Known, assumed);
     }
-    let few = findings.laid.few().filter(|few| few.doubt().is_some());
+    let few = findings.laid.few().filter(|few| few.warning().is_some());
     let enough = few.map(|few| few.enough_per_metre().unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
     let remedy = match enough.is_finite() {
         true => {
@@ -249,7 +249,7 @@ fn air_sentence(findings: &Findings) -> String {
             together, and σ and A of one filament do not say how. Name a case whose filament lies like this one \
             (laydown.case) instead of the numbers to simulate them in shared turbulence."
             .to_owned(),
-        (_, Some((patch, independent))) if patch.doubt.is_some() => format!(
+        (_, Some((patch, independent))) if patch.warning.is_some() => format!(
             "In independent turbulence the same filaments would give {}, which is a lower bound.",
             per_cent(independent, None)
         ),
@@ -293,7 +293,7 @@ fn error_sentences(findings: &Findings) -> String {
         Some(part) => format!("{}{THIN}%", significant(part * PER_CENT, 2)),
         None => "an unknown part".to_owned(),
     };
-    match (patch.evidence, patch.doubt) {
+    match (patch.evidence, patch.warning) {
         (Evidence::Known, _) => {
             "The error is the sampling error only; that of the surrogate is not known, because no fibre \
             was simulated."
@@ -357,7 +357,7 @@ fn layer(layer: &LayerSummary) -> Row {
 fn verdict(findings: &Findings) -> Vec<String> {
     let mut sentences: Vec<String> = findings.clouds.as_ref().and_then(largest_clouds).into_iter().collect();
     let Some(patch) = findings.seen() else { return sentences };
-    if patch.doubt.is_some() {
+    if patch.warning.is_some() {
         return Vec::new();
     }
     let is_shared = patch.evidence != Evidence::Known;

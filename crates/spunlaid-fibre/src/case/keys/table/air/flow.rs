@@ -283,13 +283,13 @@ fn blow(case: &mut Case) -> Result<(), Fault> {
     }
     match &case.air.flow {
         Flow::Uniform => case.air.velocity = speed,
-        Flow::Profile(profile) if profile.velocity_at_root() > 0.0 => {
-            case.air.speed_factor = speed / profile.velocity_at_root();
-        }
-        Flow::Profile(_) => {
-            let remedy = "begin the table at the slot, with the velocity there";
-            return Err(Fault::new("has no velocity of air.profile at the root to scale", remedy));
-        }
+        Flow::Profile(profile) => match profile.velocity_at_root() {
+            Some(at_root) if at_root > 0.0 => case.air.speed_factor = speed / at_root,
+            _ => {
+                let remedy = "begin the table at the slot, with the velocity there";
+                return Err(Fault::new("has no velocity of air.profile at the root to scale", remedy));
+            }
+        },
         Flow::Field(_) => {
             let remedy = "scale the field with air.speed_factor: the slot may be outside of it";
             return Err(Fault::new("has no effect because air.field gives the velocity", remedy));
