@@ -281,7 +281,7 @@ mod tests {
         Effect::new(0, Difference { standard_error: 0.001, ..Difference::exact(value) })
     }
 
-    fn change((number, turned): (usize, Turned)) -> Change<()> {
+    fn change(number: usize, turned: Turned) -> Change<()> {
         let setting = Setting { name: NAMES[number], words: "", turned };
         Change { setting, layers: Vec::new(), keys: Vec::new(), experiment: (), refusal: None }
     }
@@ -291,7 +291,7 @@ mod tests {
     fn what_is_turned_while_the_line_runs_comes_first() {
         let turned = [Turned::Stopped, Turned::Rebuilt, Turned::Running, Turned::Running, Turned::Running];
         let effects = [-0.3, -0.4, -0.02, -0.05, 0.1];
-        let changes = turned.into_iter().enumerate().map(change).collect();
+        let changes = turned.into_iter().enumerate().map(|(number, turned)| change(number, turned)).collect();
         let mut trials =
             Sensitivity::new(changes, |_| Ok(effects.map(|value| Ok(vec![effect(value)])).to_vec())).unwrap();
         trials.judged_by = Some(0);
@@ -316,7 +316,7 @@ mod tests {
     fn trials(changes: &[(Turned, f64)]) -> Sensitivity<(), u8> {
         let outcomes = changes.iter().map(|(_, value)| Ok(vec![effect(*value)])).collect();
         let changes =
-            changes.iter().enumerate().map(|(number, (turned, _))| change((number, *turned))).collect();
+            changes.iter().enumerate().map(|(number, (turned, _))| change(number, *turned)).collect();
         let trials = Sensitivity::new(changes, |_| Ok(outcomes)).unwrap();
         Sensitivity { judged_by: Some(0), ..trials }
     }

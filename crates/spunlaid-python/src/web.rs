@@ -49,7 +49,7 @@ pub(crate) fn lay_web(
         let mut simulated = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
         watch.begin(simulated.pieces()?);
         let findings = simulated.find(by)?;
-        let mut web = WebFolder::new((name.clone(), name.clone()), file, simulated, findings, started, by);
+        let mut web = WebFolder::new(name.clone(), name.clone(), file, simulated, findings, started, by);
         let tried = |web: &WebFolder, changes: Vec<Change>| {
             watch.begin(steps(&web.file.spec, &changes));
             advise(&web.file.spec, (&web.simulated.web, &web.findings), changes, None, None, by)

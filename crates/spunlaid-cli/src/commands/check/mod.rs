@@ -36,13 +36,7 @@ fn looked_at<T>(read: impl Fn(&Resources) -> Result<T, Error>) -> Result<T, Erro
 /// output is such a file.
 ///
 /// * `notes` – of the file; one may doubt that it is meant
-fn show(
-    kind: &str,
-    (text, notes): (&str, &[Diagnostic]),
-    comments: &[String],
-    command: &str,
-    source: &CaseSource,
-) {
+fn show(kind: &str, text: &str, notes: &[Diagnostic], comments: &[String], command: &str, source: &CaseSource) {
     let is_doubtful = notes.iter().any(|note| note.severity == Severity::Implausible);
     say::line(&format!("# the {kind} with every default"));
     say::text(text);
