@@ -68,7 +68,7 @@ pub(super) fn open_part(
         }
         let is_written = |other: &str| key_values.get(other).is_some();
         let missing = |case: &Case| Some(missing(key, case, &key_values));
-        let set = keys::CASE.fill((key, &mut case), written, is_written, missing);
+        let set = keys::CASE.fill(key, &mut case, written, is_written, missing);
         if let Err(fault) = set
             && !key_values.is_excused(key.name)
         {
