@@ -62,6 +62,6 @@ pub use nodes::Nodes;
 pub use removed::{REMOVED, Removed};
 pub use statistics::{Difference, Estimate, EvenSample, Interval, NORMAL_95, Spectrum, Welch, Window};
 pub use table::{FORMS, FirstCell, Head, Stamp, Table, refuse_twice};
-pub use threads::{OnDrop, RunContext};
+pub use threads::{OnDrop, RunContext, Workers};
 pub use units::{Dimension, Expression, Powers, UnitAdvice};
 pub use vec3::Vec3;

@@ -121,11 +121,12 @@ pub(super) fn collect_results(
     webs: &Webs<'_>,
     place: &SearchState,
     values: Values,
-    (ends, others): (&[Ends], &Matrix),
+    ends: &[Ends],
+    others: &Matrix,
 ) -> Fit {
     let Values { coordinates, surface, profiles, far } = values;
     let fit = Fit {
-        keys: keys(webs, (&surface, ends), &coordinates, profiles),
+        keys: keys(webs, &surface, ends, &coordinates, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
         numbers: numbers(webs, place, &surface, others),
@@ -143,7 +144,8 @@ pub(super) fn collect_results(
 /// The keys with their values and intervals.
 fn keys(
     webs: &Webs<'_>,
-    (surface, ends): (&Surface, &[Ends]),
+    surface: &Surface,
+    ends: &[Ends],
     coordinates: &[f64],
     profiles: Vec<Vec<(f64, f64)>>,
 ) -> Vec<FittedKey> {

@@ -68,6 +68,6 @@ fn with_guess(web: &WebToChange<'_>, name: &str, guess: &AssumedValue, factor: f
         values.push((web.base.varied(CUTOFF).ok()?, factor * cutoff));
     }
     let keys = vec![ChangedKey { key: name.to_owned(), ..key }];
-    let new = values.iter().map(|value| web.setting(value)).collect();
-    (to != guess.value).then(|| web.change((setting::ASSUMED, Vec::new()), keys, new, web.with(&values)))
+    let new = values.iter().map(|(key, value)| web.setting(key, *value)).collect();
+    (to != guess.value).then(|| web.change(setting::ASSUMED, Vec::new(), keys, new, web.with(&values)))
 }

@@ -48,11 +48,13 @@ pub(super) struct Pack {
 }
 
 impl Pack {
-    /// * `numbers` – of its filaments, and whether the curves of all of them are kept
+    /// * `numbers` – of its filaments
+    /// * `keeps_all` – whether the curves of all of them are kept
     /// * `field` – the air of all filaments, if they share one
     pub(super) fn new(
         beam: &Beam<'_>,
-        (numbers, keeps_all): (&[usize], bool),
+        numbers: &[usize],
+        keeps_all: bool,
         isa: Isa,
         field: Option<&Arc<EddyField>>,
     ) -> Result<Self, Error> {
@@ -219,7 +221,7 @@ pub(super) struct BeltStretch {
 
 impl BeltStretch {
     /// While nothing has been laid.
-    pub(super) fn before(beam: &Beam<'_>, line: &Line, (sheet, window): (&Sheet, Window)) -> Self {
+    pub(super) fn before(beam: &Beam<'_>, line: &Line, sheet: &Sheet, window: Window) -> Self {
         Self {
             belt_ratio: line.belt_ratio(),
             start: line.feed_speed * beam.case.run.spin_up(),
@@ -302,7 +304,7 @@ impl Filament {
             }
             for ends in curve.windows(2) {
                 let ends = [ends[0], ends[1]];
-                self.strands.keep(self.number, (ends, quanta_at(ends[1]).1), &stretch.window);
+                self.strands.keep(self.number, ends, quanta_at(ends[1]).1, &stretch.window);
             }
         } else {
             // The points of the start lie before the sheet.

@@ -121,7 +121,7 @@ impl Beam<'_> {
         let element = self.element_mass();
         let canvas = DepositionGrid::new(sheet, &[element], self.basis_weight(sheet))?;
         let brush = Depositor::new(&canvas, element, Titres::default());
-        let simulated = self.fly((sheet, window), Some(&brush), by)?;
+        let simulated = self.fly(sheet, window, Some(&brush), by)?;
         Ok((LaidWeb { simulated: vec![simulated.layer.clone()], ..canvas.finish()? }, simulated))
     }
 
@@ -152,7 +152,8 @@ impl Beam<'_> {
     /// filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
-        (sheet, window): (&Sheet, Window),
+        sheet: &Sheet,
+        window: Window,
         on: Option<&Depositor<'_>>,
         by: RunContext<'_>,
     ) -> Result<BeamFindings, Error> {

@@ -315,7 +315,7 @@ fn look_at(
     let beam = of_beam.beam();
     let is_filled = is_filled || few.arrangement == Arrangement::Rows;
     let curves = is_filled.then(|| few.curves(&sheet, &beam, &simulated)).transpose()?;
-    few.estimate((&sheet, blocks_on(&on.sheet)), (&beam, &simulated), curves.as_ref(), (by.threads, by.stop))
+    few.estimate(&sheet, blocks_on(&on.sheet), &beam, &simulated, curves.as_ref(), by.workers())
 }
 
 /// A room that is larger than the air of a beam needs.

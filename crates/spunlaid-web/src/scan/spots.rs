@@ -328,7 +328,8 @@ impl ForeignParts {
     /// * `corner` – of the picture in its file
     /// * `beside` – pixels of the file beside it
     pub(super) fn new(
-        (corner, beside): ([usize; 2], usize),
+        corner: [usize; 2],
+        beside: usize,
         picture: &Picture,
         lamp: Option<&Picture>,
         found: &Spots,

@@ -108,7 +108,7 @@ pub fn changes() {
             continue;
         }
         let like = read(&format!("{SLOT}{REST}"), &[&LONG[..], &[("web.simulated", simulated)]].concat());
-        let [held, compared] = compare(&base, &told, &like, (seeds, threads));
+        let [held, compared] = compare(&base, &told, &like, seeds, threads);
         within += held;
         count += compared;
         println!("  within two told errors: {held} of {compared}; of all lines so far {within} of {count}");
@@ -148,7 +148,7 @@ fn told(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
         let word = Overrides::new(&[], "--set");
         let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();
-        let advice = advise(&spec, (&web, &findings), changes, None, None, by).expect("advice");
+        let advice = advise(&spec, &web, &findings, changes, None, None, by).expect("advice");
         let seconds = begun.elapsed().as_secs_f64();
         println!(
             "  {name} {seconds:.1} s, {:.2} times the web, {} steps",
@@ -185,12 +185,7 @@ fn label(change: &Change) -> String {
 
 /// Prints what long webs say of each change beside what is told; how many are within two told errors, and of how many.
 /// A long web whose few filaments do not give the CV of all is left out with its partner, and counted.
-fn compare(
-    base: &WebSpec,
-    told: &[Estimate],
-    like: &WebSpec,
-    (seeds, threads): (usize, usize),
-) -> [usize; 2] {
+fn compare(base: &WebSpec, told: &[Estimate], like: &WebSpec, seeds: usize, threads: usize) -> [usize; 2] {
     let specs: Vec<&WebSpec> = std::iter::once(base).chain(told.iter().map(|told| &told.spec)).collect();
     let cvs = par_map(threads, specs.len() * seeds, |i| {
         let seed = 1000 + (i % seeds) as u64;

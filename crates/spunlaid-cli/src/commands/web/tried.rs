@@ -26,7 +26,7 @@ pub(super) fn try_changes(
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), RunContext { done: &done, ..by });
-    let work = || advise(spec, (&web.simulated.web, &web.findings), changes, judged_by, kept, by);
+    let work = || advise(spec, &web.simulated.web, &web.findings, changes, judged_by, kept, by);
     match progress::follow(&done, all, &label, delivery.is_quiet(), work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);

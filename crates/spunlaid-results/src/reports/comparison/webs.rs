@@ -175,7 +175,7 @@ mod tests {
                     doubt: None,
                 };
                 let values = [power_of(&first), power_of(&second)];
-                measure(String::new(), String::new(), ("%", 1.0), values.map(Ok), None)
+                measure(String::new(), String::new(), RATIO, values.map(Ok), None)
             };
             let distance = |power: i32| {
                 let difference = of(power).difference.unwrap();
