@@ -11,7 +11,6 @@
 //! again (`input`), and a study fits lines to the replicates of its points.
 
 use crate::error::Error;
-use crate::sort::sort_by_key;
 use crate::statistics::Difference;
 use crate::units::Dimension;
 
@@ -232,9 +231,7 @@ impl<E: Clone, M: Copy + PartialEq> Sensitivity<E, M> {
         let told = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
         let some = told.filter_map(|tried| Some((tried, tried.on(measure)?)));
         let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
-        sort_by_key(&mut improvements, |(_, effect): &(&SensitivityRun<E, M>, &Effect<M>)| {
-            effect.difference.value
-        });
+        improvements.sort_by(|(_, one), (_, other)| one.difference.value.total_cmp(&other.difference.value));
         improvements.sort_by_key(|(tried, _)| tried.change.setting.turned);
         let mut settings = Vec::new();
         improvements.retain(|(tried, _)| {

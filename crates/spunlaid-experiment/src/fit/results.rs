@@ -9,7 +9,6 @@ use super::texture::Texture;
 use super::values::Values;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained, weights};
-use spunlaid_ground::sort::sort_by_key;
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -159,7 +158,7 @@ fn keys(
         };
         let [low, high] = parameter.ends();
         profile.extend(&ends[index].profile);
-        sort_by_key(&mut profile, |(value, _)| *value);
+        profile.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let Ends { coordinates: interval, kinds: ends, .. } = &ends[index];
         let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
         let warning = if *ends == [IntervalEnd::OfRange; 2] {

@@ -2,7 +2,7 @@
 
 use spunlaid::experiment::STUDY;
 use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
-use spunlaid::ground::{Dimension, Fault, FileKind, Removed, UnitAdvice};
+use spunlaid::ground::{Dimension, Fault, FileKind, UnitAdvice};
 use spunlaid::simulation::{WEB, WEB_KEYS};
 use spunlaid::web::fabric::about;
 use std::fmt::Write;
@@ -111,9 +111,6 @@ fn found(pattern: &str, of: Option<FileKind>, is_page: bool, is_told: bool) -> R
     };
     if !found.is_empty() || is_told {
         return Ok(found);
-    }
-    if let Some(fault) = Removed::Key.fault(&word) {
-        return Err(Fault::new(format!("{word} {}", fault.message), fault.remedy));
     }
     let nearest = if of.is_none() { keys::like(&word) } else { Vec::new() };
     let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();

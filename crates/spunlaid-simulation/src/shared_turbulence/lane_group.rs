@@ -7,7 +7,6 @@ use crate::observe::{NodeStates, StretchedBalance, tension_lag};
 use spunlaid_air::EddyField;
 use spunlaid_fibre::{Flight, Job, LaidPoint, Line, SurroundingRun};
 use spunlaid_ground::place::Inlet;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, Isa, WIDTH};
 use spunlaid_web::{Depositor, Sheet, Window, WindowCurves, WindowOnSheet};
 use std::sync::Arc;
@@ -30,7 +29,7 @@ fn steps_between_looks(to_birth: u64) -> u64 {
 pub(super) fn adjacent_filaments(places: &[Inlet]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
-        sort_by_key(area, |filament| places[*filament].y);
+        area.sort_by(|one, other| places[*one].y.total_cmp(&places[*other].y));
     }
     order.chunks(WIDTH).map(<[usize]>::to_vec).collect()
 }

@@ -4,7 +4,6 @@ use super::canvas::DepositionGrid;
 use super::{Filaments, Row, Sheet};
 use spunlaid_ground::place::Inlet;
 use spunlaid_ground::random::{stream, uniform};
-use spunlaid_ground::sort::sort_by_key;
 use std::collections::BTreeMap;
 
 /// Last word of the keys of the choice of holes.
@@ -185,6 +184,6 @@ pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments:
             (1..).zip(rows).flat_map(of_row).collect()
         }
     };
-    sort_by_key(&mut nozzles, |nozzle| nozzle.at[0]);
+    nozzles.sort_by(|one, other| one.at[0].total_cmp(&other.at[0]));
     nozzles
 }
