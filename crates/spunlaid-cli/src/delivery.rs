@@ -33,7 +33,8 @@ impl<'a> Delivery<'a> {
         invocation: &Invocation,
         files: impl IntoIterator<Item = &'f PathBuf>,
         name: impl AsRef<Path>,
-        (output, figures): (&'a Output, FigureFiles),
+        output: &'a Output,
+        figures: FigureFiles,
     ) -> Result<Self, Failure> {
         let open = |folder: &PathBuf| -> Result<_, Failure> {
             let (origin, stop) = (invocation.origin_of(files, folder), stop_on_ctrl_c());
@@ -104,6 +105,11 @@ impl<'a> Delivery<'a> {
         self.said = Some(self.text.clone());
     }
 
+    /// Whether nothing shall be said.
+    pub(crate) const fn is_quiet(&self) -> bool {
+        self.output.quiet
+    }
+
     /// Says a line beside the results.
     pub(crate) fn line(&self, line: &str) {
         if !self.output.json && !self.output.quiet {
@@ -143,7 +149,8 @@ pub(crate) fn making(threads: Threads) -> Making<'static> {
 /// Says what was found: as JSON, or as lines with the report to open.
 pub(crate) fn print_results(
     contents: &impl Contents,
-    (folder, text): (&Path, &str),
+    folder: &Path,
+    text: &str,
     lines: &[String],
     output: &Output,
 ) {

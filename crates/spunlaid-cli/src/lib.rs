@@ -45,12 +45,8 @@ fn dispatch(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(parsed) => parsed,
         Err(error) => {
             // Help and version are not errors; everything else is wrong input.
-            let code = u8::from(error.use_stderr());
-            match args::removed(&words, &error) {
-                Some(failure) => say::error(&failure),
-                None => drop(error.print()),
-            }
-            return code;
+            drop(error.print());
+            return u8::from(error.use_stderr());
         }
     };
     let done = Failure::catch_panic(|| perform(&arguments.command, &invocation));

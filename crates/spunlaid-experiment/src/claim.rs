@@ -51,7 +51,7 @@ pub fn significance(difference: Difference) -> f64 {
 /// the other way in standard errors, zero if there is none, and whether it goes there.
 ///
 /// * `ends`, `steps` – from the first to the last value, and from each to the next
-pub fn goes((ends, steps): (Difference, &[Difference]), direction: f64) -> (f64, Verdict) {
+pub fn goes(ends: Difference, steps: &[Difference], direction: f64) -> (f64, Verdict) {
     let back = steps.iter().map(|step| -direction * significance(*step)).fold(0.0, f64::max);
     let forth = Difference { value: direction * ends.value, ..ends };
     (back, if back > CHANCE { Verdict::Fails } else { Verdict::of_difference(forth) })

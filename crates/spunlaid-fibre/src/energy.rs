@@ -62,7 +62,8 @@ impl Energy {
     pub(crate) fn enter_work(
         &mut self,
         initial: &Self,
-        (before, after): (&WorkDone, &WorkDone),
+        before: &WorkDone,
+        after: &WorkDone,
         carried: &CarriedEnergy,
         scheme: Scheme,
         h: f64,

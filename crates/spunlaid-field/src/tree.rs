@@ -40,11 +40,10 @@ impl Tree {
 
     /// Calls `with` for the number of each point in a box.
     pub(super) fn in_box(&self, low: [f64; 3], high: [f64; 3], with: &mut impl FnMut(u32)) {
-        self.look_in_box(0..self.points.len(), (&low, &high), with);
+        self.look_in_box(0..self.points.len(), &low, &high, with);
     }
 
-    fn look_in_box(&self, part: Range<usize>, box_: (&[f64; 3], &[f64; 3]), with: &mut impl FnMut(u32)) {
-        let (low, high) = box_;
+    fn look_in_box(&self, part: Range<usize>, low: &[f64; 3], high: &[f64; 3], with: &mut impl FnMut(u32)) {
         let mut check = |(point, number): &([f64; 3], u32)| {
             if (0..3).all(|axis| low[axis] <= point[axis] && point[axis] <= high[axis]) {
                 with(*number);
@@ -58,10 +57,10 @@ impl Tree {
         let (axis, at) = (usize::from(self.axes[middle]), self.points[middle].0);
         check(&self.points[middle]);
         if low[axis] <= at[axis] {
-            self.look_in_box(part.start..middle, box_, with);
+            self.look_in_box(part.start..middle, low, high, with);
         }
         if high[axis] >= at[axis] {
-            self.look_in_box(middle + 1..part.end, box_, with);
+            self.look_in_box(middle + 1..part.end, low, high, with);
         }
     }
 

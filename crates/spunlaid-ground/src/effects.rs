@@ -11,7 +11,6 @@
 //! again (`input`), and a study fits lines to the replicates of its points.
 
 use crate::error::Error;
-use crate::sort::sort_by_key;
 use crate::statistics::Difference;
 use crate::units::Dimension;
 
@@ -232,9 +231,7 @@ impl<E: Clone, M: Copy + PartialEq> Sensitivity<E, M> {
         let reported = self.tried.iter().filter(|tried| !(self.is_confirmed && tried.at_first.is_empty()));
         let some = reported.filter_map(|tried| Some((tried, tried.on(measure)?)));
         let mut improvements: Vec<_> = some.filter(|(_, effect)| is_one(&effect.difference)).collect();
-        sort_by_key(&mut improvements, |(_, effect): &(&SensitivityRun<E, M>, &Effect<M>)| {
-            effect.difference.value
-        });
+        improvements.sort_by(|(_, one), (_, other)| one.difference.value.total_cmp(&other.difference.value));
         improvements.sort_by_key(|(tried, _)| tried.change.setting.turned);
         let mut settings = Vec::new();
         improvements.retain(|(tried, _)| {
@@ -281,7 +278,7 @@ mod tests {
         Effect::new(0, Difference { standard_error: 0.001, ..Difference::exact(value) })
     }
 
-    fn change((number, turned): (usize, Turned)) -> Change<()> {
+    fn change(number: usize, turned: Turned) -> Change<()> {
         let setting = Setting { name: NAMES[number], words: "", turned };
         Change { setting, layers: Vec::new(), keys: Vec::new(), experiment: (), refusal: None }
     }
@@ -291,7 +288,7 @@ mod tests {
     fn what_is_turned_while_the_line_runs_comes_first() {
         let turned = [Turned::Stopped, Turned::Rebuilt, Turned::Running, Turned::Running, Turned::Running];
         let effects = [-0.3, -0.4, -0.02, -0.05, 0.1];
-        let changes = turned.into_iter().enumerate().map(change).collect();
+        let changes = turned.into_iter().enumerate().map(|(number, turned)| change(number, turned)).collect();
         let mut trials =
             Sensitivity::new(changes, |_| Ok(effects.map(|value| Ok(vec![effect(value)])).to_vec())).unwrap();
         trials.judged_by = Some(0);
@@ -316,7 +313,7 @@ mod tests {
     fn trials(changes: &[(Turned, f64)]) -> Sensitivity<(), u8> {
         let outcomes = changes.iter().map(|(_, value)| Ok(vec![effect(*value)])).collect();
         let changes =
-            changes.iter().enumerate().map(|(number, (turned, _))| change((number, *turned))).collect();
+            changes.iter().enumerate().map(|(number, (turned, _))| change(number, *turned)).collect();
         let trials = Sensitivity::new(changes, |_| Ok(outcomes)).unwrap();
         Sensitivity { judged_by: Some(0), ..trials }
     }

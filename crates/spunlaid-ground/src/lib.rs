@@ -5,7 +5,7 @@
 //! It is published because `spunlaid` and `spunlaid-field` need it; its interface follows their needs.
 //!
 //! ```text
-//! named → lanes → vec3, fft, nodes, sort, random, place → error → units, threads, removed
+//! named → lanes → vec3, fft, nodes, random, place → error → units, threads
 //!       → company, log → file, table → statistics → measure → effects
 //! ```
 
@@ -23,12 +23,10 @@ pub mod fft;
 pub mod nodes;
 pub mod place;
 pub mod random;
-pub mod sort;
 pub mod vec3;
 
 pub mod error;
 
-pub mod removed;
 pub mod threads;
 pub mod units;
 
@@ -59,9 +57,8 @@ pub use measure::{
     SQUARE_MILLIMETRES_PER_HERTZ, Unit, Value,
 };
 pub use nodes::Nodes;
-pub use removed::{REMOVED, Removed};
 pub use statistics::{Difference, Estimate, EvenSample, Interval, NORMAL_95, Spectrum, Welch, Window};
 pub use table::{FORMS, FirstCell, Head, Stamp, Table, refuse_twice};
-pub use threads::{OnDrop, RunContext};
+pub use threads::{OnDrop, RunContext, Workers};
 pub use units::{Dimension, Expression, Powers, UnitAdvice};
 pub use vec3::Vec3;

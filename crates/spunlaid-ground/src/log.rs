@@ -272,8 +272,11 @@ fn scan(file: &File, start: u64) -> io::Result<(Places, u64, u64, bool)> {
     let length = file.metadata()?.len();
     let mut reader = BufReader::with_capacity(1 << 16, file);
     reader.seek(SeekFrom::Start(start))?;
-    let (mut places, mut at, mut end, mut damaged, mut torn) =
-        (Places::new(), start, start, 0, start < length);
+    let mut places = Places::new();
+    let mut at = start;
+    let mut end = start;
+    let mut damaged = 0;
+    let mut torn = start < length;
     let frame = (FRAME * BYTES) as u64;
     while at + frame <= length {
         let mut bytes = vec![0; HEAD * BYTES];

@@ -22,6 +22,22 @@ pub struct RunContext<'a> {
     pub done: &'a AtomicU64,
 }
 
+/// Threads that do work until it is stopped.
+#[derive(Clone, Copy, Debug)]
+pub struct Workers<'a> {
+    /// Number of threads.
+    pub threads: usize,
+    /// Set from elsewhere to stop early.
+    pub stop: &'a AtomicBool,
+}
+
+impl<'a> RunContext<'a> {
+    /// The threads, without the rest.
+    pub const fn workers(self) -> Workers<'a> {
+        Workers { threads: self.threads, stop: self.stop }
+    }
+}
+
 /// Does pieces of work on some threads; the results are in the order of the pieces.
 ///
 /// * `work` – does the piece of a number

@@ -10,8 +10,7 @@ use super::text_with_lines::TextWithLines;
 use super::written_values::{WrittenValue, WrittenValues};
 use spunlaid_fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, Relative, TableList, Value};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::sort::sort_by_key;
-use spunlaid_ground::{Diagnostic, Error, Fault, Removed};
+use spunlaid_ground::{Diagnostic, Error, Fault};
 use spunlaid_simulation::layers::full_names::without_numbers;
 use spunlaid_simulation::layers::keys::{WEB, WEB_FILE};
 use std::collections::BTreeMap;
@@ -212,7 +211,7 @@ impl<'a, T> Document<'a, T> {
         let all = std::mem::take(&mut self.named).into_iter();
         let (mut of_table, others): (Vec<_>, _) = all.partition(|named| named.row.table() == table);
         self.named = others;
-        sort_by_key(&mut of_table, |named| named.entry.at);
+        of_table.sort_by_key(|named| named.entry.at);
         of_table
     }
 
@@ -342,12 +341,7 @@ impl<'a, T> Document<'a, T> {
         };
         let (value, fault) = match read {
             Ok(value) => (Some(value), None),
-            Err(fault) => {
-                let removed = value
-                    .as_str()
-                    .and_then(|word| Removed::Value.fault(&format!("{} = \"{word}\"", key.name)));
-                (None, Some(removed.unwrap_or_else(|| fault.or_words(key.words))))
-            }
+            Err(fault) => (None, Some(fault.or_words(key.words))),
         };
         self.key_values.set(full.to_owned(), WrittenValue { place, shown, value });
         self.faults.extend(fault.map(|fault| (full.to_owned(), fault)));

@@ -4,7 +4,6 @@ use super::FORMAT_VERSION;
 use super::text_with_lines::{TextWithLines, fit};
 use spunlaid_fibre::case::keys::{DataFile, Kind, Value};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Diagnostic, Dimension, Fault, UnitAdvice, Vec3};
 use std::path::PathBuf;
 use toml::Spanned;
@@ -75,7 +74,7 @@ pub(super) fn in_order<'a>(table: DeTable<'a>) -> Vec<((usize, String), Spanned<
         .into_iter()
         .map(|(key, value)| ((key.span().start, key.into_inner().into_owned()), value))
         .collect();
-    sort_by_key(&mut entries, |((at, _), _)| *at);
+    entries.sort_by_key(|((at, _), _)| *at);
     entries
 }
 

@@ -3,9 +3,7 @@
 use super::spinline::SpinFile;
 use spunlaid_fibre::case::keys::{self, Key, Kind, Sign, Value};
 use spunlaid_fibre::{Case, Solution};
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Change, ChangedKey, Difference, Dimension, Effect, SensitivityRun, Setting, Turned};
-use std::cmp::Reverse;
 
 /// The change of a number, either way, and that of a temperature [K].
 const STEP: f64 = 0.02;
@@ -38,7 +36,8 @@ impl SpinFile {
         let tables = ["spinline", "spinline.material", "drag"];
         let all = tables.into_iter().flat_map(keys::keys_of_table);
         let mut found: Vec<Influence> = all.filter_map(|key| influence(key, &carrier, filament)).collect();
-        sort_by_key(&mut found, |influence| Reverse(influence.effects[0].difference.value.abs()));
+        let change = |of: &Influence| of.effects[0].difference.value.abs();
+        found.sort_by(|one, other| change(other).total_cmp(&change(one)));
         found
     }
 }

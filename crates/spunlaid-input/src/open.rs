@@ -5,7 +5,6 @@ use super::written_values::{WrittenValues, sorted};
 use spunlaid_air::{FieldLayout, Flow, RecordLayout};
 use spunlaid_fibre::case::keys::{self, Content, DataFile, Key, Kind, Omission, Value};
 use spunlaid_fibre::{Case, Line, Spinline};
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Diagnostic, Error, Fault, FileError};
 use std::path::PathBuf;
 
@@ -42,7 +41,7 @@ pub(super) fn open_part(
         case.line = Some(Line::UNKNOWN);
     }
     let mut in_order: Vec<&Key> = keys::all().iter().filter(|key| is_wanted(key)).collect();
-    sort_by_key(&mut in_order, |key| rank(key));
+    in_order.sort_by_key(|key| rank(key));
     for key in in_order {
         let mut written = key_values.get(key.name).map(|written_value| written_value.value.clone());
         if let (Some(Some(Value::Paths(paths))), Kind::File(kind)) = (&written, key.kind)
@@ -68,7 +67,7 @@ pub(super) fn open_part(
         }
         let is_written = |other: &str| key_values.get(other).is_some();
         let missing = |case: &Case| Some(missing(key, case, &key_values));
-        let set = keys::CASE.fill((key, &mut case), written, is_written, missing);
+        let set = keys::CASE.fill(key, &mut case, written, is_written, missing);
         if let Err(fault) = set
             && !key_values.is_excused(key.name)
         {

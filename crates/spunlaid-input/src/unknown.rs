@@ -5,22 +5,13 @@ use super::entry::{Entry, VERSION};
 use super::text_with_lines::fit;
 use spunlaid_fibre::case::keys::{Key, Kind, Omission, TableList};
 use spunlaid_ground::error::one_of;
-use spunlaid_ground::{Diagnostic, Fault, Removed};
+use spunlaid_ground::{Diagnostic, Fault};
 use toml::de::DeValue;
 
 impl<T> Document<'_, T> {
     /// Rejects a key or a table that is not known where it stands.
     pub(super) fn unknown(&mut self, before: &str, table: &'static str, name: &str, entry: &Entry<'_>) {
         let keys = self.keys;
-        let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
-        if let Some(what) = Removed::Key.fault(&path) {
-            self.reject(&format!("{before}{name}"), entry, what);
-            // What stands in its place may be missing.
-            if !before.is_empty() {
-                self.key_values.suppress_missing(before);
-            }
-            return;
-        }
         let word = name.split_once('.').map_or(name, |(word, _)| word);
         let is_of_table = word != name && keys.table_in(table, word).is_none();
         let is_table = !keys.tables_in(table).is_empty() && (entry.value.is_table() || is_of_table);

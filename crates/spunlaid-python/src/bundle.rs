@@ -119,7 +119,7 @@ pub(crate) fn fly_bundle(
             };
             batches.push(Batch { point, replicates: *start..*end });
         }
-        Ok::<_, Failure>(Ok((fly((&points, &sides), &batches, watch.control(Some(threads)))?, batches)))
+        Ok::<_, Failure>(Ok((fly(&points, &sides, &batches, watch.control(Some(threads)))?, batches)))
     })?;
     let (records, batches) =
         simulated.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;

@@ -93,13 +93,13 @@ impl Computed {
         figures: Figures<'_>,
         written: Option<PathBuf>,
     ) -> PyResult<()> {
-        let how = (force, figure_files(figures)?);
+        let figures = figure_files(figures)?;
         let watch = Watch::default();
         watched(
             py,
             &watch,
             None,
-            || contents!(self, contents => write(&**contents, &path, how, written.as_deref(), &watch)),
+            || contents!(self, contents => write(&**contents, &path, force, figures, written.as_deref(), &watch)),
         )
     }
 
@@ -181,7 +181,8 @@ impl Computed {
 fn write<C: Contents>(
     contents: &C,
     path: &Path,
-    (force, figures): (bool, spunlaid_results::files::pictures::FigureFiles),
+    force: bool,
+    figures: spunlaid_results::files::pictures::FigureFiles,
     written: Option<&Path>,
     watch: &Watch,
 ) -> Result<(), Failure> {

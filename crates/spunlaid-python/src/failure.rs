@@ -71,7 +71,8 @@ where
 /// Problems as the fields of `spunlaid.Problem`.
 fn listed<'py>(py: Python<'py>, problems: &[Diagnostic]) -> PyResult<Vec<Bound<'py, PyTuple>>> {
     let fields = |problem: &Diagnostic| {
-        let (Diagnostic { key, value, cause, place, .. }, text) = (problem, problem.to_string());
+        let Diagnostic { key, value, cause, place, .. } = problem;
+        let text = problem.to_string();
         let file = match place {
             Place::File { file, .. } | Place::Point { study: file, .. } => Some(file),
             Place::Code | Place::Override(_) => None,

@@ -4,7 +4,6 @@ use crate::value::scale;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use spunlaid::fibre::case::keys::{CASE, Key, KeyTable, Omission};
-use spunlaid::ground::Removed;
 use spunlaid::ground::units::udunits;
 use spunlaid::simulation::{FibreMeasure, MEASURES, WEB};
 use spunlaid_results::reports::run::unit_of_column;
@@ -20,12 +19,6 @@ pub(crate) fn keys(py: Python<'_>, web: bool) -> PyResult<Vec<Bound<'_, PyTuple>
     } else {
         CASE.rows.iter().map(|key| about(py, &CASE, key)).collect()
     }
-}
-
-/// What to do without a function or a class that the package had once, if it had one of this name.
-#[pyfunction]
-pub(crate) fn removed(name: &str) -> Option<String> {
-    Removed::Python.fault(&format!("spunlaid.{name}")).map(|fault| fault.to_string())
 }
 
 /// The properties of a key.

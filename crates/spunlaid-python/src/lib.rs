@@ -50,7 +50,7 @@ mod _spunlaid {
         computed::{Computed, compare_folders, copy_results, find_drag_factor, solve_spinline},
         fit::find_fit,
         flight::Flight,
-        keys::{column_unit, keys, measures, program, removed},
+        keys::{column_unit, keys, measures, program},
         record::analyse,
         run::fly,
         save::check_figures,

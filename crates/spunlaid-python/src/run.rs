@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use spunlaid::ground::threads::{lock, unlock};
 use spunlaid::simulation::{FinerPlans, Unchecked};
 use spunlaid_results::files::folder::{ENTRIES, Staging};
-use spunlaid_results::reports::run::{FlightRecords, RunFolder, fly as simulated, found};
+use spunlaid_results::reports::run::{FlightRecords, LandedRun, RunFolder, fly as simulated, found};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -40,8 +40,8 @@ pub(crate) fn fly(
         staging.publish().map(|()| simulated)
     })?;
     let (is_whole, paths) = (simulated.paths.is_some(), simulated.paths);
-    let results = (simulated.results, simulated.replicates, is_whole);
-    let mut run = RunFolder::new(name.clone(), (case, &notes), results, &plans, started, computing);
+    let landed = LandedRun { results: simulated.results, replicates: simulated.replicates, is_whole };
+    let mut run = RunFolder::new(name.clone(), case, &notes, landed, &plans, started, computing);
     let [lost, outside, _] = found(&run.case, &run.results);
     lost.iter().chain(&outside).try_for_each(|text| warn(py, text))?;
     // As many shapes as memory holds may be kept, and each open file counts.

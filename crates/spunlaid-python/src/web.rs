@@ -49,10 +49,10 @@ pub(crate) fn lay_web(
         let mut simulated = Flyer::new(by.threads, by.stop, &follow).web(&file.spec)?;
         watch.begin(simulated.pieces()?);
         let findings = simulated.find(by)?;
-        let mut web = WebFolder::new((name.clone(), name.clone()), file, simulated, findings, started, by);
+        let mut web = WebFolder::new(name.clone(), name.clone(), file, simulated, findings, started, by);
         let tried = |web: &WebFolder, changes: Vec<Change>| {
             watch.begin(steps(&web.file.spec, &changes));
-            advise(&web.file.spec, (&web.simulated.web, &web.findings), changes, None, None, by)
+            advise(&web.file.spec, &web.simulated.web, &web.findings, changes, None, None, by)
         };
         let are_tried = |all: &Vec<Change>| !all.is_empty() && are_tried(&web.file.spec, &web.findings, all);
         let assumed_values = assumed_values.filter(are_tried);

@@ -148,8 +148,9 @@ impl EddyTurbulence {
     /// Energy spectrum of a component of its signal. The spacing of the harmonics is the same in every eddy, so
     /// that all signals repeat after the same time.
     pub fn spectrum<'a>(&self, air: &'a Air, component: usize) -> Spectrum<'a> {
-        let times = (self.cutoff_frequency, self.integral_time);
-        Spectrum::new(&air.spectrum, self.rms, times, component, 1.0 / air.repeat_time())
+        let Self { rms, cutoff_frequency, integral_time, .. } = *self;
+        let spacing = 1.0 / air.repeat_time();
+        Spectrum::new(&air.spectrum, rms, cutoff_frequency, integral_time, component, spacing)
     }
 }
 

@@ -85,7 +85,8 @@ impl AirInSpace {
             }),
             elements: AirAtElements::new(
                 in_field.then(|| lanes.map(|(air, place, _, _)| (air.clone(), *place))),
-                (elements, every),
+                elements,
+                every,
             ),
         }
     }
@@ -245,7 +246,7 @@ impl ElementAir {
 impl AirAtElements {
     /// * `in_field` – air and place of each fibre in a CFD field
     /// * `every` – steps from one look to the next
-    pub(super) fn new(in_field: Option<PerLane<(Air, Inlet)>>, (elements, every): (usize, u64)) -> Self {
+    pub(super) fn new(in_field: Option<PerLane<(Air, Inlet)>>, elements: usize, every: u64) -> Self {
         let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
         let field = in_field.map(|airs| Surroundings::around_elements(airs, elements, every));
         Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false, field }

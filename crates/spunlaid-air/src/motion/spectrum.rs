@@ -87,7 +87,8 @@ impl<'a> Spectrum<'a> {
     pub(crate) fn new(
         shape: &'a SpectrumShape,
         rms: f64,
-        (cutoff_frequency, integral_time): (f64, f64),
+        cutoff_frequency: f64,
+        integral_time: f64,
         component: usize,
         spacing: f64,
     ) -> Self {

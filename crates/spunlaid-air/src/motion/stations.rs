@@ -98,7 +98,7 @@ impl Stations {
             mean_flow: (0..way.stations).map(mean_flow).collect(),
             decorrelation: (0..way.stations).map(decorrelation).collect(),
             last_look: vec![[[0.0; 4]; WIDTH]; way.stations],
-            elements: AirAtElements::new(in_field, (elements, way.every)),
+            elements: AirAtElements::new(in_field, elements, way.every),
             way,
         }
     }

@@ -2,7 +2,6 @@
 
 use super::Layout;
 use spunlaid_ground::error::listed;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::table::{refuse_twice, scale};
 use spunlaid_ground::units::excerpt;
 use spunlaid_ground::{Dimension, FORMS, Fault, FileError, FirstCell, Head};
@@ -87,7 +86,7 @@ pub(super) fn roles(
         }
     }
     if layout.columns.is_empty() {
-        sort_by_key(&mut chosen, |&i| !ALONG.contains(&heads[i].name.to_lowercase().as_str()));
+        chosen.sort_by_key(|&i| !ALONG.contains(&heads[i].name.to_lowercase().as_str()));
     }
     let column = |index: usize, name: &str, dimension, asked: &Option<String>| {
         // A time stamp says its unit itself.

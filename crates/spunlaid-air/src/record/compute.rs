@@ -87,7 +87,7 @@ fn statistics(record: &Record, settings: &Settings) -> Result<Analysis, FileErro
         (summed.iter()).map(|sums| Estimates::new(sums, count, interval, settings.integral)).collect();
     let components: Vec<Component> = (record.components.iter().zip(&estimates).zip(&summed))
         .map(|((samples, estimates), sums)| {
-            component(samples, record, estimates, sums, (segment, short), settings)
+            component(samples, record, estimates, sums, segment, short, settings)
         })
         .collect();
     let together = together(&estimates, settings.mean_velocity);
@@ -245,7 +245,8 @@ fn component(
     record: &Record,
     estimates: &Estimates,
     sums: &Blocks,
-    (segment, short): (usize, bool),
+    segment: usize,
+    short: bool,
     settings: &Settings,
 ) -> Component {
     let Moments { mean, rms, .. } = estimates.moments;
@@ -261,7 +262,8 @@ fn component(
         FlatPart::from_short_record(
             &samples.values,
             record.interval,
-            (mean, variance),
+            mean,
+            variance,
             settings.flat_until,
             time,
         )

@@ -89,15 +89,18 @@ impl FlatPart {
     /// The mean of `n` squares is distributed like a chi-square of `2n` degrees of freedom, which gives the interval
     /// and the median estimate.
     ///
-    /// * `mean` – [m/s], with the variance [(m/s)²] and the standard error of its logarithm
+    /// * `mean` – [m/s]
+    /// * `variance` – [(m/s)²] and the standard error of its logarithm
     /// * `until` – end of the flat part [Hz]; by default it follows from the integral time [s]
     pub(super) fn from_short_record(
         values: &[f64],
         interval: f64,
-        (mean, (variance, variance_error)): (f64, (f64, f64)),
+        mean: f64,
+        variance: (f64, f64),
         until: Option<f64>,
         integral_time: f64,
     ) -> Self {
+        let (variance, variance_error) = variance;
         let duration = values.len() as f64 * interval;
         // The cut-off by the integral time: unlike that by the plateau it does not depend on the choice made here.
         let rough = 0.25 / integral_time;

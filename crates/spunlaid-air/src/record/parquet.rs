@@ -88,13 +88,13 @@ fn read(source: Bytes, layout: &Layout) -> Result<Record, FileError> {
                     let fault = Fault::infinite(&number(infinite).to_string());
                     return Err(FileError::from(fault).at(place).column(&used[infinite].header));
                 }
-                let time =
+                let (time, unit) =
                     if timed { (number(0), columns[0].last_place(number(0))) } else { (f64::NAN, 0.0) };
                 let mut values = [f64::NAN; 3];
                 for (value, column) in values.iter_mut().zip(usize::from(timed)..used.len()) {
                     *value = number(column);
                 }
-                rows.push(place, time, &values)?;
+                rows.push(place, time, unit, &values)?;
             }
         }
     }

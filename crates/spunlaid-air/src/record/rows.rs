@@ -41,12 +41,14 @@ impl Rows {
 
     /// Adds a row.
     ///
-    /// * `time` – time and unit of its last digit, in the unit of the file; NaN if it is missing
+    /// * `time` – in the unit of the file; NaN if it is missing
+    /// * `unit` – of its last digit
     /// * `values` – in the units of the file; NaN if one is missing
     pub(super) fn push(
         &mut self,
         place: Position,
-        (time, unit): (f64, f64),
+        time: f64,
+        unit: f64,
         values: &[f64],
     ) -> Result<(), FileError> {
         let rows = self.values.first().map_or(0, Vec::len);

@@ -31,9 +31,9 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
         // Without a column of time an empty line is a missing sample.
         let missing = if time.is_none() { table.blank_lines() } else { 0 };
         for _ in 0..missing {
-            rows.push(table.place(), (f64::NAN, f64::NAN), &[])?;
+            rows.push(table.place(), f64::NAN, f64::NAN, &[])?;
         }
-        let time = match time {
+        let (time, unit) = match time {
             Some((column, true)) => clock.read(&mut table, column)?,
             Some((column, false)) => (table.number(column)?, table.last_place(column)),
             None => (f64::NAN, f64::INFINITY),
@@ -41,7 +41,7 @@ fn read(source: impl Read, layout: &Layout) -> Result<Record, FileError> {
         for (value, column) in values.iter_mut().zip(&components) {
             *value = table.number(*column)?;
         }
-        rows.push(table.place(), time, &values)?;
+        rows.push(table.place(), time, unit, &values)?;
     }
     rows.finish()
 }

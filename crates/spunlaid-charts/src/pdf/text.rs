@@ -61,7 +61,7 @@ impl Glyphs {
         let mut written = Vec::new();
         for (italic, used) in [false, true].into_iter().zip(&self.0) {
             if let Some(font) = font_file(italic).filter(|_| !used.is_empty()) {
-                written.push((name(italic), write_font(file, numbers, (&font, italic), used)?));
+                written.push((name(italic), write_font(file, numbers, &font, italic, used)?));
             }
         }
         Ok(written)
@@ -71,7 +71,8 @@ impl Glyphs {
 fn write_font(
     file: &mut Pdf,
     numbers: &mut Ref,
-    (font, italic): (&FontFile, bool),
+    font: &FontFile,
+    italic: bool,
     used: &BTreeMap<u16, char>,
 ) -> io::Result<Ref> {
     let [whole, glyphs, about, bytes, meaning] = [(); 5].map(|()| numbers.bump());

@@ -56,7 +56,7 @@ fn main() {
             scatter(number as usize, &webs)
         };
         println!("Line {number}: {} numbers, {:.0} s", found.len(), begun.elapsed().as_secs_f64());
-        found.iter().for_each(print_if_outside);
+        found.iter().for_each(|(name, found)| print_if_outside(name, found));
         all.extend(found);
     }
     println!("\n{}", table(&all));
@@ -65,7 +65,7 @@ fn main() {
 }
 
 /// Prints a ratio that is out of bounds, with a mark if it is so beyond chance.
-fn print_if_outside((name, found): &(String, Scatter)) {
+fn print_if_outside(name: &str, found: &Scatter) {
     let Scatter { of, mean, ratio, webs, hold, .. } = found;
     if (BOUNDS[0]..BOUNDS[1]).contains(ratio) {
         return;

@@ -23,7 +23,7 @@ pub fn numbers_of(web: &WebFile, seed: u64, simulated: &str) -> Result<Numbers, 
     let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut simulated = Flyer::new(1, &stop, &|_, work| work()).web(&file.spec)?;
     let findings = simulated.find(by)?;
-    let name = ("line".to_owned(), "line".to_owned());
-    let summary = WebFolder::new(name, file, simulated, findings, started, by).summary();
+    let name = "line".to_owned();
+    let summary = WebFolder::new(name.clone(), name, file, simulated, findings, started, by).summary();
     Ok(numbers(&serde_json::from_str(&summary).expect("a summary")))
 }

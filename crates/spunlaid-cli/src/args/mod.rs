@@ -27,8 +27,7 @@ use source::key_and_value;
 use spunlaid::air::PlaceAxes;
 use spunlaid::fibre::Checks;
 use spunlaid::fibre::chain::Scheme;
-use spunlaid::ground::{Dimension, Fault, Removed};
-use std::ffi::OsString;
+use spunlaid::ground::Dimension;
 use std::path::PathBuf;
 
 /// Simulate fibres from the die to the web: how the melt is drawn, how fibres move in turbulent air, how uniform the
@@ -295,18 +294,6 @@ const SCHEMES: &[(Scheme, &str)] = &[
     (Scheme::Leapfrog, "Second order"),
     (Scheme::ImplicitTension, "Long steps, hundreds of times faster"),
 ];
-
-/// What is wrong with a command line that names a command or an option which the program had once.
-pub(crate) fn removed(words: &[OsString], error: &clap::Error) -> Option<Fault> {
-    use clap::error::ContextKind::{InvalidArg, InvalidSubcommand};
-    let name = [InvalidArg, InvalidSubcommand].into_iter().find_map(|kind| error.get(kind))?.to_string();
-    // Of `--until <TIME>` or `--until=5s` the option.
-    let name = name.split([' ', '=']).next().unwrap_or_default();
-    let command = words.get(1).map_or_else(Default::default, |word| word.to_string_lossy());
-    let name = if name.starts_with('-') { format!("{command} {name}") } else { name.to_owned() };
-    let fault = Removed::Command.fault(&name)?;
-    Some(Fault::new(format!("spunlaid {name} {}", fault.message), fault.remedy))
-}
 
 /// Reads a whole number from `least`.
 fn whole(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {

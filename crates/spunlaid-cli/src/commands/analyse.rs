@@ -54,8 +54,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
     let output = analyse.output.with_folder(&name);
     let air = output.folder(&name).join("air.toml");
-    let shown = (&output, analyse.figures.files());
-    let delivery = Delivery::open::<RecordFolder<'_>>(invocation, [&analyse.record], &name, shown)?;
+    let (files, figures) = ([&analyse.record], analyse.figures.files());
+    let delivery = Delivery::open::<RecordFolder<'_>>(invocation, files, &name, &output, figures)?;
     let record = read_record(&analyse.record, &analyse.reading.layout())?;
     let analysis = spunlaid::air::record::analyse(&record, &analyse.reading.settings())?;
     let remarks: Vec<String> = record.repairs().iter().map(ToString::to_string).collect();
@@ -69,8 +69,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
 fn scan(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "scan");
     let output = analyse.output.with_folder(&name);
-    let shown = (&output, analyse.figures.files());
-    let delivery = Delivery::open::<ScanFolder>(invocation, [&analyse.record], &name, shown)?;
+    let (files, figures) = ([&analyse.record], analyse.figures.files());
+    let delivery = Delivery::open::<ScanFolder>(invocation, files, &name, &output, figures)?;
     let started = Instant::now();
     let (picture, findings) = analyse.scan.request().analyse_file(&analyse.record)?;
     delivery.deliver(&ScanFolder::new(name, picture.file, findings, started), Threads::default(), &[])

@@ -15,8 +15,9 @@ pub(crate) fn compare(compare: &Compare, invocation: &Invocation) -> Result<(), 
     let runs: Vec<PathBuf> =
         compare.runs.iter().map(|run| results_of(run, compare)).collect::<Result<_, _>>()?;
     let folders = Folders::new(&runs)?;
-    let shown = (&compare.output, compare.figures.files());
-    let delivery = Delivery::open::<ComparedFolders>(invocation, &runs, folders.joined(), shown)?;
+    let figures = compare.figures.files();
+    let delivery =
+        Delivery::open::<ComparedFolders>(invocation, &runs, folders.joined(), &compare.output, figures)?;
     delivery.deliver(&folders.compare()?, Threads::default(), &[])
 }
 

@@ -35,7 +35,7 @@ pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), 
     let trials = counted(found.fit.trials.len() as u64, "trial");
     let lines = [format!("{trials} of {} each", counted(found.fit.webs, "web"))];
     let text = folder.write(&found, making(threads))?;
-    print_results(&found, (&path, &text), &lines, output);
+    print_results(&found, &path, &text, &lines, output);
     Ok(())
 }
 

@@ -18,8 +18,8 @@ pub(crate) fn reproduce(arguments: &Reproduce, invocation: &Invocation) -> Resul
     let wanted = chosen(arguments.figures.iter().filter(|name| Format::named(name).is_err()).collect())?;
     let mut base = table1(arguments.scheme)?;
     base.run.replicates = arguments.replicates;
-    let shown = (&arguments.output, arguments.width.files(&formats));
-    let delivery = Delivery::open::<PaperFolder<'_>>(invocation, [], "paper", shown)?;
+    let figures = arguments.width.files(&formats);
+    let delivery = Delivery::open::<PaperFolder<'_>>(invocation, [], "paper", &arguments.output, figures)?;
     let flying = PaperFlights::new(&base, &wanted)?;
 
     let fibre_steps = AtomicU64::new(0);

@@ -9,7 +9,7 @@ use crate::{progress, say};
 use spunlaid::ground::FileKind;
 use spunlaid::simulation::FinerPlans;
 use spunlaid_results::reports::finished::read_summary_of_run;
-use spunlaid_results::reports::run::{FlightRecords, RunFolder, SimulatedRun, fly, found};
+use spunlaid_results::reports::run::{FlightRecords, LandedRun, RunFolder, SimulatedRun, fly, found};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -19,8 +19,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (case, notes) = settled(run.threads, quiet, |resources| run.source.read(&set, resources))?;
     notes.iter().for_each(say::note);
     let name = name_of(&run.source.case, FileKind::Case, ["case", "fibre"]);
-    let shown = (&run.output, run.figures.files());
-    let mut delivery = Delivery::open::<RunFolder>(invocation, [&run.source.case], &name, shown)?;
+    let (files, figures) = ([&run.source.case], run.figures.files());
+    let mut delivery = Delivery::open::<RunFolder>(invocation, files, &name, &run.output, figures)?;
 
     let fibre_steps = AtomicU64::new(0);
     let by = control(run.threads, &fibre_steps);
@@ -39,8 +39,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     if paths.is_none() && delivery.folder().is_some_and(holds_more) {
         return Err(paused());
     }
-    let (case, simulated) = ((Arc::new(case), &notes[..]), (results, replicates, paths.is_some()));
-    let mut written = RunFolder::new(name, case, simulated, &plans, started, by);
+    let landed = LandedRun { results, replicates, is_whole: paths.is_some() };
+    let mut written = RunFolder::new(name, Arc::new(case), &notes, landed, &plans, started, by);
     let [lost, outside, coarse] = found(&written.case, &written.results);
     outside.iter().for_each(|outside| say::warning(outside));
     delivery.publish(&written, run.threads)?;

@@ -16,7 +16,7 @@ pub(crate) fn spin(spin: &Spin, invocation: &Invocation) -> Result<(), Failure> 
     let file = settled(Threads::default(), spin.output.quiet, read)?;
     file.notes.iter().for_each(say::note);
     let name = name_of(&spin.file, FileKind::Spinline, ["spinline"; 2]);
-    let shown = (&spin.output, spin.figures.files());
-    let delivery = Delivery::open::<SpinFolder>(invocation, [&spin.file], &name, shown)?;
+    let figures = spin.figures.files();
+    let delivery = Delivery::open::<SpinFolder>(invocation, [&spin.file], &name, &spin.output, figures)?;
     delivery.deliver(&SpinFolder::solve(name, file)?, Threads::default(), &[])
 }

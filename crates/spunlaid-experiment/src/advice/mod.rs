@@ -111,21 +111,22 @@ fn is_assumed(change: &Change) -> bool {
 /// If it is stopped, if nothing is expected of the web as it is, or if no CV is known by which to judge.
 pub fn advise(
     spec: &WebSpec,
-    (web, findings): (&Web, &Findings),
+    web: &Web,
+    findings: &Findings,
     changes: Vec<Change>,
     judged_by: Option<f64>,
     kept: Option<&Log>,
     by: RunContext<'_>,
 ) -> Result<Advice, Error> {
-    let few_of = |(spec, changes): (&WebSpec, &[Change]), of_each: Compared| {
-        few_of_changes((spec, findings), (changes, of_each), kept, by)
+    let few_of = |spec: &WebSpec, changes: &[Change], of_each: Compared| {
+        few_of_changes(spec, findings, changes, of_each, kept, by)
     };
     let has_few = findings.laid.few().next().is_some();
     let mut is_in_same_air = false;
     let mut advice = Sensitivity::new(changes, |changes| {
-        let in_same_air = if has_few { few_of((spec, changes), compared(changes))? } else { None };
+        let in_same_air = if has_few { few_of(spec, changes, compared(changes))? } else { None };
         is_in_same_air = in_same_air.is_some();
-        in_same_air.map_or_else(|| try_alone(spec, (web, findings), changes, by), Ok)
+        in_same_air.map_or_else(|| try_alone(spec, web, findings, changes, by), Ok)
     })?;
     let patches = || advice.tried.iter().flat_map(|tried| &tried.effects).map(|effect| effect.of);
     advice.judged_by = match judged_by {
@@ -145,7 +146,7 @@ pub fn advise(
             changes.iter_mut().for_each(|Change { experiment, .. }| {
                 experiment.spec = in_another_air(&experiment.spec);
             });
-            Ok(few_of((&in_another_air(spec), &changes), RACE)?.unwrap_or_default())
+            Ok(few_of(&in_another_air(spec), &changes, RACE)?.unwrap_or_default())
         })?;
     }
     Ok(advice)
@@ -158,8 +159,10 @@ type Outcomes = Vec<Outcome<f64>>;
 ///
 /// * `of_each` – what is simulated of each
 fn few_of_changes(
-    (spec, findings): (&WebSpec, &Findings),
-    (changes, of_each): (&[Change], Compared),
+    spec: &WebSpec,
+    findings: &Findings,
+    changes: &[Change],
+    of_each: Compared,
     kept: Option<&Log>,
     by: RunContext<'_>,
 ) -> Result<Option<Outcomes>, Error> {
@@ -173,7 +176,7 @@ fn few_of_changes(
                 by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
                 return Ok(Some(found));
             }
-            let Some(estimates) = flyer.few_in_same_air((webs, of_each), by.done)? else { return Ok(None) };
+            let Some(estimates) = flyer.few_in_same_air(webs, of_each, by.done)? else { return Ok(None) };
             let found = effects(estimates)?;
             // What cannot be kept is simulated again.
             kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
@@ -233,7 +236,8 @@ fn effects_between(base: &[ExpectedCv], other: &[ExpectedCv]) -> Vec<Effect<f64>
 /// Flies and lays each changed web by itself.
 fn try_alone(
     spec: &WebSpec,
-    (web, findings): (&Web, &Findings),
+    web: &Web,
+    findings: &Findings,
     changes: &[Change],
     by: RunContext<'_>,
 ) -> Result<Outcomes, Error> {

@@ -108,7 +108,7 @@ impl PinnedWeb {
     ) -> Result<(), Error> {
         let (flyer, webs) = (Flyer::new(by.threads, by.stop, &super::unwatched), [&self.spec, spec]);
         for area in LOOKS {
-            let few = flyer.few_in_same_air((&webs, Compared { area, pitches: PITCHES }), by.done)?;
+            let few = flyer.few_in_same_air(&webs, Compared { area, pitches: PITCHES }, by.done)?;
             let mut few = few.ok_or_else(Error::no_fibre)?.into_iter();
             let (Some(pinned), Some(changed)) = (few.next(), few.next()) else { continue };
             let pinned = WebOfFew::new(&self.spec, pinned?);

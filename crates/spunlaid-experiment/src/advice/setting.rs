@@ -1,7 +1,7 @@
 //! Settings of the machine that change how even a web is, webs in which one of them is changed, and what these are
 //! judged by: the CV over patches of some size, which is that of what a buyer sees.
 
-use spunlaid_ground::{Dimension, Error, Fault, Removed, Setting, Turned};
+use spunlaid_ground::{Dimension, Error, Fault, Setting, Turned};
 use spunlaid_simulation::WebSpec;
 
 const fn running(name: &'static str, words: &'static str) -> Setting {
@@ -120,9 +120,6 @@ pub fn judged_by(spec: &WebSpec, text: &str) -> Result<f64, Error> {
         return nearest.ok_or_else(|| {
             Fault::new("the web is evaluated over no patches", "name some in web.patches").into()
         });
-    }
-    if let Some(fault) = Removed::Command.fault(&format!("web --for {text}")) {
-        return Err(Fault::new(format!("--for {text} {}", fault.message), fault.remedy).into());
     }
     let names = || AIMS.map(|aim| aim.name).join(", ");
     let side = Dimension::Length.parse(text).ok().filter(|side| *side > 0.0).ok_or_else(|| {

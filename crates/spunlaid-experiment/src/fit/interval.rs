@@ -121,11 +121,11 @@ impl Search<'_> {
             };
             let mean = webs.trials[trial].mean.clone();
             let keys = values.surface.keys.clone();
-            let surface = Surface::new(webs, &end_place, keys, (mean, &slopes), self.other_errors);
+            let surface = Surface::new(webs, &end_place, keys, mean, &slopes, self.other_errors);
             let Some(index_there) = surface.keys.iter().position(|one| *one == key) else { break };
             self.profile.push((
                 webs.parameters[key].value(at[key]),
-                least_misfit(webs, place, &values.surface, (index, trial)),
+                least_misfit(webs, place, &values.surface, index, trial),
             ));
             // How far from here the scan's value is found, and how far it would be at the end.
             let away = -side * dot(&surface.gain[index_there], &residuals_of(webs, trial));

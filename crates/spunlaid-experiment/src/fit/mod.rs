@@ -122,8 +122,8 @@ pub fn fit<'a>(
     check(question)?;
     let Question { parameters, target, make, webs: count } = question;
     let start: Vec<f64> = parameters.iter().map(|sought| sought.start).collect();
-    let mut simulator = WebSimulator::new((make, target), flyer, by, &start)?;
-    find(&mut Webs::new((parameters, target), (&mut simulator, count), journal, watch))
+    let mut simulator = WebSimulator::new(make, target, flyer, by, &start)?;
+    find(&mut Webs::new(parameters, target, &mut simulator, count, journal, watch))
 }
 
 /// How far the numbers of simulated webs are off at the start by causes other than chance: standard errors of
@@ -138,7 +138,7 @@ pub fn errors_of_model(
     by: RunContext<'_>,
 ) -> Result<Vec<Vec<f64>>, Error> {
     let start: Vec<f64> = question.parameters.iter().map(|sought| sought.start).collect();
-    WebSimulator::new((question.make, question.target), flyer, by, &start)?.errors_of_model()
+    WebSimulator::new(question.make, question.target, flyer, by, &start)?.errors_of_model()
 }
 
 /// Searches until the values are near the place where the search has ended.
@@ -164,7 +164,7 @@ fn find(webs: &mut Webs<'_>) -> Result<Fit, Error> {
             Some(next) if next != start => start = next,
             _ => {
                 let ends = interval::ends(webs, &place, &values, &others)?;
-                return Ok(results::collect_results(webs, &place, values, (&ends, &others)));
+                return Ok(results::collect_results(webs, &place, values, &ends, &others));
             }
         }
     }

@@ -9,7 +9,6 @@ use super::texture::Texture;
 use super::values::Values;
 use super::webs::Webs;
 use super::weights::{Matrix, gain, information, misfit, unexplained, weights};
-use spunlaid_ground::sort::sort_by_key;
 
 /// What was found.
 #[derive(Clone, Debug)]
@@ -121,11 +120,12 @@ pub(super) fn collect_results(
     webs: &Webs<'_>,
     place: &SearchState,
     values: Values,
-    (ends, others): (&[Ends], &Matrix),
+    ends: &[Ends],
+    others: &Matrix,
 ) -> Fit {
     let Values { coordinates, surface, profiles, far } = values;
     let fit = Fit {
-        keys: keys(webs, (&surface, ends), &coordinates, profiles),
+        keys: keys(webs, &surface, ends, &coordinates, profiles),
         correlations: Vec::new(),
         alike: Vec::new(),
         numbers: numbers(webs, place, &surface, others),
@@ -143,7 +143,8 @@ pub(super) fn collect_results(
 /// The keys with their values and intervals.
 fn keys(
     webs: &Webs<'_>,
-    (surface, ends): (&Surface, &[Ends]),
+    surface: &Surface,
+    ends: &[Ends],
     coordinates: &[f64],
     profiles: Vec<Vec<(f64, f64)>>,
 ) -> Vec<FittedKey> {
@@ -157,7 +158,7 @@ fn keys(
         };
         let [low, high] = parameter.ends();
         profile.extend(&ends[index].profile);
-        sort_by_key(&mut profile, |(value, _)| *value);
+        profile.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let Ends { coordinates: interval, kinds: ends, .. } = &ends[index];
         let near = |end: f64| (coordinates[key] - end).abs() < 1e-9 * (high - low);
         let warning = if *ends == [IntervalEnd::OfRange; 2] {

@@ -57,7 +57,8 @@ impl<'a> WebSimulator<'a> {
     /// # Errors
     /// If no web has these values.
     pub(super) fn new(
-        (make, target): (MakeWeb<'a>, &'a Target),
+        make: MakeWeb<'a>,
+        target: &'a Target,
         flyer: Flyer<'a>,
         by: RunContext<'a>,
         start: &[f64],

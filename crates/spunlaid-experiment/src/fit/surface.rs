@@ -50,7 +50,8 @@ impl Surface {
         webs: &Webs<'_>,
         place: &SearchState,
         mut keys: Vec<usize>,
-        (numbers, slopes): (Vec<f64>, &Matrix),
+        numbers: Vec<f64>,
+        slopes: &Matrix,
         other_errors: &Matrix,
     ) -> Self {
         let (slopes, gain_of_all) = loop {

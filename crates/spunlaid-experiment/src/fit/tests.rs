@@ -94,7 +94,7 @@ fn whole(of: Parameter) -> Parameter {
 }
 
 /// How many intervals of so many loops lie below the truth, hold it, lie above it; by key.
-fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) -> Vec<[usize; 3]> {
+fn coverage(parameters: &[Parameter], truth: &[f64], loops: u64, webs: u64) -> Vec<[usize; 3]> {
     let mut counts = vec![[0; 3]; parameters.len()];
     for seed in 1..=loops {
         let scan = Drawn { values: truth.to_vec(), seed: seed + loops }.web(0).unwrap();
@@ -102,8 +102,7 @@ fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) 
         let mut simulator = Drawn { values: truth.to_vec(), seed };
         let mut journal = Journal::in_memory();
         let found =
-            find(&mut Webs::new((parameters, &target), (&mut simulator, webs), &mut journal, &|_| {}))
-                .unwrap();
+            find(&mut Webs::new(parameters, &target, &mut simulator, webs, &mut journal, &|_| {})).unwrap();
         for ((key, truth), counts) in found.keys.iter().zip(truth).zip(&mut counts) {
             let [low, high] = key.interval.clone().unwrap();
             counts[usize::from(*truth <= high) + usize::from(*truth < low)] += 1;
@@ -115,7 +114,7 @@ fn coverage(parameters: &[Parameter], truth: &[f64], (loops, webs): (u64, u64)) 
 #[test]
 fn stat_intervals_of_normal_numbers_hold_the_truth_as_often_as_they_say() {
     let parameters = [parameter("noise", 12.0, [2.4, 60.0]), parameter("filaments", 250.0, [50.0, 1250.0])];
-    let counts = coverage(&parameters, &[16.0, 350.0], (1000, 20));
+    let counts = coverage(&parameters, &[16.0, 350.0], 1000, 20);
     println!("{counts:?}");
     for [below, within, above] in counts {
         // Of 95 %, 0.7 % are a standard error; of 2.5 % to each side, 0.5 %.
@@ -129,7 +128,7 @@ fn fitted(parameters: &[Parameter], truth: &[f64], simulator: &mut dyn Simulator
     let scan = Drawn { values: truth.to_vec(), seed: 77 }.web(0).unwrap();
     let target = Target::from_patches(&SIDES.map(|side| 1e-3 * side), scan);
     let mut journal = Journal::in_memory();
-    find(&mut Webs::new((parameters, &target), (simulator, 20), &mut journal, &|_| {}))
+    find(&mut Webs::new(parameters, &target, simulator, 20, &mut journal, &|_| {}))
 }
 
 fn drawn() -> Drawn {
@@ -256,7 +255,7 @@ fn identical_after_trials_that_were_refused() {
     let mut journal = Journal::in_memory();
     let mut fit = || {
         let mut simulator = Fragile(OneKey(drawn()), 380.0, 4);
-        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap()
+        find(&mut Webs::new(&parameters, &target, &mut simulator, 20, &mut journal, &|_| {})).unwrap()
     };
     let first = fit();
     assert!(!first.refused.is_empty(), "{first:?}");
@@ -265,7 +264,7 @@ fn identical_after_trials_that_were_refused() {
     let mut simulator = Fragile(OneKey(drawn()), 380.0, 0);
     let mut journal = Journal::in_memory();
     let at_once =
-        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
+        find(&mut Webs::new(&parameters, &target, &mut simulator, 20, &mut journal, &|_| {})).unwrap();
     assert_eq!(format!("{:?}", first.keys), format!("{:?}", at_once.keys));
     // The end of the interval to which no webs can be laid is reported as such, or lies before.
     let [_, high] = first.keys[0].interval.clone().unwrap();
@@ -299,6 +298,6 @@ fn a_web_can_be_made_of_what_is_found() {
     let mut simulator = Bounded(OneKey(drawn()), 252.0);
     let mut journal = Journal::in_memory();
     let found =
-        find(&mut Webs::new((&parameters, &target), (&mut simulator, 20), &mut journal, &|_| {})).unwrap();
+        find(&mut Webs::new(&parameters, &target, &mut simulator, 20, &mut journal, &|_| {})).unwrap();
     assert!(!found.refused.is_empty() && found.keys[0].value <= 252.0, "{found:?}");
 }

@@ -39,18 +39,18 @@ pub(super) fn values(
 ) -> Result<Values, Error> {
     let start = webs.trials[place.trial].clone();
     let all = (0..webs.parameters.len()).collect();
-    let mut surface = Surface::new(webs, place, all, (start.mean.clone(), &place.slopes), other_errors);
+    let mut surface = Surface::new(webs, place, all, start.mean.clone(), &place.slopes, other_errors);
     let mut profiles = vec![Vec::new(); webs.parameters.len()];
     let mut reach = vec![1.0; webs.parameters.len()];
     for (index, key) in surface.keys.iter().enumerate() {
         let error = surface.errors.standard_error(index);
-        (profiles[*key], reach[*key]) = profile(webs, place, &surface, (index, error))?;
+        (profiles[*key], reach[*key]) = profile(webs, place, &surface, index, error)?;
     }
     let polynomials = Polynomials::new(webs, place, &reach);
     let mut step = vec![0.0; reach.len()];
     for _ in 0..MOST {
         let (numbers, slopes) = polynomials.at(&step);
-        surface = Surface::new(webs, place, surface.keys.clone(), (numbers, &slopes), other_errors);
+        surface = Surface::new(webs, place, surface.keys.clone(), numbers, &slopes, other_errors);
         let further = surface.step(webs, place, &step);
         // No further than trials have been.
         let to: Vec<f64> = (step.iter().zip(&further).zip(&reach))
@@ -81,7 +81,8 @@ fn profile(
     webs: &mut Webs<'_>,
     place: &SearchState,
     surface: &Surface,
-    (index, error): (usize, f64),
+    index: usize,
+    error: f64,
 ) -> Result<Profile, Error> {
     let keys = &surface.keys;
     let start = webs.trials[place.trial].coordinates.clone();
@@ -111,7 +112,7 @@ fn profile(
         if let Some(trial) = webs.trial(&at)? {
             profile.push((
                 webs.parameters[key].value(at[key]),
-                least_misfit(webs, place, surface, (index, trial)),
+                least_misfit(webs, place, surface, index, trial),
             ));
             reach = reach.max((webs.trials[trial].coordinates[key] - start[key]).abs());
         }
@@ -126,7 +127,8 @@ pub(super) fn least_misfit(
     webs: &Webs<'_>,
     place: &SearchState,
     surface: &Surface,
-    (index, trial): (usize, usize),
+    index: usize,
+    trial: usize,
 ) -> f64 {
     let others = surface.slopes.iter().enumerate().filter(|(other, _)| *other != index);
     let slopes: Matrix = others.map(|(_, slopes)| slopes.clone()).collect();

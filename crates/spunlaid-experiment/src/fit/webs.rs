@@ -52,9 +52,13 @@ pub(super) struct Webs<'a> {
 
 impl<'a> Webs<'a> {
     /// No webs yet.
+    ///
+    /// * `count` – of the webs of each trial
     pub(super) fn new(
-        (parameters, target): (&'a [Parameter], &'a Target),
-        (simulator, count): (&'a mut dyn Simulator, u64),
+        parameters: &'a [Parameter],
+        target: &'a Target,
+        simulator: &'a mut dyn Simulator,
+        count: u64,
         journal: &'a mut Journal,
         watch: &'a dyn Fn(WebInProgress<'_>),
     ) -> Self {

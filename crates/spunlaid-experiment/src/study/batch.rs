@@ -3,11 +3,9 @@
 
 use super::{Experiment, Point};
 use spunlaid_fibre::FlightInvariants;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, RunContext, WIDTH};
 use spunlaid_simulation::ensemble::{fly_each, in_order};
 use spunlaid_simulation::{Job, Recorded, Trajectory};
-use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -70,7 +68,7 @@ impl Packing {
             members.push((before, batch.clone()));
         }
         // The longest flights come first, so that no thread is busy alone at the end.
-        sort_by_key(&mut groups, |group| Reverse(group.work));
+        groups.sort_by(|one, other| other.work.total_cmp(&one.work));
         let mut packing = Self::default();
         for group in groups {
             let jobs = group.members.last().map_or(0, |(before, batch)| before + length(batch));

@@ -199,7 +199,7 @@ fn follows(
     let reported = format!("{} from {} to {}", in_words(quantity, ends), place(0), place(last));
     if way != Way::Turns {
         let direction = if way == Way::Rises { 1.0 } else { -1.0 };
-        let (back, verdict) = goes((ends, &steps), direction);
+        let (back, verdict) = goes(ends, &steps, direction);
         let evidence = match ends.standard_error {
             0.0 if back > CHANCE => format!("{reported}, without error; a step goes the other way"),
             0.0 => format!("{reported}, without error; no step goes the other way"),
@@ -226,7 +226,7 @@ fn follows(
     let evidence =
         format!("at {}: {before} relative to {}, {after} relative to {}", place(turn), place(0), place(last));
     let overall = significance(ends);
-    let is_monotone = goes((ends, &steps), overall.signum()).0 <= CHANCE;
+    let is_monotone = goes(ends, &steps, overall.signum()).0 <= CHANCE;
     let verdict = match most {
         most if most > REAL => Verdict::Holds,
         // Without error, the steps are as they are.

@@ -18,7 +18,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// # Errors
 /// If fibres cannot be simulated or read, if a web cannot be laid, and every error of `take`.
 pub(super) fn lay_webs(
-    (points, sides): (&[Point], &[f64]),
+    points: &[Point],
+    sides: &[f64],
     batches: &[Batch],
     computing: RunContext<'_>,
     steps: &AtomicU64,

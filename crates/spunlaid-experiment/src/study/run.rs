@@ -61,12 +61,13 @@ pub fn run(
 /// # Errors
 /// When the computation is stopped, and when a case cannot be simulated. A lost fibre is a record.
 pub fn fly_bundle(
-    (points, sides): (&[Point], &[f64]),
+    points: &[Point],
+    sides: &[f64],
     bundle: &[Batch],
     computing: RunContext<'_>,
 ) -> Result<Vec<Record>, Error> {
     let (all, steps) = (Mutex::new(Vec::new()), AtomicU64::new(0));
-    make((points, sides), bundle, computing, &steps, &|records: Vec<Record>| {
+    make(points, sides, bundle, computing, &steps, &|records: Vec<Record>| {
         lock(&all).extend(records);
         Ok(())
     })?;
@@ -80,13 +81,14 @@ pub fn fly_bundle(
 /// * `steps` – becomes larger by those of the webs
 /// * `keep` – receives the records of each web, of each spinline and of each flight, from several threads
 fn make(
-    (points, sides): (&[Point], &[f64]),
+    points: &[Point],
+    sides: &[f64],
     batches: &[Batch],
     computing: RunContext<'_>,
     steps: &AtomicU64,
     keep: &(impl Fn(Vec<Record>) -> Result<(), Error> + Sync),
 ) -> Result<(), Error> {
-    lay_webs((points, sides), batches, computing, steps, |record| keep(vec![record]))?;
+    lay_webs(points, sides, batches, computing, steps, |record| keep(vec![record]))?;
     solve_spinlines(points, batches, computing, |record| keep(vec![record]))?;
     let flies = |batch: &&Batch| points[batch.point].experiment.case().is_some();
     let simulated: Vec<Batch> = batches.iter().filter(flies).cloned().collect();
@@ -113,7 +115,7 @@ fn fly_missing(
             lacking.landed(&records, progress);
             Ok(())
         };
-        make((&study.points, &study.patch_sides()), &batches, computing, &progress.steps, &keep)
+        make(&study.points, &study.patch_sides(), &batches, computing, &progress.steps, &keep)
     })?
 }
 

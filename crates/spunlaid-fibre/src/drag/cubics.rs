@@ -25,11 +25,11 @@ impl Table {
     /// Their slopes are those over two cubics, so that rows that lie closer than cubics cannot make waves.
     pub(super) fn between([from, to]: [f64; 2], log_g: impl Fn(f64) -> f64) -> Self {
         let per_unit = (CUBICS - 2) as f64 / (to - from);
-        Self::of((per_unit, 2.0 - per_unit * from), 1.0, log_g)
+        Self::of(per_unit, 2.0 - per_unit * from, 1.0, log_g)
     }
 
     /// * `step` – over which slopes are found, in cubics
-    pub(super) fn of((per_unit, zero): (f64, f64), step: f64, log_g: impl Fn(f64) -> f64) -> Self {
+    pub(super) fn of(per_unit: f64, zero: f64, step: f64, log_g: impl Fn(f64) -> f64) -> Self {
         let log_g = |place: f64| log_g((place - zero) / per_unit);
         let end = |place: f64| (log_g(place), (log_g(place + step) - log_g(place - step)) / (2.0 * step));
         let mut lower = end(1.0);

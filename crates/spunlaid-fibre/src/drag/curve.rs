@@ -69,7 +69,7 @@ fn table_of(curve: Curve) -> Table {
         let per_unit = (to - from).round() / (to - from);
         (per_unit, (middle + per_unit * from).round() - per_unit * from)
     });
-    Table::of((per_unit, zero), 1.0 / 4096.0, |q| libm::log2(curve.exact(libm::exp2(0.5 * q))))
+    Table::of(per_unit, zero, 1.0 / 4096.0, |q| libm::log2(curve.exact(libm::exp2(0.5 * q))))
 }
 
 #[cfg(test)]

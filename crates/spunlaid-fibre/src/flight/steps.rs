@@ -86,8 +86,7 @@ impl Flight {
             .as_ref()
             .map_or((&self.chain.constants, &self.start.position), |(c, origin)| (c, origin));
         let mut energy = Energy::stored_energy(self.isa, constants, &position, &velocity, origin);
-        let works = (&before, &self.work);
-        energy.enter_work(&self.start.energy, works, &carried, self.scheme, self.h);
+        energy.enter_work(&self.start.energy, &before, &self.work, &carried, self.scheme, self.h);
         Snapshot { time, position, velocity, tension, drag, nodes, in_air, root_strain_integral, energy }
     }
 

@@ -33,11 +33,13 @@ impl SpinSpec {
         loop {
             let next = near.0 + step;
             if !(libm::log(LEAST)..libm::log(MOST)).contains(&next) {
-                return Err(Failure::new(DRAG_FACTOR, None, self.out_of_reach(titre, near)));
+                return Err(Failure::new(DRAG_FACTOR, None, self.out_of_reach(titre, near.0, near.1)));
             }
             let far = match miss(next) {
                 Ok(miss) => (next, miss),
-                Err(_) => return Err(Failure::new(DRAG_FACTOR, None, self.out_of_reach(titre, near))),
+                Err(_) => {
+                    return Err(Failure::new(DRAG_FACTOR, None, self.out_of_reach(titre, near.0, near.1)));
+                }
             };
             if (far.1 > 0.0) != (near.1 > 0.0) {
                 let ln_factor = brent(|x| miss(x).unwrap_or(f64::NAN), [near, far], CLOSE);
@@ -49,8 +51,9 @@ impl SpinSpec {
 
     /// That a titre cannot be reached.
     ///
-    /// * `last` – logarithm of the last factor that was tried, and of the wanted titre over that of the filament
-    fn out_of_reach(&self, titre: f64, (ln_factor, miss): (f64, f64)) -> Fault {
+    /// * `ln_factor` – logarithm of the last factor that was tried
+    /// * `miss` – logarithm of the wanted titre over that of the filament
+    fn out_of_reach(&self, titre: f64, ln_factor: f64, miss: f64) -> Fault {
         let [wanted, reached] =
             [titre, titre * libm::exp(-miss)].map(|titre| Dimension::LinearDensity.pretty_to(titre, 3));
         let speed = Dimension::Velocity.pretty_to(self.spinline.throughput / titre, 3);

@@ -276,8 +276,9 @@ fn meets(filament: &Filament<'_>, shot: &Shot) -> bool {
 /// Follows the state of a line that differs a little: the tension at the die that meets the end, close to the
 /// one that did. None if the state is lost, and has to be sought.
 ///
-/// * `known` – the tension at the die of the other line [N], and whether that has a second state
-pub(super) fn follow(filament: &Filament<'_>, (tension, has_second): (f64, bool)) -> Option<Hit> {
+/// * `tension` – at the die of the other line [N]
+/// * `has_second` – whether that line has a second state
+pub(super) fn follow(filament: &Filament<'_>, tension: f64, has_second: bool) -> Option<Hit> {
     let shooting = Shooting { filament };
     let run = shooting.hit(shooting.bracket_near(libm::log(tension))?, CLOSE_ENOUGH).ok()?;
     Some(Hit { tension: libm::exp(run.at_die), shot: run.shot, has_second })

@@ -60,7 +60,7 @@ fn hit_near(filament: &Filament<'_>, near: &Solution) -> Result<Hit, Failure> {
     }
     // A state that differs much is another one: only a search reports which of them a line runs in.
     let is_near = |hit: &Hit| (hit.shot.end[LN_SPEED] - libm::log(near.final_speed)).abs() < FAR;
-    match follow(filament, (near.force_at_die, near.has_second)).filter(is_near) {
+    match follow(filament, near.force_at_die, near.has_second).filter(is_near) {
         Some(hit) => pulled(filament, hit),
         None => seek(filament),
     }

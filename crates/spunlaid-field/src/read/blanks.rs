@@ -166,6 +166,15 @@ fn set(list: &mut Vec<bool>, place: usize, count: usize) {
 /// Most characters of the name of an array in a message.
 const LONGEST: usize = 40;
 
+/// An array of a piece.
+pub(super) struct NumbersOfArray<'a> {
+    pub(super) name: &'a str,
+    /// Whether its values are those of cells, and not of points.
+    pub(super) of_cells: bool,
+    pub(super) numbers: &'a mut [f64],
+    pub(super) components: usize,
+}
+
 /// The points or cells at which an array has no number, in all pieces.
 pub(super) struct Gap {
     array: String,
@@ -190,11 +199,12 @@ impl Gaps {
     /// * `lines` – those of the points in a table
     pub(super) fn look_for(
         &mut self,
-        (array, of_cells): (&str, bool),
-        numbers: &mut [f64],
-        components: usize,
-        (grid, blanks, lines): (&Grid, &mut Blanks, &[u64]),
+        array: NumbersOfArray<'_>,
+        grid: &Grid,
+        blanks: &mut Blanks,
+        lines: &[u64],
     ) {
+        let NumbersOfArray { name, of_cells, numbers, components } = array;
         let rows = numbers.len() / components.max(1);
         let mut missing = Vec::new();
         for (place, row) in numbers.chunks_exact_mut(components.max(1)).enumerate() {
@@ -219,9 +229,9 @@ impl Gaps {
             (line, _) => format!("is in line {}", line.copied().unwrap_or_default()),
         };
         let count = missing.len() as u64;
-        match self.gaps.iter_mut().find(|gap| gap.array == array && gap.of_cells == of_cells) {
+        match self.gaps.iter_mut().find(|gap| gap.array == name && gap.of_cells == of_cells) {
             Some(gap) => gap.count += count,
-            None => self.gaps.push(Gap { array: array.to_owned(), of_cells, count, first }),
+            None => self.gaps.push(Gap { array: name.to_owned(), of_cells, count, first }),
         }
         self.places.extend(places);
     }

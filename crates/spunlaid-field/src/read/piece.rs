@@ -2,7 +2,7 @@
 
 use super::array::Array;
 use super::arrays::{Arrays, Velocity};
-use super::blanks::{Blanks, Gaps};
+use super::blanks::{Blanks, Gaps, NumbersOfArray};
 use super::encoding::Budget;
 use super::grid::{Grid, vectors};
 use super::missing;
@@ -144,8 +144,9 @@ impl Reader<'_, '_> {
         let (points, cells) = self.piece.grid.counts()?;
         let array = if of_cells { &self.piece.cell_data[array] } else { &self.piece.point_data[array] };
         let mut numbers = array.numbers(if of_cells { cells } else { points }, self.budget)?;
-        let places = (&self.piece.grid, &mut *self.blanks, self.piece.lines.as_slice());
-        self.gaps.look_for((&array.name, of_cells), &mut numbers, array.components, places);
+        let components = array.components;
+        let read = NumbersOfArray { name: &array.name, of_cells, numbers: &mut numbers, components };
+        self.gaps.look_for(read, &self.piece.grid, self.blanks, &self.piece.lines);
         if of_cells {
             let holds = |cell| self.blanks.holds(true, cell);
             numbers = self.piece.grid.to_points(&numbers, array.components, points, holds);

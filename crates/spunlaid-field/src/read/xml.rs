@@ -180,7 +180,10 @@ impl<'a> File<'a> {
         let extent = || extent(piece).or_else(|_| extent(grid));
         let [point_data, cell_data] = [self.arrays(piece, "PointData")?, self.arrays(piece, "CellData")?];
         let grid = match kind {
-            "ImageData" => self.image(grid, extent()?)?,
+            "ImageData" => {
+                let (first, size) = extent()?;
+                self.image(grid, first, size)?
+            }
             "RectilinearGrid" => {
                 let (_, size) = extent()?;
                 let mut axes = self.arrays(piece, "Coordinates")?.into_iter();
@@ -204,7 +207,7 @@ impl<'a> File<'a> {
         Ok(Piece { grid, point_data, cell_data, lines: Vec::new() })
     }
 
-    fn image(&self, grid: Node<'_, '_>, (first, size): ([f64; 3], [usize; 3])) -> Result<Grid, FileError> {
+    fn image(&self, grid: Node<'_, '_>, first: [f64; 3], size: [usize; 3]) -> Result<Grid, FileError> {
         let origin = numbers(grid, "Origin")?.unwrap_or([0.0; 3]);
         let spacing = numbers(grid, "Spacing")?.unwrap_or([1.0; 3]);
         let upright = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];

@@ -1,7 +1,5 @@
 //! Lists, numbers and foreign text in the words of messages.
 
-use crate::sort::sort_by_key;
-use std::cmp::Reverse;
 use std::fmt;
 
 pub(super) fn did_you_mean(nearest: &Option<String>, otherwise: impl Fn() -> String) -> String {
@@ -133,6 +131,6 @@ pub fn by_similarity<'a, T>(word: &str, known: impl Iterator<Item = (T, &'a str,
         .collect();
     // Of equals, take the last: the tables go from general to specific keys.
     like.reverse();
-    sort_by_key(&mut like, |(similarity, _)| Reverse(*similarity));
+    like.sort_by(|(one, _), (other, _)| other.total_cmp(one));
     like.into_iter().map(|(_, candidate)| candidate).collect()
 }

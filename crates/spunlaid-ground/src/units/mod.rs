@@ -11,10 +11,8 @@ pub use spelling::{plain_spelling, readings, si_unit_of, udunits, with_decimal_p
 pub use table::Dimension;
 
 use crate::error::Fault;
-use crate::sort::sort_by_key;
 use spelling::{factors, is_same};
 use std::borrow::Cow;
-use std::cmp::Reverse;
 use std::fmt;
 use table::Scale::{Above, Over, Ten, Times};
 
@@ -152,7 +150,7 @@ impl Dimension {
             self.parse(&text).is_ok_and(|read| read == value).then_some((unit.pretty, text))
         };
         let mut texts: Vec<(bool, String)> = self.units().iter().filter_map(short).collect();
-        sort_by_key(&mut texts, |(is_usual, text)| text.len() + if *is_usual { 0 } else { 100 });
+        texts.sort_by_key(|(is_usual, text)| text.len() + if *is_usual { 0 } else { 100 });
         texts.into_iter().next().map_or(plain, |(_, text)| text)
     }
 
@@ -217,7 +215,7 @@ impl Dimension {
                 .filter(|unit| !matches!(unit.scale, Above(..)))
                 .map(|unit| (unit.scale.size(), unit.shown))
                 .collect();
-            sort_by_key(&mut sizes, |(size, _)| Reverse(*size));
+            sizes.sort_by(|(one, _), (other, _)| other.total_cmp(one));
             let rounded: f64 = format!("{:.decimals$e}", value.abs()).parse().unwrap_or(value);
             let smallest = sizes.last().filter(|(size, _)| rounded >= 0.01 * size);
             let fits = sizes.iter().find(|(size, _)| rounded >= *size).or(smallest);

@@ -123,7 +123,7 @@ fn straight(spots: &[Spot], unit: &str) -> (String, Verdict) {
 fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
     let (first, last) = (spots[0], spots[spots.len() - 1]);
     let steps: Vec<Difference> = spots.windows(2).map(|pair| pair[0].to(pair[1])).collect();
-    let (back, verdict) = goes((first.to(last), &steps), direction);
+    let (back, verdict) = goes(first.to(last), &steps, direction);
     let evidence = format!(
         "{:.2} ± {:.2} to {:.2} ± {:.2} {unit}; largest step in the other direction {back:.1} standard errors",
         first.y, first.error, last.y, last.error
@@ -299,7 +299,7 @@ mod tests {
     fn analytic_steps_back_and_slopes() {
         let s = spots_of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)], 0.5);
         let steps = [s[0].to(s[1]), s[1].to(s[2])];
-        let back = |direction| goes((s[0].to(s[2]), &steps), direction).0;
+        let back = |direction| goes(s[0].to(s[2]), &steps, direction).0;
         assert!((back(1.0) - 1.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
         assert!((back(-1.0) - 2.0 / 0.5f64.hypot(0.5)).abs() < 1e-12);
         assert_eq!(slopes(&s).iter().map(|s| s.0).collect::<Vec<_>>(), [2.0, -1.0]);

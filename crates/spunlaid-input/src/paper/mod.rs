@@ -14,19 +14,26 @@ use spunlaid_fibre::chain::Scheme;
 use spunlaid_fibre::{Case, ERROR_TOLERANCE};
 use spunlaid_ground::Error;
 
-/// Name and text of a file in the repository. A published crate holds no file from outside of its folder, so `cases`
+/// A file in the repository.
+#[derive(Clone, Copy)]
+struct BuiltInFile {
+    name: &'static str,
+    text: &'static str,
+}
+
+/// A file in the repository. A published crate holds no file from outside of its folder, so `cases`
 /// beside this file has a copy of each.
 macro_rules! file {
     ($name:literal) => {
-        ($name, include_str!($name))
+        BuiltInFile { name: $name, text: include_str!($name) }
     };
 }
 
 /// The case that all the studies vary.
-const TABLE_1: (&str, &str) = file!("cases/table1.toml");
+const TABLE_1: BuiltInFile = file!("cases/table1.toml");
 
 /// The file of Table 1.
-pub const TABLE1: &str = TABLE_1.1;
+pub const TABLE1: &str = TABLE_1.text;
 
 named! {
     /// A parameter of Table 1 that the paper varies.
@@ -84,14 +91,14 @@ impl Parameter {
 }
 
 /// Reads a study that varies Table 1.
-fn study((name, text): (&str, &str)) -> Result<Study, Error> {
-    let (case_name, case) = TABLE_1;
-    let read = parse_study(text, name, None, |_, _| Ok((case.to_owned(), case_name.to_owned())));
+fn study(file: BuiltInFile) -> Result<Study, Error> {
+    let case = || Ok((TABLE_1.text.to_owned(), TABLE_1.name.to_owned()));
+    let read = parse_study(file.text, file.name, None, |_, _| case());
     Ok(read?.study)
 }
 
-fn case((name, text): (&str, &str)) -> Result<Case, Error> {
-    Ok(read_case((text, name), &[])?.0)
+fn case(file: BuiltInFile) -> Result<Case, Error> {
+    Ok(read_case((file.text, file.name), &[])?.0)
 }
 
 /// Table 1 with a scheme. The paper's scheme has the paper's time step of 1 µs; others have a suitable step.

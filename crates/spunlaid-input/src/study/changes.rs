@@ -73,6 +73,6 @@ fn with_assumed_value(
         values.push((web.base.varied(CUTOFF).ok()?, factor * cutoff));
     }
     let keys = vec![ChangedKey { key: name.to_owned(), ..key }];
-    let new = values.iter().map(|value| web.setting(value)).collect();
-    (to != assumed.value).then(|| web.change((setting::ASSUMED, Vec::new()), keys, new, web.with(&values)))
+    let new = values.iter().map(|(key, value)| web.setting(key, *value)).collect();
+    (to != assumed.value).then(|| web.change(setting::ASSUMED, Vec::new(), keys, new, web.with(&values)))
 }

@@ -299,8 +299,7 @@ impl WebToChange<'_> {
         };
         let keys: Vec<ChangedKey> = knob.known.iter().zip(&values).filter_map(changed).collect();
         let new = self.settings_of(&values).chain(self.held_weight()).collect();
-        let setting = (knob.setting, knob.layers.clone());
-        (!keys.is_empty()).then(|| self.change(setting, keys, new, Ok(made)))
+        (!keys.is_empty()).then(|| self.change(knob.setting, knob.layers.clone(), keys, new, Ok(made)))
     }
 
     /// Whether the file says the throughput of a layer itself, so that it holds.
@@ -315,7 +314,7 @@ impl WebToChange<'_> {
     pub(super) fn settings_of(&self, values: &[(VariedKey, f64)]) -> impl Iterator<Item = (String, String)> {
         let is_new =
             |(key, value): &&(VariedKey, f64)| !(self.is_held(key) && Some(*value) == self.base.value(key));
-        values.iter().filter(is_new).map(|value| self.setting(value))
+        values.iter().filter(is_new).map(|(key, value)| self.setting(key, *value))
     }
 
     /// What is set so that the basis weight stays, if the file does not say it.
@@ -366,8 +365,8 @@ impl WebToChange<'_> {
     }
 
     /// A value of a key as it is set in the file.
-    pub(super) fn setting(&self, (key, value): &(VariedKey, f64)) -> (String, String) {
-        (self.base.short_name(&key.name).to_owned(), key.written(*value))
+    pub(super) fn setting(&self, key: &VariedKey, value: f64) -> (String, String) {
+        (self.base.short_name(&key.name).to_owned(), key.written(value))
     }
 
     /// A change that makes a web of this one.
@@ -377,7 +376,8 @@ impl WebToChange<'_> {
     /// * `made` – the web, or why there is none
     pub(super) fn change(
         &self,
-        (setting, layers): (Setting, Vec<usize>),
+        setting: Setting,
+        layers: Vec<usize>,
         keys: Vec<ChangedKey>,
         new: Vec<(String, String)>,
         made: Result<WebFile, Error>,

@@ -25,7 +25,7 @@ use plan::Plan;
 use spunlaid_experiment::{Experiment, Factor, Quantity, Replicates, STUDY, Study};
 use spunlaid_fibre::case::keys::{self, VariedKey};
 use spunlaid_ground::error::Place;
-use spunlaid_ground::{Diagnostic, Error, Fault, FileKind, Position, Removed};
+use spunlaid_ground::{Diagnostic, Error, Fault, FileKind, Position};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -279,9 +279,6 @@ pub(super) fn advice(name: &str) -> String {
     if let Some(key) = keys::find(name) {
         let in_study = |line| format!("write {line} in the study file, above its tables");
         return key.relations.in_study.map_or_else(|| TAKE_A_NUMBER.to_owned(), in_study);
-    }
-    if let Some(removed) = Removed::Key.fault(name) {
-        return format!("it {removed}");
     }
     match keys::nearest(name) {
         Some(key) if key.varies => format!("did you mean {}?", key.name),

@@ -139,7 +139,7 @@ pub fn starter_study(path: &Path) -> Result<String, Error> {
     let study = |vary: &[String]| {
         let named = path.file_name().unwrap_or_default().to_string_lossy();
         let replicates = base.seed_and_replicates().1;
-        text_of(word, &named, (replicates, noun), vary)
+        text_of(word, &named, replicates, noun, vary)
     };
     let mut vary = Vec::new();
     for key in keys.iter().filter_map(|key| base.varied(key).ok()) {
@@ -168,12 +168,12 @@ fn line(key: &VariedKey, base: &dyn Base) -> Option<String> {
     Some(format!("\"{}\" = [{}]", key.name, levels.join(", ")))
 }
 
-/// * `replicates` – their number, and what they are called; none have a name where nothing is by chance
-fn text_of(word: &str, file: &str, replicates: (u64, &str), vary: &[String]) -> String {
+/// * `noun` – what a replicate is called; empty where nothing is random
+fn text_of(word: &str, file: &str, count: u64, noun: &str, vary: &[String]) -> String {
     let points = LEVELS.len().pow(vary.len() as u32);
-    let replicates = match replicates {
-        (_, "") => String::new(),
-        (count, noun) => format!(
+    let replicates = match noun {
+        "" => String::new(),
+        _ => format!(
             "replicates = {count}                       # {noun} at each point; more of them lower the errors\n\
              # seed = 1                           # of the turbulence; left out, that of the {word}\n"
         ),

@@ -7,7 +7,7 @@ use spunlaid_ground::{Diagnostic, Dimension, Fault};
 use spunlaid_simulation::layers::keys::{NUMBERS, WEB};
 use spunlaid_simulation::layers::too_small;
 use spunlaid_simulation::{Flown, LaydownSource, LayerSpec, SAME, WantedError, WebKey, WebSpec};
-use spunlaid_web::map::{Filaments, holes};
+use spunlaid_web::map::{Filaments, LayerFilaments, holes};
 use spunlaid_web::{Defect, Edges, Row, Sheet};
 
 /// Keys of webs whose filaments fly.
@@ -117,7 +117,7 @@ impl WebParser<'_> {
             }
         }
         for (number, defect) in layer.defects.iter().enumerate() {
-            self.check_defect(&format!("{prefix}line.defects.{}.", number + 1), web, (number, defect));
+            self.check_defect(&format!("{prefix}line.defects.{}.", number + 1), web, number, defect);
         }
         if let LaydownSource::Surrogate(surrogate) = &layer.source {
             for (key, side, what) in too_small(sheet, [surrogate.sigma_md, surrogate.sigma_cd]) {
@@ -165,7 +165,7 @@ impl WebParser<'_> {
     }
 
     /// Checks a defect together with the holes of its layer.
-    fn check_defect(&mut self, before: &str, web: &WebSpec, (number, defect): (usize, &Defect)) {
+    fn check_defect(&mut self, before: &str, web: &WebSpec, number: usize, defect: &Defect) {
         let Some(layer) = web.layers.first() else { return };
         if defect.titre > MOST_TITRE {
             let fault = Fault::new(
@@ -174,8 +174,9 @@ impl WebParser<'_> {
             );
             self.key_values.reject(&format!("{before}titre"), fault);
         }
-        let of =
-            |defect: &Defect| holes((&web.sheet, web.seed), (0, &layer.filaments), (number, defect)).len();
+        let filaments = &layer.filaments;
+        let layer = LayerFilaments { sheet: &web.sheet, seed: web.seed, number: 0, filaments };
+        let of = |defect: &Defect| holes(layer, number, defect).len();
         let (width, count) = (web.sheet.width, of(&Defect { share: 1.0, ..*defect }));
         let fault = if defect.from.is_some_and(|from| from > width) {
             let width = Dimension::Length.pretty(width);

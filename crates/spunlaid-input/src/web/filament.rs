@@ -35,10 +35,11 @@ impl Filament {
         name: &'static str,
         dimension: Dimension,
         number: f64,
-        from: (&str, &WrittenValue),
+        key: &str,
+        written: &WrittenValue,
     ) {
-        let shown = format!("{} (from {})", dimension.pretty(number), from.0);
-        self.values.set(name, WrittenValue::new(&from.1.place, shown, number.into()));
+        let shown = format!("{} (from {})", dimension.pretty(number), key);
+        self.values.set(name, WrittenValue::new(&written.place, shown, number.into()));
     }
 
     /// A case of which nothing but the size of the filament is known.
@@ -134,7 +135,7 @@ impl WebParser<'_> {
                     filament.values.set("spinline.throughput", written_value);
                 } else {
                     let speed = throughput / filament.sized().linear_density();
-                    filament.derive("feed.speed", Dimension::Velocity, speed, (&full, &written_value));
+                    filament.derive("feed.speed", Dimension::Velocity, speed, &full, &written_value);
                 }
             }
             // The belt follows when all layers are known.
@@ -166,7 +167,7 @@ impl WebParser<'_> {
         }
         let case = self.fed_case(&named, read)?;
         if let Some(case) = &case {
-            own.iter().for_each(|(name, number)| self.note_replaced(prefix, (name, *number), case, &path));
+            own.iter().for_each(|(name, number)| self.note_replaced(prefix, name, *number, case, &path));
         }
         Ok(case.map(|case| LaydownSource::Case { path, case }))
     }
@@ -187,7 +188,7 @@ impl WebParser<'_> {
 
     /// Notes that a case is simulated with another number than its file says, because the file of the web says it,
     /// unless the two differ by rounding.
-    fn note_replaced(&mut self, prefix: &str, (name, own): (&str, f64), case: &Case, path: &Path) {
+    fn note_replaced(&mut self, prefix: &str, name: &str, own: f64, case: &Case, path: &Path) {
         let (Some(key), Some(by)) = (keys::find(name), self.says(prefix, name)) else { return };
         let (Some(used), Some(dimension)) =
             (key.value_in(case).and_then(|value| value.number()), key.dimension())

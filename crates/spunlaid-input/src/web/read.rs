@@ -122,7 +122,7 @@ impl WebParser<'_> {
             let written = self.written(&full).map(|written_value| written_value.value.clone());
             let missing = |_: &WebSpec| Fault::missing(&without_numbers(before), &key.example());
             let missing = |web: &WebSpec| key.relations.of_all_layers.is_none().then(|| missing(web));
-            if let Err(fault) = WEB.fill((key, &mut *web), written, is_there, missing)
+            if let Err(fault) = WEB.fill(key, &mut *web, written, is_there, missing)
                 && (self.is_written(&full) || !self.key_values.is_excused(&full))
             {
                 self.key_values.reject(&full, fault);

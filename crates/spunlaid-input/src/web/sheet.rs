@@ -170,7 +170,7 @@ impl WebParser<'_> {
             if let (Some(filament), Some(written_value)) = (&mut layer.filament, &written_value)
                 && !belt.is_nan()
             {
-                filament.derive("belt.speed", Dimension::Velocity, belt, (&key, written_value));
+                filament.derive("belt.speed", Dimension::Velocity, belt, &key, written_value);
             }
         }
     }

@@ -29,7 +29,6 @@ from ._errors import (
 )
 from ._keys import Key, keys
 from ._spunlaid import Case, Flight, __version__
-from ._spunlaid import removed as _removed
 
 if TYPE_CHECKING:
     from ._air import Air
@@ -113,8 +112,7 @@ def __getattr__(name: str) -> Any:
         value = getattr(import_module(f".{_LATER[name]}", __name__), name)
         globals()[name] = value
         return value
-    gone = _removed(name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}" if gone is None else f"spunlaid.{name} {gone}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -193,7 +193,7 @@ impl<'a> Staging<'a> {
     /// # Errors
     /// If a file cannot be written.
     pub fn table(&self, name: &str, usual: &[&str], columns: &[Column]) -> Result<Table, Failure> {
-        Table::create(name, (usual, &self.figures.tables), columns, |file| self.begin(file))
+        Table::create(name, usual, &self.figures.tables, columns, |file| self.begin(file))
     }
 
     /// What the results lack of the formats of tables that were asked for, in a sentence.

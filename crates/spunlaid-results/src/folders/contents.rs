@@ -107,7 +107,8 @@ impl Maker<'_> {
     /// If something cannot be drawn or written.
     pub fn finish<'r, F: Borrow<Figure> + Sync>(
         &self,
-        (name, notes): (&str, &[String]),
+        name: &str,
+        notes: &[String],
         figures: &[F],
         files: impl FnOnce(&Staging<'_>) -> Result<(), Failure> + Send,
         report: impl FnOnce() -> Result<Report<'r>, Failure>,

@@ -2,7 +2,7 @@
 
 use spunlaid::experiment::STUDY;
 use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
-use spunlaid::ground::{Dimension, Fault, FileKind, Removed, UnitAdvice};
+use spunlaid::ground::{Dimension, Fault, FileKind, UnitAdvice};
 use spunlaid::simulation::{WEB, WEB_KEYS};
 use spunlaid::web::fabric::about;
 use std::fmt::Write;
@@ -60,7 +60,7 @@ pub fn keys_text(word: &str, of: Option<FileKind>, columns: Option<usize>) -> Re
     let width = columns.map_or(WIDTH, |columns| columns.min(WIDTH));
     let about = about(&word.trim().to_lowercase()).map(|sentence| {
         let mut text = String::new();
-        wrap((&mut text, width), String::new(), 0, &sentence.replace('`', "\""));
+        wrap(&mut text, width, String::new(), 0, &sentence.replace('`', "\""));
         text
     });
     let found = found(word, of, false, about.is_some())?;
@@ -117,9 +117,6 @@ fn found(
     if !found.is_empty() || allows_none {
         return Ok(found);
     }
-    if let Some(fault) = Removed::Key.fault(&word) {
-        return Err(Fault::new(format!("{word} {}", fault.message), fault.remedy));
-    }
     let nearest = if of.is_none() { keys::like(&word) } else { Vec::new() };
     let nearest: Vec<&str> = nearest.iter().take(MOST_NEAREST).map(|key| key.name).collect();
     let remedy = match &nearest[..] {
@@ -147,7 +144,7 @@ fn reference(key: &KeyEntry, width: usize) -> String {
         }
         let (first, next) =
             if title.is_empty() { ("   ".to_owned(), 3) } else { (format!("    {title}"), 14) };
-        wrap((&mut text, width), first, next, &words);
+        wrap(&mut text, width, first, next, &words);
     }
     text
 }
@@ -156,7 +153,7 @@ fn reference(key: &KeyEntry, width: usize) -> String {
 ///
 /// * `line` – with which the first one begins
 /// * `next` – spaces with which the others begin
-fn wrap((text, width): (&mut String, usize), mut line: String, next: usize, words: &str) {
+fn wrap(text: &mut String, width: usize, mut line: String, next: usize, words: &str) {
     for word in words.split(' ') {
         if line.chars().count() + 1 + word.chars().count() > width {
             let _ = writeln!(text, "{line}");

@@ -101,7 +101,7 @@ fn every_declared_measure_of_a_web_is_in_summary_tables_and_report() {
     let laying = RunContext { threads: 2, isa: Isa::detect(), stop: &STOP, done: &laid };
     let found = simulated.find(laying).unwrap();
     let (name, kinds) = ("web".to_owned(), kinds(&found));
-    let mut written = WebFolder::new((name.clone(), name), file, simulated, found, Instant::now(), laying);
+    let mut written = WebFolder::new(name.clone(), name, file, simulated, found, Instant::now(), laying);
     let (mut names, mut heads) = (BTreeSet::new(), BTreeSet::new());
     for findings in kinds {
         let desk = tempfile::tempdir().unwrap();
@@ -183,9 +183,9 @@ fn every_declared_measure_of_a_scan_is_in_summary_and_report() {
     let settings = scan::Settings { noise: Some(50.0), ..scan::Settings::new(light) };
     let findings = scan::analyse(&picture, &settings).unwrap();
     let (performance, fabric) = (Performance::default(), of_scan(&findings));
-    let summary = summary_of_scan(&picture.file, (&findings, &fabric), performance, &[]);
+    let summary = summary_of_scan(&picture.file, &findings, &fabric, performance, &[]);
     let summary: Json = serde_json::from_str(&summary).unwrap();
-    let report = scan_report(&picture.file, (&findings, &fabric), &[], performance).unwrap().html();
+    let report = scan_report(&picture.file, &findings, &fabric, &[], performance).unwrap().html();
     for declared in SCAN_MEASURES {
         let number = declared.value(&findings).map(|value| value.number());
         assert_eq!(summary["scan"].get(declared.entry()).unwrap().as_f64(), number, "{}", declared.entry());

@@ -4,7 +4,6 @@ use super::{EndPath, Recorder, Shapes};
 use crate::observe::{FibreMeasure, Observation, Observers, Sample};
 use spunlaid_air::Flow;
 use spunlaid_fibre::{Case, Flight, Job, LaidPoint, SurroundingRun};
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, Isa, RunContext, Value, WIDTH};
 use std::sync::atomic::Ordering;
 use std::time::Instant;
@@ -151,7 +150,7 @@ pub(super) fn each_or_lost<T>(
             Ok(simulated) => {
                 let mut all: Vec<_> = flying.into_iter().zip(simulated.into_iter().map(Ok)).collect();
                 all.extend(lost.into_iter().map(|(job, error)| (job, Err(error))));
-                sort_by_key(&mut all, |(job, _)| *job);
+                all.sort_by_key(|(job, _)| *job);
                 return Ok(all.into_iter().map(|(_, simulated)| simulated).collect());
             }
             // The others fly again without it, with the same bits.

@@ -76,7 +76,7 @@ impl WebSpec {
         let of_layer = |(number, layer): (usize, &Layer)| {
             let mass = layer.linear_density / layer.belt_ratio();
             let source = |(i, defect): (usize, &Defect)| {
-                let holes = holes((&web.sheet, web.seed), (number, &layer.filaments), (i, defect));
+                let holes = holes(web.layer_filaments(number, layer), i, defect);
                 let less = (1.0 - defect.titre) * mass;
                 let missing = holes.into_iter().map(|(_, place)| (place, less)).collect();
                 let until = defect.until(web.sheet.length, layer.belt_speed);

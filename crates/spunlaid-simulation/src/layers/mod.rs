@@ -15,6 +15,7 @@ pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
 use spunlaid_fibre::Case;
 use spunlaid_fibre::body::linear_density;
 use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
+use spunlaid_web::map::LayerFilaments;
 use spunlaid_web::map::{Filaments, inlets};
 use spunlaid_web::{Defect, Edges, FabricKeys, Fibres, Layer, Sheet, Surrogate, Titres, Web, Window};
 use std::path::{Path, PathBuf};
@@ -244,7 +245,8 @@ impl WebSpec {
     pub(crate) fn titres(&self, number: usize) -> Titres {
         let of = |layer: &LayerSpec| {
             let LayerSpec { filaments, defects, belt_speed, .. } = layer;
-            Titres::new((&self.sheet, self.seed), (number, filaments), (defects, *belt_speed))
+            let layer = LayerFilaments { sheet: &self.sheet, seed: self.seed, number, filaments };
+            Titres::new(layer, defects, *belt_speed)
         };
         self.layers.get(number).map(of).unwrap_or_default()
     }

@@ -72,8 +72,8 @@ struct AveragedStrain {
     /// Times of the first and the last recorded instants [s], and the integral of the strain over time [s]:
     /// as many of the last as the longest average needs. The period of an axial wave is a few times as many
     /// stable steps as there are elements.
-    first: Option<(f64, Lanes)>,
-    last: VecDeque<(f64, Lanes)>,
+    first: Option<StrainIntegral>,
+    last: VecDeque<StrainIntegral>,
     means: [EvenSample<f64>; WIDTH],
 }
 
@@ -89,8 +89,7 @@ impl AveragedStrain {
         Self { intervals, first: None, last: VecDeque::new(), means: Default::default() }
     }
 
-    fn add(&mut self, time: f64, integral: Lanes) {
-        let now = (time, integral);
+    fn add(&mut self, now: StrainIntegral) {
         self.first.get_or_insert(now);
         for (lane, (intervals, means)) in self.intervals.iter().zip(&mut self.means).enumerate() {
             let before = self.last.len().checked_sub(*intervals).and_then(|at| self.last.get(at));
@@ -107,21 +106,31 @@ impl AveragedStrain {
     /// The average that is not exceeded for 99 % of the time [-].
     fn usual(&self, lane: usize) -> f64 {
         match (self.means[lane].values(), self.first, self.last.back()) {
-            ([], Some(first), Some(last)) if last.0 > first.0 => mean(&first, last, lane),
+            ([], Some(first), Some(last)) if last.time > first.time => mean(&first, last, lane),
             (means, ..) => quantile(means, 0.99),
         }
     }
 }
 
+/// The integral of the strain over time, up to an instant.
+#[derive(Clone, Copy, Debug)]
+struct StrainIntegral {
+    /// The instant [s].
+    time: f64,
+    /// [s].
+    sum: Lanes,
+}
+
 /// Mean strain between two instants [-].
-fn mean((from, before): &(f64, Lanes), (to, after): &(f64, Lanes), lane: usize) -> f64 {
-    (after.0[lane] - before.0[lane]) / (to - from)
+fn mean(from: &StrainIntegral, to: &StrainIntegral, lane: usize) -> f64 {
+    (to.sum.0[lane] - from.sum.0[lane]) / (to.time - from.time)
 }
 
 impl Observer for AveragedStrain {
     fn see(&mut self, observation: &Observation<'_>) {
         if observation.settled {
-            self.add(observation.snapshot.time, observation.snapshot.root_strain_integral);
+            let snapshot = observation.snapshot;
+            self.add(StrainIntegral { time: snapshot.time, sum: snapshot.root_strain_integral });
         }
     }
 
@@ -245,7 +254,9 @@ mod tests {
                 AveragedStrain::over_intervals(std::array::from_fn(
                     |lane| if lane == 3 { intervals } else { 7 },
                 ));
-            integrals.iter().for_each(|(time, integral)| averaged.add(*time, *integral));
+            integrals
+                .iter()
+                .for_each(|(time, integral)| averaged.add(StrainIntegral { time: *time, sum: *integral }));
             averaged.usual(3)
         };
         // 99 % of the way from the first average, over 0 to 10 ms, to the last one, over 0.99 to 1 s.

@@ -112,13 +112,14 @@ fn memory(beam: &Beam<'_>) -> Option<f64> {
 impl WebSpec {
     /// The charge of the filaments of a layer that fly.
     ///
-    /// * `simulated` – where they are fed, and for which filaments they stand if they are a few
+    /// * `places` – where they are fed
+    /// * `few` – the filaments that they represent, if they are a sample
     pub(super) fn beam_charge(
         &self,
         layer: usize,
-        simulated: (&[Inlet], Option<&SubsamplePlan>),
+        places: &[Inlet],
+        few: Option<&SubsamplePlan>,
     ) -> Option<BeamCharge> {
-        let (places, few) = simulated;
         let spec = self.layers.get(layer)?;
         let charge = spec.charged()?;
         let per_metre = spec.filaments.count(&self.sheet) as f64 / self.sheet.width;

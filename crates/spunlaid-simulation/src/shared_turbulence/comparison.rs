@@ -14,7 +14,7 @@ use super::{Beam, BeamFindings};
 use crate::WebSpec;
 use spunlaid_fibre::{Contact, LaidPoint, Line};
 use spunlaid_ground::threads::par_map;
-use spunlaid_ground::{Dimension, Error, Fault, Isa, RunContext};
+use spunlaid_ground::{Dimension, Error, Fault, Isa, RunContext, Workers};
 use spunlaid_web::map::blocks_on;
 use spunlaid_web::{Arrangement, Sheet, SubsampleEstimate};
 use std::ops::Range;
@@ -40,7 +40,8 @@ impl Flyer<'_> {
     /// For each web as of [`Flyer::web`]; and if it is stopped.
     pub fn few_in_same_air(
         &self,
-        (specs, of_each): (&[&WebSpec], Compared),
+        specs: &[&WebSpec],
+        of_each: Compared,
         steps: &AtomicU64,
     ) -> Result<Option<Vec<FewOfWeb>>, Error> {
         let Some(layers) = comparisons(specs, of_each) else { return Ok(None) };
@@ -65,7 +66,7 @@ impl Flyer<'_> {
     ) -> Result<Vec<Result<SubsampleEstimate, Error>>, Error> {
         let by = RunContext { threads: self.threads, isa: Isa::detect(), stop: self.stop, done: steps };
         layer.check_memory()?;
-        let simulated = fly_concurrent(&layer.flown_beams(), (&layer.sheet, layer.memory_limit), by)?;
+        let simulated = fly_concurrent(&layer.flown_beams(), &layer.sheet, layer.memory_limit, by)?;
         let simulated: Vec<(usize, _)> = layer.flights().map(|(web, _)| web).zip(simulated).collect();
         let of_web = |web: usize| {
             let of_beam = layer.beams[web].as_ref().map_err(again)?;
@@ -93,7 +94,8 @@ impl Flyer<'_> {
                 }
                 Arrangement::Slot | Arrangement::AtRandom => None,
             };
-            few.estimate((&sheet, layer.blocks), (&beam, &simulated), curves.as_ref(), (threads, self.stop))
+            let workers = Workers { threads, stop: self.stop };
+            few.estimate(&sheet, layer.blocks, &beam, &simulated, curves.as_ref(), workers)
         }))
     }
 }

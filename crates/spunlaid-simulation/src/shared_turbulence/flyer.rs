@@ -4,7 +4,7 @@ use super::BeamFindings;
 use super::layer_beam::LayerBeam;
 use crate::WebSpec;
 use spunlaid_ground::threads::{lock, unlock};
-use spunlaid_ground::{Error, Isa, Log, RunContext};
+use spunlaid_ground::{Error, Isa, Log, RunContext, Workers};
 use spunlaid_web::Depositor;
 use std::path::Path;
 use std::sync::Mutex;
@@ -54,6 +54,11 @@ impl<'a> Flyer<'a> {
         Self { kept, ..self }
     }
 
+    /// The threads that simulate.
+    pub(super) const fn workers(&self) -> Workers<'a> {
+        Workers { threads: self.threads, stop: self.stop }
+    }
+
     /// Flies a layer and shows the progress.
     ///
     /// * `on` – what lays an element of fibre; None if only a few are simulated
@@ -66,7 +71,7 @@ impl<'a> Flyer<'a> {
         let (simulated, threads, stop) = (Mutex::new(None), self.threads, self.stop);
         self.watched(&[layer], |done| {
             let by = RunContext { threads, isa: Isa::detect(), stop, done };
-            *lock(&simulated) = Some(layer.beam().fly((&layer.sheet, spec.window()), on, by)?);
+            *lock(&simulated) = Some(layer.beam().fly(&layer.sheet, spec.window(), on, by)?);
             Ok(())
         })?;
         unlock(simulated).ok_or_else(Error::no_fibre)

@@ -51,7 +51,7 @@ impl<'a> Flying<'a> {
         let line = line.ok_or_else(|| Fault::plain("the fibre of the case is not laid on a moving belt"))?;
         let packs =
             adjacent_filaments(beam.places).into_iter().map(|numbers| (numbers, Mutex::new(None))).collect();
-        let stretch = BeltStretch::before(&beam, &line, (sheet, sink.window));
+        let stretch = BeltStretch::before(&beam, &line, sheet, sink.window);
         let field = BeamField::new(&beam);
         Ok(Self { beam, line, packs, sink, stretch, reach: Reach::default(), field, done: 0 })
     }
@@ -78,7 +78,7 @@ impl<'a> Flying<'a> {
         let mut pack = lock(pack);
         let pack = match &mut *pack {
             Some(pack) => pack,
-            none => none.insert(Pack::new(&self.beam, (numbers, on.is_none()), by.isa, field)?),
+            none => none.insert(Pack::new(&self.beam, numbers, on.is_none(), by.isa, field)?),
         };
         if let Some(field) = &self.field {
             pack.charge(field);

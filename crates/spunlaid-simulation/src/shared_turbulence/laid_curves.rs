@@ -56,10 +56,10 @@ impl Flyer<'_> {
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let canvas =
             DepositionGrid::new(&spec.sheet, &elements, beams.iter().map(LayerBeam::basis_weight).sum())?;
-        let (mut fibres, mut simulated, by) = (Vec::new(), Vec::new(), (self.threads, self.stop));
+        let (mut fibres, mut simulated) = (Vec::new(), Vec::new());
         for (number, layer) in beams.into_iter().enumerate() {
             let brush = Depositor::new(&canvas, layer.beam().element_mass(), spec.titres(number));
-            let (layer, mut found, curves) = self.simulate_until_estimated(spec, (number, layer), &brush)?;
+            let (layer, mut found, curves) = self.simulate_until_estimated(spec, number, layer, &brush)?;
             let (mut of_layer, back) = (take(&mut found.layer), found.back);
             let gathered = layer.gather(found, self.threads)?;
             // In machine direction the sheet is not closed.
@@ -68,7 +68,7 @@ impl Flyer<'_> {
             if let (Some(curves), Some(few)) = (curves, &mut of_layer.few) {
                 let inner = inner_columns(&spec.alone(number).web([of_fibres.clone()]));
                 let filled = FilledLayer { spec, number, inner };
-                of_layer.strands = layer.fill_in(&filled, (&curves, back), few, &brush, by)?;
+                of_layer.strands = layer.fill_in(&filled, &curves, back, few, &brush, self.workers())?;
             }
             fibres.push(of_fibres);
             simulated.push(of_layer);
@@ -81,7 +81,8 @@ impl Flyer<'_> {
     fn simulate_until_estimated<'b>(
         &self,
         spec: &'b WebSpec,
-        (number, mut layer): (usize, LayerBeam<'b>),
+        number: usize,
+        mut layer: LayerBeam<'b>,
         on: &Depositor<'_>,
     ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
@@ -95,9 +96,11 @@ impl Flyer<'_> {
             spent.in_parallel += simulated.layer.spent.in_parallel;
             simulated.layer.spent = spent;
             let Some(few) = &layer.few else { return Ok((layer, simulated, None)) };
-            let (beam, on) = (layer.beam(), (&layer.sheet, blocks_on(&layer.sheet)));
-            let curves = few.curves(&layer.sheet, &beam, &simulated)?;
-            let estimate = few.estimate(on, (&beam, &simulated), Some(&curves), (self.threads, self.stop))?;
+            let (beam, sheet) = (layer.beam(), &layer.sheet);
+            let curves = few.curves(sheet, &beam, &simulated)?;
+            let workers = self.workers();
+            let estimate =
+                few.estimate(sheet, blocks_on(sheet), &beam, &simulated, Some(&curves), workers)?;
             flights += 1;
             let finer = asked.clone().map(FlownSheet::finer);
             let more = estimate.warning().is_some() && spec.simulated == Flown::Auto && flights < TRIED.len();

@@ -7,7 +7,6 @@ use crate::observe::{NodeStates, StretchedBalance, tension_lag};
 use spunlaid_air::EddyField;
 use spunlaid_fibre::{Flight, Job, LaidPoint, Line, SurroundingRun};
 use spunlaid_ground::place::Inlet;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, Isa, WIDTH};
 use spunlaid_web::{Depositor, Sheet, Window, WindowCurves, WindowOnSheet};
 use std::sync::Arc;
@@ -30,7 +29,7 @@ fn steps_between_looks(to_birth: u64) -> u64 {
 pub(super) fn adjacent_filaments(places: &[Inlet]) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..places.len()).collect();
     for area in order.chunks_mut(AREA) {
-        sort_by_key(area, |filament| places[*filament].y);
+        area.sort_by(|one, other| places[*one].y.total_cmp(&places[*other].y));
     }
     order.chunks(WIDTH).map(<[usize]>::to_vec).collect()
 }
@@ -48,11 +47,13 @@ pub(super) struct Pack {
 }
 
 impl Pack {
-    /// * `numbers` – of its filaments, and whether the curves of all of them are kept
+    /// * `numbers` – of its filaments
+    /// * `keeps_all` – whether the curves of all of them are kept
     /// * `field` – the air of all filaments, if they share one
     pub(super) fn new(
         beam: &Beam<'_>,
-        (numbers, keeps_all): (&[usize], bool),
+        numbers: &[usize],
+        keeps_all: bool,
         isa: Isa,
         field: Option<&Arc<EddyField>>,
     ) -> Result<Self, Error> {
@@ -219,7 +220,7 @@ pub(super) struct BeltStretch {
 
 impl BeltStretch {
     /// While nothing has been laid.
-    pub(super) fn before(beam: &Beam<'_>, line: &Line, (sheet, window): (&Sheet, Window)) -> Self {
+    pub(super) fn before(beam: &Beam<'_>, line: &Line, sheet: &Sheet, window: Window) -> Self {
         Self {
             belt_ratio: line.belt_ratio(),
             start: line.feed_speed * beam.case.run.spin_up(),
@@ -302,7 +303,7 @@ impl Filament {
             }
             for ends in curve.windows(2) {
                 let ends = [ends[0], ends[1]];
-                self.strands.keep(self.number, (ends, quanta_at(ends[1]).1), &stretch.window);
+                self.strands.keep(self.number, ends, quanta_at(ends[1]).1, &stretch.window);
             }
         } else {
             // The points of the start lie before the sheet.

@@ -8,7 +8,7 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 use spunlaid_fibre::{Case, LaidPoint};
 use spunlaid_ground::place::Inlet;
 use spunlaid_ground::threads::par_map;
-use spunlaid_ground::{Diagnostic, Dimension, Error, Estimate, Fault};
+use spunlaid_ground::{Diagnostic, Dimension, Error, Estimate, Fault, Workers};
 use spunlaid_web::curtain::drawing::draw;
 use spunlaid_web::curtain::lay_with;
 use spunlaid_web::map::inlets;
@@ -20,7 +20,6 @@ use spunlaid_web::{
 };
 use std::ops::Range;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// Area of a sheet of pieces on which places and defects of its filaments are looked at [m²]: they are the same along
 /// all of it.
@@ -169,7 +168,7 @@ impl LayerBeam<'_> {
             points.iter().skip(skip as usize).map(|point| [point.md, point.cd]).collect()
         };
         let places = laid.into_iter().map(after_start).collect();
-        let curves = Curves::new((spacing, belt_ratio), places, self.one_air(filaments, hanging))?;
+        let curves = Curves::new(spacing, belt_ratio, places, self.one_air(filaments, hanging))?;
         let found = FlownFibres { curves, numbers, residual: None, way: simulated.way };
         let correlations: Vec<[&[f64]; 2]> =
             traced.iter().map(|(of, _)| [&*of.correlation_md, &*of.correlation_cd]).collect();
@@ -187,20 +186,21 @@ impl LayerBeam<'_> {
     pub(super) fn fill_in(
         &self,
         layer: &FilledLayer<'_>,
-        (curves, back): (&FlownCurves, f64),
+        curves: &FlownCurves,
+        back: f64,
         few: &mut SubsampleEstimate,
         brush: &Depositor<'_>,
-        by: (usize, &AtomicBool),
+        workers: Workers<'_>,
     ) -> Result<Vec<WindowCurve>, Error> {
         let FilledLayer { spec, number, .. } = *layer;
         let (sheet, window, simulated) = (&spec.sheet, spec.window(), &self.sheet);
         let places = inlets(sheet, spec.seed, number, &spec.layers[number].filaments);
         if [sheet.width, sheet.length] == [simulated.width, simulated.length] {
-            let all = curves.fill(places, by.0);
+            let all = curves.fill(places, workers.threads);
             few.missing = all.missing();
-            return draw(&all, Belt { sheet, window, back }, brush, by);
+            return draw(&all, Belt { sheet, window, back }, brush, workers);
         }
-        let library = Library::new(curves, by.0)?;
+        let library = Library::new(curves, workers.threads)?;
         let around = match sheet.edges {
             // A web that is narrower than the simulated sheet is a strip of it.
             Edges::Periodic => sheet.width.max(simulated.width),
@@ -209,11 +209,11 @@ impl LayerBeam<'_> {
         };
         few.missing = library.missing();
         let tiles = library.tiles(places, around, sheet.length, [spec.seed, number as u64])?;
-        let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, by)?;
+        let kept = draw(&tiles, Belt::within(&tiles, sheet, window)?, brush, workers)?;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
         if filaments.are_at_random() || !defects.is_empty() {
             few.by_places =
-                self.changes_by_places(layer, &Pieces { simulated: &library, around }, few, by)?;
+                self.changes_by_places(layer, &Pieces { simulated: &library, around }, few, workers)?;
         }
         Ok(kept)
     }
@@ -225,7 +225,7 @@ impl LayerBeam<'_> {
         layer: &FilledLayer<'_>,
         pieces: &Pieces<'_>,
         few: &SubsampleEstimate,
-        by: (usize, &AtomicBool),
+        workers: Workers<'_>,
     ) -> Result<Vec<f64>, Error> {
         let FilledLayer { spec, number, .. } = *layer;
         let LayerSpec { filaments, defects, .. } = &spec.layers[number];
@@ -239,7 +239,7 @@ impl LayerBeam<'_> {
             let tiles =
                 pieces.simulated.tiles(places, pieces.around, sheet.length, [spec.seed, number as u64])?;
             let belt = Belt::within(&tiles, &sheet, window)?;
-            let (laid, _) = lay_with(&tiles, belt, self.beam().element_mass(), titres, by)?;
+            let (laid, _) = lay_with(&tiles, belt, self.beam().element_mass(), titres, workers)?;
             let map = laid.map.between(layer.inner.clone());
             let square = |few: &SubsampleCv| {
                 patch_cv(&map, (few.patch / sheet.cell).round() as usize).map(|found| found.cv * found.cv)
@@ -345,7 +345,7 @@ pub(super) fn beam_on<'a>(
         Some(((places, few), sheet)) => (places, sheet, Some(few)),
         None => (inlets(&spec.sheet, spec.seed, number, &layer.filaments), spec.sheet.clone(), None),
     };
-    let charge = spec.beam_charge(number, (&places, few.as_ref()));
+    let charge = spec.beam_charge(number, &places, few.as_ref());
     Ok(LayerBeam { path, case, sheet, few, places, depth, charge })
 }
 

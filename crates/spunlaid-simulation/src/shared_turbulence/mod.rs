@@ -43,7 +43,6 @@ pub use sampled::Compared;
 use shared_air::SharedAir;
 use spunlaid_fibre::{Case, LaidPoint, WayPlace};
 use spunlaid_ground::place::Inlet;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, RunContext};
 use spunlaid_web::{DepositionGrid, Depositor, LaidWeb, LayerFlown, Sheet, Titres, Window};
 
@@ -121,7 +120,7 @@ impl Beam<'_> {
         let element = self.element_mass();
         let canvas = DepositionGrid::new(sheet, &[element], self.basis_weight(sheet))?;
         let brush = Depositor::new(&canvas, element, Titres::default());
-        let simulated = self.fly((sheet, window), Some(&brush), by)?;
+        let simulated = self.fly(sheet, window, Some(&brush), by)?;
         Ok((LaidWeb { simulated: vec![simulated.layer.clone()], ..canvas.finish()? }, simulated))
     }
 
@@ -152,7 +151,8 @@ impl Beam<'_> {
     /// filaments are lost, or if it is stopped.
     pub(crate) fn fly(
         &self,
-        (sheet, window): (&Sheet, Window),
+        sheet: &Sheet,
+        window: Window,
         on: Option<&Depositor<'_>>,
         by: RunContext<'_>,
     ) -> Result<BeamFindings, Error> {
@@ -171,9 +171,9 @@ impl Beam<'_> {
 impl BeamFindings {
     /// Puts what packs have given into the order across the web.
     fn sort(&mut self) {
-        sort_by_key(&mut self.kept, |(filament, _)| *filament);
-        sort_by_key(&mut self.lost, |(filament, _)| *filament);
+        self.kept.sort_by_key(|(filament, _)| *filament);
+        self.lost.sort_by_key(|(filament, _)| *filament);
         // A filament comes through the window in the order of its strands.
-        sort_by_key(&mut self.layer.strands, |strand| strand.filament);
+        self.layer.strands.sort_by_key(|strand| strand.filament);
     }
 }

@@ -15,7 +15,6 @@ use super::{Beam, BeamFindings};
 use crate::WebSpec;
 use spunlaid_air::{Extent, Room};
 use spunlaid_fibre::LaidPoint;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Error, Fault, RunContext};
 use spunlaid_web::map::blocks_on;
 use spunlaid_web::{Arrangement, Sheet, SubsampleEstimate, SubsampleWarning, Window};
@@ -281,7 +280,7 @@ impl Watched<'_> {
 fn curves(flying: &Flying<'_>) -> Vec<(usize, Vec<LaidPoint>)> {
     let mut curves = Vec::new();
     flying.each_curve(|filament, points| curves.push((filament, points.to_vec())));
-    sort_by_key(&mut curves, |(filament, _)| *filament);
+    curves.sort_by_key(|(filament, _)| *filament);
     curves
 }
 
@@ -315,7 +314,7 @@ fn look_at(
     let beam = of_beam.beam();
     let is_filled = is_filled || few.arrangement == Arrangement::Rows;
     let curves = is_filled.then(|| few.curves(&sheet, &beam, &simulated)).transpose()?;
-    few.estimate((&sheet, blocks_on(&on.sheet)), (&beam, &simulated), curves.as_ref(), (by.threads, by.stop))
+    few.estimate(&sheet, blocks_on(&on.sheet), &beam, &simulated, curves.as_ref(), by.workers())
 }
 
 /// A room that is larger than the air of a beam needs.

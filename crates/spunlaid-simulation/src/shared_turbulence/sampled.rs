@@ -3,15 +3,14 @@
 use super::{Beam, BeamFindings};
 use crate::{Flown, WantedError, WebSpec};
 use spunlaid_fibre::LaidPoint;
-use spunlaid_ground::Error;
 use spunlaid_ground::place::{Inlet, rows};
+use spunlaid_ground::{Error, Workers};
 use spunlaid_web::curtain::lay;
 use spunlaid_web::map::{Filaments, inlets, small_patch};
 use spunlaid_web::{
     Arrangement, Belt, Covariances, Edges, FEWEST_OF_FEW, FilledMaps, Filling, FlownCurves, LEAST_SAVING,
     Row, Sheet, Subsample, SubsampleEstimate, Window,
 };
-use std::sync::atomic::AtomicBool;
 
 /// Distance of the filaments that are simulated, in smallest length scales of the air on the way.
 const PITCH: f64 = 1.0 / 8.0;
@@ -209,7 +208,7 @@ impl SubsamplePlan {
             laid.map(|(i, point)| [point.md + belt_ratio * spacing * i as f64, point.cd]).collect()
         };
         let curves: Vec<Vec<[f64; 2]>> = simulated.kept.iter().map(curve).collect();
-        Ok(FlownCurves::new(places, Some(sheet.width), (spacing, belt_ratio), &curves)?)
+        Ok(FlownCurves::new(places, Some(sheet.width), spacing, belt_ratio, &curves)?)
     }
 
     /// What they say of all filaments.
@@ -221,23 +220,26 @@ impl SubsamplePlan {
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     pub(super) fn estimate(
         &self,
-        (sheet, blocks): (&Sheet, [usize; 2]),
-        (beam, simulated): (&Beam<'_>, &BeamFindings),
+        sheet: &Sheet,
+        blocks: [usize; 2],
+        beam: &Beam<'_>,
+        simulated: &BeamFindings,
         curves: Option<&FlownCurves>,
-        by: (usize, &AtomicBool),
+        workers: Workers<'_>,
     ) -> Result<SubsampleEstimate, Error> {
-        let filaments = self.filaments((sheet, blocks), beam, simulated);
+        let filaments = self.filaments(sheet, blocks, beam, simulated);
         let usual_pitch = PITCH * beam.case.smallest_length_scale();
         let pitch_of_all = sheet.width * self.rows.len() as f64 / self.all;
         let with_pitches =
             |estimate: SubsampleEstimate| SubsampleEstimate { usual_pitch, pitch_of_all, ..estimate };
         let Some(curves) = curves else {
-            return Ok(with_pitches(filaments.estimate(None, by.0)?));
+            return Ok(with_pitches(filaments.estimate(None, workers.threads)?));
         };
-        let covariances = Covariances::fit(curves, by.0);
-        let filled =
-            self.filled((sheet, simulated.back), (beam, filaments.pitch()), (curves, &covariances), by)?;
-        let estimate = filaments.estimate(Some(&filled), by.0)?;
+        let covariances = Covariances::fit(curves, workers.threads);
+        let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
+        let belt = Belt { sheet, window, back: simulated.back };
+        let filled = self.filled(belt, beam, filaments.pitch(), curves, &covariances, workers)?;
+        let estimate = filaments.estimate(Some(&filled), workers.threads)?;
         let correlation = covariances.smooth.map(|covariance| covariance.correlation([estimate.pitch, 0.0]));
         Ok(with_pitches(SubsampleEstimate {
             correlation: Some(correlation[0].min(correlation[1])),
@@ -247,37 +249,35 @@ impl SubsamplePlan {
 
     /// Maps in which the filaments between the simulated ones have been filled in.
     ///
-    /// * `back` – where the sheet begins on the belt [m]
     /// * `pitch` – of the simulated ones in a row [m]
     ///
     /// # Errors
     /// If a cell would hold more fibre than can be counted, or if it is stopped.
     fn filled(
         &self,
-        (sheet, back): (&Sheet, f64),
-        (beam, pitch): (&Beam<'_>, f64),
-        (curves, covariances): (&FlownCurves, &Covariances),
-        by: (usize, &AtomicBool),
+        belt: Belt<'_>,
+        beam: &Beam<'_>,
+        pitch: f64,
+        curves: &FlownCurves,
+        covariances: &Covariances,
+        workers: Workers<'_>,
     ) -> Result<FilledMaps, Error> {
         let places = || match self.arrangement {
             Arrangement::Slot => self.slot.clone(),
-            Arrangement::AtRandom => self.finer_rows(usize::MAX, sheet, beam),
+            Arrangement::AtRandom => self.finer_rows(usize::MAX, belt.sheet, beam),
             // Rows are filled in up to their own pitch.
             Arrangement::Rows => {
-                self.finer_rows((self.all / self.rows.len() as f64).round() as usize, sheet, beam)
+                self.finer_rows((self.all / self.rows.len() as f64).round() as usize, belt.sheet, beam)
             }
         };
         let patches = match self.arrangement {
             Arrangement::Slot => curves.mean_distance()..f64::INFINITY,
             Arrangement::Rows | Arrangement::AtRandom => 0.0..small_patch(pitch),
         };
-        let map = |filled: &Filling<'_>| {
-            let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
-            let belt = Belt { sheet, window, back };
-            lay(filled, belt, beam.element_mass(), by).map(|(laid, _)| laid.map)
-        };
-        let of_all = map(&curves.fill_by(covariances, places(), by.0))?;
-        let of_every_second = map(&curves.every_second()?.fill(places(), by.0))?;
+        let map =
+            |filled: &Filling<'_>| lay(filled, belt, beam.element_mass(), workers).map(|(laid, _)| laid.map);
+        let of_all = map(&curves.fill_by(covariances, places(), workers.threads))?;
+        let of_every_second = map(&curves.every_second()?.fill(places(), workers.threads))?;
         Ok(FilledMaps { of_all, of_every_second, patches })
     }
 
@@ -295,7 +295,8 @@ impl SubsamplePlan {
     /// The filaments, with what they have laid on their sheet.
     fn filaments<'a>(
         &self,
-        (sheet, blocks): (&'a Sheet, [usize; 2]),
+        sheet: &'a Sheet,
+        blocks: [usize; 2],
         beam: &Beam<'_>,
         simulated: &BeamFindings,
     ) -> Subsample<'a> {

@@ -66,13 +66,14 @@ pub(super) type Watch<'w> = &'w mut dyn FnMut(&[Result<Flying<'_>, Error>]) -> R
 /// For each beam as of [`Beam::fly`]; and if it is stopped.
 pub(super) fn fly_concurrent(
     beams: &[Beam<'_>],
-    (sheet, memory): (&Sheet, f64),
+    sheet: &Sheet,
+    memory: f64,
     by: RunContext<'_>,
 ) -> Result<Vec<Result<BeamFindings, Error>>, Error> {
     let window = Window { corner: [0.0; 2], sides: [0.0; 2] };
     let sinks = beams.iter().map(|_| Sink { window, on: None, neighbours: None }).collect();
     let room = room_of(beams, sheet);
-    SharedAir::new((beams, sheet), (&room, HIGHEST), memory).fly(sinks, by)
+    SharedAir::new(beams, sheet, &room, HIGHEST, memory).fly(sinks, by)
 }
 
 /// Whether a beam goes on.
@@ -112,12 +113,12 @@ impl<'a> SharedAir<'a> {
     ///
     /// * `highest` – lateral wave number, times the length scale
     pub(super) fn of_one(beam: &'a Beam<'a>, sheet: &'a Sheet, highest: f64) -> Self {
-        Self::new((from_ref(beam), sheet), (&beam.room(sheet), highest), f64::INFINITY)
+        Self::new(from_ref(beam), sheet, &beam.room(sheet), highest, f64::INFINITY)
     }
 
     /// The air of one beam in a larger room.
     pub(super) fn of_one_in(room: &Room, beam: &'a Beam<'a>, sheet: &'a Sheet) -> Self {
-        Self::new((from_ref(beam), sheet), (room, HIGHEST), f64::INFINITY)
+        Self::new(from_ref(beam), sheet, room, HIGHEST, f64::INFINITY)
     }
 
     /// Time by which the first beam advances before the next block [s].
@@ -128,7 +129,7 @@ impl<'a> SharedAir<'a> {
     /// The airs of beams in one room, of which those with one pattern share one.
     ///
     /// * `highest` – lateral wave number, times the length scale
-    fn new((beams, sheet): (&'a [Beam<'a>], &'a Sheet), (room, highest): (&Room, f64), memory: f64) -> Self {
+    fn new(beams: &'a [Beam<'a>], sheet: &'a Sheet, room: &Room, highest: f64, memory: f64) -> Self {
         let mut airs: Vec<BeamAir> = Vec::new();
         for (number, beam) in beams.iter().enumerate() {
             let (air, seed) = (&beam.case.air, beam.case.run.seed);
@@ -404,7 +405,7 @@ mod tests {
         let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };
         let beams = [Beam::new(&lost, &places), Beam::new(&good, &places)];
         // One after the other: there is no memory for two airs.
-        let found = fly_concurrent(&beams, (&sheet, -1.0), by).unwrap();
+        let found = fly_concurrent(&beams, &sheet, -1.0, by).unwrap();
         assert!(found[0].is_err() && found[1].as_ref().unwrap().back.is_finite(), "{found:?}");
     }
 }

@@ -18,13 +18,13 @@ use super::shared_air::{LARGER_WAVES, SharedAir};
 use crate::layers::{USUAL_ERROR, kept_under};
 use crate::{WantedError, WebSpec};
 use spunlaid_ground::threads::{lock, try_together, unlock};
-use spunlaid_ground::{Error, Isa, Log, RunContext};
+use spunlaid_ground::{Error, Isa, Log, RunContext, Workers};
 use spunlaid_web::map::blocks_on;
 use spunlaid_web::map::levels::{Levels, Pair, numbers_of, sheet_of};
 use spunlaid_web::{Sheet, SubsampleEstimate, Window};
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64};
+use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 /// Area of a coarse sheet [m²]: long enough that the start of its filaments takes little of the time.
@@ -98,7 +98,7 @@ impl KeptSheets<'_> {
             return Ok(());
         }
         let laid = BeamFindings { back: simulated.back, ..laid };
-        let coarse = look_at(again, &with_larger_cells(&layer.sheet), &laid, (by.threads, by.stop))?;
+        let coarse = look_at(again, &with_larger_cells(&layer.sheet), &laid, by.workers())?;
         coarse.iter().for_each(|coarse| self.keep(air, &[few, coarse]));
         Ok(())
     }
@@ -204,7 +204,7 @@ impl<'a> LayerSheets<'a> {
         let has_coarse = self.flyer.threads > 1 && spec.time.is_none() && layer.few.is_some();
         let has_coarse = has_coarse && spec.wanted_error(self.number).is_some();
         let work = |by: RunContext<'_>| {
-            *lock(&simulated) = Some(layer.beam().fly((&layer.sheet, spec.window()), None, by)?);
+            *lock(&simulated) = Some(layer.beam().fly(&layer.sheet, spec.window(), None, by)?);
             Ok(())
         };
         let airs = 1..if has_coarse { 1 + self.at_first() } else { 1 };
@@ -284,8 +284,8 @@ impl<'a> LayerSheets<'a> {
             if let Some(fine) = fine {
                 return kept.keep_pair(air, fine, &again, by);
             }
-            let simulated = layer.beam().fly((&layer.sheet, other.window()), None, by)?;
-            let few = look_at(layer, &layer.sheet, &simulated, (by.threads, by.stop))?;
+            let simulated = layer.beam().fly(&layer.sheet, other.window(), None, by)?;
+            let few = look_at(layer, &layer.sheet, &simulated, by.workers())?;
             few.map_or(Ok(()), |few| {
                 let fine = FineSheet { on: of_pair, layer, simulated: &simulated, few };
                 kept.keep_pair(air, &fine, &again, by)
@@ -326,7 +326,12 @@ impl<'a> LayerSheets<'a> {
             let beam = beams[number].beam();
             let of_sheet = Laid::new([&beam, &beam], &laid)?;
             let (sheet, laid) = of_sheet.sheet(&beams[number].sheet, &of_sheet.during)?;
-            let few = look_at(&beams[number], &with_larger_cells(&sheet), &laid, (by.threads, stop))?;
+            let few = look_at(
+                &beams[number],
+                &with_larger_cells(&sheet),
+                &laid,
+                Workers { threads: by.threads, stop },
+            )?;
             few.iter().for_each(|few| kept.keep(airs[number], &[few]));
             Ok(())
         };
@@ -404,12 +409,12 @@ fn look_at(
     of_beam: &LayerBeam<'_>,
     sheet: &Sheet,
     laid: &BeamFindings,
-    by: (usize, &AtomicBool),
+    workers: Workers<'_>,
 ) -> Result<Option<SubsampleEstimate>, Error> {
     let Some(few) = &of_beam.few else { return Ok(None) };
     let beam = of_beam.beam();
     let curves = few.curves(sheet, &beam, laid)?;
-    few.estimate((sheet, blocks_on(sheet)), (&beam, laid), Some(&curves), by).map(Some)
+    few.estimate(sheet, blocks_on(sheet), &beam, laid, Some(&curves), workers).map(Some)
 }
 
 /// The same sheet in cells twice as large, if its patches are whole numbers of them.

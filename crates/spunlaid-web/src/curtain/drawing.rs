@@ -6,7 +6,7 @@ use crate::map::{
     WindowCurves, WindowOnSheet, widen,
 };
 use spunlaid_ground::threads::try_par_map;
-use spunlaid_ground::{Error, Fault, Lanes, WIDTH};
+use spunlaid_ground::{Error, Fault, Lanes, WIDTH, Workers};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -62,8 +62,9 @@ pub fn draw(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
     brush: &Depositor<'_>,
-    (threads, stop): (usize, &AtomicBool),
+    workers: Workers<'_>,
 ) -> Result<Vec<WindowCurve>, Error> {
+    let Workers { threads, stop } = workers;
     let count = curtain.places().len();
     // Neighbours are drawn together, because they lie on the same part of the sheet.
     let together = (count / (GROUPS * threads.max(1))).next_multiple_of(WIDTH).clamp(WIDTH, MOST_TOGETHER);
@@ -141,9 +142,12 @@ impl Neighbours<'_> {
     }
 
     /// Draws the pieces of eight filaments, from the number `first` on.
+    ///
+    /// * `eight` – number of the group
     fn draw(
         &self,
-        (eight, first): (usize, usize),
+        eight: usize,
+        first: usize,
         points: &[[Lanes; 2]],
         brush: &Depositor<'_>,
         part: &mut CanvasPart<'_>,
@@ -184,7 +188,7 @@ fn draw_neighbours(
         let corners = of.read(which.clone(), &mut points);
         part.move_to(corners, of.longest(), points.len() * WIDTH);
         for (eight, points) in points.chunks_exact(which.len()).enumerate() {
-            of.draw((eight, first), points, brush, &mut part);
+            of.draw(eight, first, points, brush, &mut part);
         }
         if window.is_beside(corners[0][1], corners[1][1]) {
             for (number, strands) in strands.iter_mut().enumerate() {
@@ -198,7 +202,7 @@ fn draw_neighbours(
                 for i in 1..which.len() {
                     let (from, to) = (at(i - 1), at(i));
                     let (_, titre) = brush.quanta_at(brush.titres.of(filament), to[1]);
-                    strands.keep(filament, ([from, to], titre), &window);
+                    strands.keep(filament, [from, to], titre, &window);
                 }
             }
         }
@@ -217,9 +221,9 @@ pub fn lay(
     curtain: &dyn Curtain,
     belt: Belt<'_>,
     element: f64,
-    by: (usize, &AtomicBool),
+    workers: Workers<'_>,
 ) -> Result<(LaidWeb, Vec<WindowCurve>), Error> {
-    lay_with(curtain, belt, element, Titres::default(), by)
+    lay_with(curtain, belt, element, Titres::default(), workers)
 }
 
 /// [`lay`] of filaments of which some have defects.
@@ -228,12 +232,12 @@ pub fn lay_with(
     belt: Belt<'_>,
     element: f64,
     titres: Titres,
-    by: (usize, &AtomicBool),
+    workers: Workers<'_>,
 ) -> Result<(LaidWeb, Vec<WindowCurve>), Error> {
     let per_length = element / curtain.spacing() * curtain.places().len() as f64;
     let basis_weight = per_length / curtain.belt_ratio() / belt.sheet.width;
     let canvas = DepositionGrid::new(belt.sheet, &[element], basis_weight)?;
-    let strands = draw(curtain, belt, &Depositor::new(&canvas, element, titres), by)?;
+    let strands = draw(curtain, belt, &Depositor::new(&canvas, element, titres), workers)?;
     Ok((canvas.finish()?, strands))
 }
 
@@ -248,7 +252,7 @@ mod tests {
     const ELEMENT: f64 = 1e-9;
 
     fn laid(curtain: &dyn Curtain, belt: Belt<'_>, threads: usize) -> (LaidWeb, Vec<WindowCurve>) {
-        lay(curtain, belt, ELEMENT, (threads, &AtomicBool::new(false))).unwrap()
+        lay(curtain, belt, ELEMENT, Workers { threads, stop: &AtomicBool::new(false) }).unwrap()
     }
 
     /// Filaments that come down at one place lie in straight lines, each with its mass in every cell of its column.
@@ -260,7 +264,7 @@ mod tests {
         // The last one is laid beyond the edge and comes in at the other side.
         let curve = |i: usize| vec![[0.0, if i == 3 { 3e-3 } else { 0.0 }]; points];
         let curves: Vec<_> = (0..4).map(curve).collect();
-        let simulated = FlownCurves::new(places, Some(width), (SPACING, BELT_RATIO), &curves).unwrap();
+        let simulated = FlownCurves::new(places, Some(width), SPACING, BELT_RATIO, &curves).unwrap();
         let sheet = Sheet::new(width, 0.1, CELL);
         let window = Window { corner: [2e-3, 50e-3], sides: [6e-3, 4e-3] };
         let belt = Belt::within(&simulated, &sheet, window).unwrap();
@@ -318,7 +322,7 @@ mod tests {
         let fault = Belt::within(&simulated, &sheet, window).unwrap_err().to_string();
         assert!(fault.contains("the sheet is 500 mm long"), "{fault}");
         let belt = Belt { sheet: &sheet, window, back: 0.0 };
-        let stopped = lay(&simulated, belt, ELEMENT, (1, &AtomicBool::new(true)));
+        let stopped = lay(&simulated, belt, ELEMENT, Workers { threads: 1, stop: &AtomicBool::new(true) });
         assert!(matches!(stopped, Err(Error::Interrupted)));
     }
 }

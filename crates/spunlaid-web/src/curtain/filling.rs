@@ -3,7 +3,6 @@
 use super::covariance::Covariance;
 use super::{Curtain, FlownCurves};
 use spunlaid_ground::place::Inlet;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::statistics::solve_positive;
 use spunlaid_ground::threads::par_map;
 
@@ -88,7 +87,7 @@ impl FlownCurves {
             near.select_nth_unstable_by(NEAREST, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
             near.truncate(NEAREST);
         }
-        sort_by_key(&mut near, |(_, filament)| *filament);
+        near.sort_by_key(|(_, filament)| *filament);
         // Only the half below the diagonal is looked at.
         let row = |i: usize| {
             let here = places[near[i].1];

@@ -54,21 +54,23 @@ impl FlownCurves {
     pub fn new(
         places: Vec<Inlet>,
         turn: Option<f64>,
-        (spacing, belt_ratio): (f64, f64),
+        spacing: f64,
+        belt_ratio: f64,
         curves: &[Vec<[f64; 2]>],
     ) -> Result<Self, Fault> {
         let points = curves.iter().map(Vec::len).min().unwrap_or(0);
         let component =
             |curve: &Vec<[f64; 2]>, d: usize| curve[..points].iter().map(|point| point[d] as f32).collect();
         let curves = curves.iter().map(|curve| [0, 1].map(|d| component(curve, d))).collect();
-        Self::of_components(places, turn, (spacing, belt_ratio), curves)
+        Self::of_components(places, turn, spacing, belt_ratio, curves)
     }
 
     /// As [`FlownCurves::new`], of curves of equal length whose directions lie apart.
     pub(super) fn of_components(
         places: Vec<Inlet>,
         turn: Option<f64>,
-        (spacing, belt_ratio): (f64, f64),
+        spacing: f64,
+        belt_ratio: f64,
         curves: Vec<[Vec<f32>; 2]>,
     ) -> Result<Self, Fault> {
         let points = curves.first().map_or(0, |curve| curve[0].len());
@@ -150,7 +152,7 @@ impl FlownCurves {
         kept.sort_unstable();
         let places = kept.iter().map(|filament| self.places[*filament]).collect();
         let curves = kept.iter().map(|filament| self.curves[*filament].clone()).collect();
-        Self::of_components(places, self.turn, (self.spacing, self.belt_ratio), curves)
+        Self::of_components(places, self.turn, self.spacing, self.belt_ratio, curves)
     }
 }
 
@@ -210,7 +212,7 @@ mod tests {
         let place = |i: usize| Inlet { y: if i.is_multiple_of(2) { -5e-3 } else { 5e-3 }, z: (i / 2) as f64 };
         let places: Vec<Inlet> = (0..8).map(place).collect();
         let curves: Vec<Vec<[f64; 2]>> = (0..8).map(|i| vec![[f64::from(i), 0.0]; 2]).collect();
-        let all = FlownCurves::new(places, Some(4.0), (1.0, 0.1), &curves).unwrap();
+        let all = FlownCurves::new(places, Some(4.0), 1.0, 0.1, &curves).unwrap();
         let few = all.every_second().unwrap();
         let left: Vec<f32> = (0..few.places().len()).map(|filament| few.deviations(filament, 0)[0]).collect();
         assert_eq!(left, [0.0, 1.0, 4.0, 5.0]);

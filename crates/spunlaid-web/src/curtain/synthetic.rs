@@ -98,7 +98,7 @@ impl Field {
     }
 
     pub(super) fn flown_of(&self, places: Vec<Inlet>, curves: &[Vec<[f64; 2]>]) -> FlownCurves {
-        FlownCurves::new(places, Some(self.turn), (SPACING, BELT_RATIO), curves).unwrap()
+        FlownCurves::new(places, Some(self.turn), SPACING, BELT_RATIO, curves).unwrap()
     }
 }
 

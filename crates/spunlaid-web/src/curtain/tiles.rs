@@ -410,7 +410,7 @@ mod tests {
         let field = field();
         let message = |simulated: &FlownCurves| Library::new(simulated, 1).unwrap_err().to_string();
         let curves = field.curves(&row(field.turn, 32));
-        let cut = FlownCurves::new(row(field.turn, 32), None, (SPACING, BELT_RATIO), &curves).unwrap();
+        let cut = FlownCurves::new(row(field.turn, 32), None, SPACING, BELT_RATIO, &curves).unwrap();
         assert!(message(&cut).contains("web.edges = \"periodic\""), "{}", message(&cut));
         let short = Field { points: 60, ..field }.simulated(row(field.turn, 32));
         assert!(message(&short).contains("of fibre or more"), "{}", message(&short));

@@ -54,7 +54,8 @@ pub(crate) fn jackson_james(diameter: f64, solid: f64) -> f64 {
 pub fn air_speed(
     filaments: &[Filaments],
     weight: f64,
-    (thickness, pressure): (f64, f64),
+    thickness: f64,
+    pressure: f64,
     permeability: impl Fn(f64, f64) -> f64,
 ) -> f64 {
     let volume = |of: &Filaments| of.basis_weight / of.density;
@@ -86,11 +87,12 @@ pub(crate) fn solid_fraction(filaments: &[Filaments], thickness: f64) -> f64 {
 pub(crate) fn air_permeability(
     filaments: &[Filaments],
     local: &[f64],
-    (thickness, pressure): (f64, f64),
+    thickness: f64,
+    pressure: f64,
 ) -> Option<Known> {
     let solid = solid_fraction(filaments, thickness);
     let mean = |permeability: &dyn Fn(f64, f64) -> f64| {
-        let at = |weight: &f64| air_speed(filaments, *weight, (thickness, pressure), permeability);
+        let at = |weight: &f64| air_speed(filaments, *weight, thickness, pressure, permeability);
         local.iter().map(at).sum::<f64>() / local.len() as f64
     };
     (solid > 0.0 && solid <= DENSEST && !local.is_empty()).then(|| {
@@ -105,7 +107,7 @@ pub(crate) fn air_permeability(
 pub(crate) fn sensitivity(filaments: &[Filaments], thickness: f64, pressure: f64) -> f64 {
     const STEP: f64 = 1e-3;
     let [low, high] = [1.0 - STEP, 1.0 + STEP]
-        .map(|factor| libm::log(air_speed(filaments, factor, (thickness, pressure), davies)));
+        .map(|factor| libm::log(air_speed(filaments, factor, thickness, pressure, davies)));
     (high - low) / (2.0 * STEP)
 }
 
@@ -128,7 +130,7 @@ mod tests {
             // Without inertia.
             let creeping = 200.0 * found / (VISCOSITY * THICKNESS);
             assert!((creeping / speed - 1.0).abs() < 3e-3, "{creeping}");
-            let with = air_speed(&[OF_EXAMPLE], 1.0, (THICKNESS, 200.0), formula);
+            let with = air_speed(&[OF_EXAMPLE], 1.0, THICKNESS, 200.0, formula);
             assert!((0.5..0.67).contains(&(with / creeping)), "{with} of {creeping}");
         }
     }
@@ -142,7 +144,7 @@ mod tests {
             solid_fraction(&[twice], 2.0 * THICKNESS).to_bits(),
             solid_fraction(&[OF_EXAMPLE], THICKNESS).to_bits()
         );
-        let speed = |of, thickness, pressure| air_speed(&[of], 1.0, (thickness, pressure), davies);
+        let speed = |of, thickness, pressure| air_speed(&[of], 1.0, thickness, pressure, davies);
         assert_eq!(
             speed(twice, 2.0 * THICKNESS, 400.0).to_bits(),
             speed(OF_EXAMPLE, THICKNESS, 200.0).to_bits()
@@ -151,7 +153,7 @@ mod tests {
         assert!((ratio - 0.5).abs() < 1e-4, "{ratio}");
         // Two layers of half the weight each are the same fabric.
         let half = Filaments { basis_weight: 0.5 * OF_EXAMPLE.basis_weight, ..OF_EXAMPLE };
-        let layered = air_speed(&[half, half], 1.0, (THICKNESS, 200.0), davies);
+        let layered = air_speed(&[half, half], 1.0, THICKNESS, 200.0, davies);
         assert!((layered / speed(OF_EXAMPLE, THICKNESS, 200.0) - 1.0).abs() < 1e-12);
     }
 
@@ -168,8 +170,8 @@ mod tests {
 
     #[test]
     fn rejects_a_fabric_that_is_denser_than_the_formulas() {
-        assert_eq!(air_permeability(&[OF_EXAMPLE], &[1.0], (0.05e-3, 200.0)), None);
-        assert!(air_permeability(&[OF_EXAMPLE], &[1.0], (THICKNESS, 200.0)).is_some());
+        assert_eq!(air_permeability(&[OF_EXAMPLE], &[1.0], 0.05e-3, 200.0), None);
+        assert!(air_permeability(&[OF_EXAMPLE], &[1.0], THICKNESS, 200.0).is_some());
     }
 
     /// Without inertia the speed of an even fabric is between a half and twice that of a formula, however near
@@ -179,7 +181,7 @@ mod tests {
         for weight in [0.2, 0.5, 1.0, 1.5] {
             let of = Filaments { basis_weight: weight * OF_EXAMPLE.basis_weight, ..OF_EXAMPLE };
             let solid = solid_fraction(&[of], THICKNESS);
-            let Some(Known::Between([low, high])) = air_permeability(&[of], &[1.0; 3], (THICKNESS, 1e-3))
+            let Some(Known::Between([low, high])) = air_permeability(&[of], &[1.0; 3], THICKNESS, 1e-3)
             else {
                 panic!("no range at {weight}")
             };
@@ -194,7 +196,7 @@ mod tests {
     /// the mean weight, and a bare place lets no more through than a jet of `√(2Δp/ϱ)`.
     #[test]
     fn analytic_clouds_let_more_air_through() {
-        let at = |weights: &[f64]| match air_permeability(&[OF_EXAMPLE], weights, (THICKNESS, 200.0)) {
+        let at = |weights: &[f64]| match air_permeability(&[OF_EXAMPLE], weights, THICKNESS, 200.0) {
             Some(Known::Between(ends)) => ends,
             other => panic!("{other:?}"),
         };

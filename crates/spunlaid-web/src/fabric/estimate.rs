@@ -188,8 +188,9 @@ pub fn estimate(laid: &Laid<'_>, keys: &FabricKeys, threads: usize) -> Fabric {
         Some((local_weights(map, length, &found), found))
     });
     let air = (!laid.filaments.is_empty()).then(|| {
-        let given = keys.thickness.map(|thickness| (thickness, keys.pressure)).zip(local.as_ref());
-        let found = given.and_then(|(by, (local, _))| air(laid, map, &filaments, local, by));
+        let given = keys.thickness.zip(local.as_ref());
+        let found = given
+            .and_then(|(thickness, (local, _))| air(laid, map, &filaments, local, thickness, keys.pressure));
         notes.extend(found.is_none().then(|| no_permeability(&filaments, keys.thickness)));
         found
     });
@@ -323,12 +324,17 @@ fn air(
     map: &Map,
     filaments: &[Filaments],
     local: &[f64],
-    by: (f64, f64),
+    thickness: f64,
+    pressure: f64,
 ) -> Option<AirThrough> {
-    let permeability = air_permeability(filaments, local, by)?;
-    let factor = sensitivity(filaments, by.0, by.1).abs();
+    let permeability = air_permeability(filaments, local, thickness, pressure)?;
+    let factor = sensitivity(filaments, thickness, pressure).abs();
     let (_, cv) = over_patches(laid, map, AIR_AREA.sqrt(), |weight| weight)?;
-    Some(AirThrough { solid: solid_fraction(filaments, by.0), permeability, spread: Some(cv.times(factor)) })
+    Some(AirThrough {
+        solid: solid_fraction(filaments, thickness),
+        permeability,
+        spread: Some(cv.times(factor)),
+    })
 }
 
 /// * `scattering` – of the mean weight

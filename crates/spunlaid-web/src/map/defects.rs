@@ -4,7 +4,6 @@ use super::canvas::DepositionGrid;
 use super::{Filaments, Row, Sheet};
 use spunlaid_ground::place::Inlet;
 use spunlaid_ground::random::{stream, uniform};
-use spunlaid_ground::sort::sort_by_key;
 use std::collections::BTreeMap;
 
 /// Last word of the keys of the choice of holes.
@@ -61,16 +60,24 @@ impl Titres {
     }
 }
 
-/// The holes of a defect: their numbers across the web and their places [m].
+/// The filaments of a layer of a web.
+#[derive(Clone, Copy, Debug)]
+pub struct LayerFilaments<'a> {
+    /// The sheet on which they land.
+    pub sheet: &'a Sheet,
+    /// Seed of the web.
+    pub seed: u64,
+    /// Number of the layer.
+    pub number: usize,
+    /// How they are arranged.
+    pub filaments: &'a Filaments,
+}
+
+/// The holes of a defect: their numbers across the web and their positions [m].
 ///
-/// * `seed` – of the web
-/// * `layer` – its number and its filaments
 /// * `number` – of the defect in its layer
-pub fn holes(
-    (sheet, seed): (&Sheet, u64),
-    (layer, filaments): (usize, &Filaments),
-    (number, defect): (usize, &Defect),
-) -> Vec<(usize, f64)> {
+pub fn holes(layer: LayerFilaments<'_>, number: usize, defect: &Defect) -> Vec<(usize, f64)> {
+    let LayerFilaments { sheet, seed, number: layer, filaments } = layer;
     let nozzles = sorted_nozzles(sheet, seed, layer, filaments);
     let is_of_row = |row: u64| defect.row.is_none_or(|wanted| wanted == row);
     let in_rows = nozzles.iter().enumerate().filter(|(_, nozzle)| is_of_row(nozzle.row));
@@ -93,18 +100,12 @@ pub fn holes(
 impl Titres {
     /// What defects make of the filaments of a layer.
     ///
-    /// * `seed` – of the web
-    /// * `layer` – its number and its filaments
     /// * `belt_speed` – [m/s]
-    pub fn new(
-        (sheet, seed): (&Sheet, u64),
-        layer: (usize, &Filaments),
-        (defects, belt_speed): (&[Defect], f64),
-    ) -> Self {
+    pub fn new(layer: LayerFilaments<'_>, defects: &[Defect], belt_speed: f64) -> Self {
         let mut titres = Self::default();
         for (number, defect) in defects.iter().enumerate() {
-            let until = defect.until(sheet.length, belt_speed);
-            for (hole, _) in holes((sheet, seed), layer, (number, defect)) {
+            let until = defect.until(layer.sheet.length, belt_speed);
+            for (hole, _) in holes(layer, number, defect) {
                 titres.0.entry(hole).or_default().0.push((defect.titre, until));
             }
         }
@@ -183,6 +184,6 @@ pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments:
             (1..).zip(rows).flat_map(of_row).collect()
         }
     };
-    sort_by_key(&mut nozzles, |nozzle| nozzle.at[0]);
+    nozzles.sort_by(|one, other| one.at[0].total_cmp(&other.at[0]));
     nozzles
 }

@@ -120,7 +120,7 @@ pub fn expected_cv(web: &Web, by: RunContext<'_>) -> Result<Vec<ExpectedCv>, Err
     let columns = across(web).columns;
     let sides = sides(&web.sheet, &columns);
     let sample = OneFibre { cell: web.sheet.cell, fibres: ALONE, seed: web.seed };
-    let found = expected(web, layers, &sides, (sample, columns), by)?;
+    let found = expected(web, layers, &sides, sample, columns, by)?;
     let of_side =
         |(PatchExpectation { cv: (cv, standard_error), parts, .. }, side): (PatchExpectation, &usize)| {
             let fibres = parts.first().map_or(0, Vec::len);
@@ -159,7 +159,8 @@ pub(super) fn expected(
     web: &Web,
     layers: Vec<Layer>,
     sides: &[usize],
-    (sample, columns): (OneFibre, Range<usize>),
+    sample: OneFibre,
+    columns: Range<usize>,
     by: RunContext<'_>,
 ) -> Result<Vec<PatchExpectation>, Error> {
     let sheet = &web.sheet;

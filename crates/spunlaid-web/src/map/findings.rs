@@ -196,7 +196,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
     let map = laid.map.between(columns.clone());
     let sample = OneFibre { cell: sheet.cell, fibres: ALONE, seed: web.seed };
     let alone = match paths(web) {
-        Some(layers) => Some(expected(web, layers, &sides, (sample, columns.clone()), by)?),
+        Some(layers) => Some(expected(web, layers, &sides, sample, columns.clone(), by)?),
         None => None,
     };
     // The air displaces neighbours together, so their streaks are chance; those of defects are not.

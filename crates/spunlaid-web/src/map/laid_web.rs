@@ -193,7 +193,8 @@ impl Curves {
     /// # Errors
     /// If there is no curve, or one of less than 16 pieces or with a point that is not finite.
     pub fn new(
-        (spacing, belt_ratio): (f64, f64),
+        spacing: f64,
+        belt_ratio: f64,
         mut curves: Vec<Vec<[f64; 2]>>,
         one_air: OneAir,
     ) -> Result<Self, Fault> {

@@ -48,7 +48,7 @@ pub fn lay(web: &Web, by: RunContext<'_>) -> Result<LaidWeb, Error> {
     try_par_map(by.threads, units.len(), |unit| {
         let (plan, which) = &units[unit];
         let mut part = lock(&parts).pop().unwrap_or_else(|| CanvasPart::new(&canvas));
-        plan.draw(web, (which.clone(), canvas.quanta(plan.mass_of_piece())), &mut part, by)?;
+        plan.draw(web, which.clone(), canvas.quanta(plan.mass_of_piece()), &mut part, by)?;
         lock(&parts).push(part);
         Ok(())
     })?;
@@ -74,7 +74,7 @@ pub fn strands(web: &Web, window: Window, by: RunContext<'_>) -> Result<Vec<Wind
     });
     let of_sets = try_par_map(by.threads, sets.len(), |i| {
         let (layer, first) = sets[i];
-        strands_of(web, &on, (layer, &plans[layer]), first, by)
+        strands_of(web, &on, layer, &plans[layer], first, by)
     })?;
     Ok(of_sets.concat())
 }
@@ -83,7 +83,8 @@ pub fn strands(web: &Web, window: Window, by: RunContext<'_>) -> Result<Vec<Wind
 fn strands_of(
     web: &Web,
     on: &WindowOnSheet,
-    (layer, plan): (usize, &Plan<'_>),
+    layer: usize,
+    plan: &Plan<'_>,
     first: usize,
     by: RunContext<'_>,
 ) -> Result<Vec<WindowCurve>, Error> {
@@ -102,7 +103,7 @@ fn strands_of(
                 let titre = plan.titre_at(first + lane, along.0[lane], web);
                 for (i, ends) in points.windows(2).enumerate() {
                     let ends = [at((i, &ends[0])), at((i + 1, &ends[1]))];
-                    kept.keep(first + lane, (ends, titre), on);
+                    kept.keep(first + lane, ends, titre, on);
                 }
             }
         }

@@ -44,7 +44,7 @@ pub use basis_weight::Map;
 pub use canvas::{CanvasPart, DepositionGrid, NO_CORNERS, widen};
 pub use clouds::{Clouds, autocorrelation};
 pub use defects::Defect;
-pub use defects::{Depositor, Titres, holes, inlets};
+pub use defects::{Depositor, LayerFilaments, Titres, holes, inlets};
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
 pub use few_filaments::{
     Arrangement, FEWEST as FEWEST_OF_FEW, FilledMaps, Subsample, blocks_on, small_patch,
@@ -246,6 +246,11 @@ impl Layer {
 const MOST_STREAKS: usize = 512;
 
 impl Web {
+    /// The filaments of a layer.
+    pub const fn layer_filaments<'a>(&'a self, number: usize, layer: &'a Layer) -> LayerFilaments<'a> {
+        LayerFilaments { sheet: &self.sheet, seed: self.seed, number, filaments: &layer.filaments }
+    }
+
     /// What is known of the places at which the filaments come down, for a part of the sheet.
     ///
     /// * `width` – of the part [m]
@@ -280,8 +285,7 @@ impl Web {
             let count = layer.count(&self.sheet) as f64;
             let of_defect = |defect: &Defect| {
                 let of_all = Defect { share: 1.0, ..*defect };
-                let holes =
-                    holes((&self.sheet, self.seed), (number, &layer.filaments), (0, &of_all)).len() as f64;
+                let holes = holes(self.layer_filaments(number, layer), 0, &of_all).len() as f64;
                 // Of filaments at random places, as many as come down there.
                 let is_one = defect.from.is_some() && defect.to.is_none();
                 let (among, share) = match layer.filaments.are_at_random() && !is_one {

@@ -65,10 +65,10 @@ impl Sample {
         Self { weight, filaments: Vec::new(), groups: None, directions: [0; Orientation::DIRECTIONS] }
     }
 
-    fn add(&mut self, sums: (usize, usize), [md, cd]: [f64; 2]) {
+    fn add(&mut self, filament: usize, stretch: usize, [md, cd]: [f64; 2]) {
         let squared = md * md + cd * cd;
         if squared > 0.0 {
-            self.filaments[sums.0][sums.1].add(md * md / squared);
+            self.filaments[filament][stretch].add(md * md / squared);
             let turn = libm::atan2(cd, md) / (2.0 * PI);
             let class = ((turn + 1.0).fract() * Orientation::DIRECTIONS as f64) as usize;
             self.directions[class.min(Orientation::DIRECTIONS - 1)] += 1;
@@ -84,7 +84,7 @@ impl Sample {
             let pieces = curve.len() - 1;
             for (i, pair) in curve.windows(2).enumerate() {
                 let step = [pair[1][0] - pair[0][0] - advance, pair[1][1] - pair[0][1]];
-                sample.add((number, i * stretches / pieces), step);
+                sample.add(number, i * stretches / pieces, step);
             }
         }
         sample
@@ -103,7 +103,7 @@ impl Sample {
                 for pair in points.windows(2) {
                     for lane in 0..count {
                         let [md, cd] = [0, 1].map(|axis| pair[1][axis].0[lane] - pair[0][axis].0[lane]);
-                        sample.add((before + lane, 0), [md - advance, cd]);
+                        sample.add(before + lane, 0, [md - advance, cd]);
                     }
                 }
             })?;
@@ -252,7 +252,7 @@ mod tests {
                     // A eddy draws filaments out along the machine direction by more or less.
                     let angle = PI * uniform();
                     let drawn = 1.0 + gusts[filament / GUST];
-                    sample.add((filament, stretch), [drawn * libm::cos(angle), libm::sin(angle)]);
+                    sample.add(filament, stretch, [drawn * libm::cos(angle), libm::sin(angle)]);
                 }
             }
             let alone = Estimate::new(sample.filaments().iter().map(|moments| moments[0]).collect());
@@ -290,7 +290,7 @@ mod tests {
                     let middle = 0.5 * (low + high);
                     if below(middle) < wanted { low = middle } else { high = middle }
                 }
-                sample.add((i % 2, 0), [libm::cos(low), libm::sin(low)]);
+                sample.add(i % 2, 0, [libm::cos(low), libm::sin(low)]);
             }
             let found = Orientation::of(&[sample], 1e-3);
             assert!((found.stiffness_ratio.0 / expected - 1.0).abs() < 1e-6, "{share}: {found:?}");
@@ -311,8 +311,8 @@ mod tests {
                 for (number, angle) in angles.iter().enumerate() {
                     sample.filaments.push(vec![DirectionSums::default()]);
                     // A piece without length has no direction.
-                    sample.add((number, 0), [0.0, 0.0]);
-                    sample.add((number, 0), [3.0 * libm::cos(*angle), 3.0 * libm::sin(*angle)]);
+                    sample.add(number, 0, [0.0, 0.0]);
+                    sample.add(number, 0, [3.0 * libm::cos(*angle), 3.0 * libm::sin(*angle)]);
                 }
                 sample
             })

@@ -63,8 +63,7 @@ impl<'a> Plan<'a> {
         if places.is_empty() {
             return Err(no_layer(number + 1));
         }
-        let titres =
-            Titres::new((sheet, web.seed), (number, &layer.filaments), (&layer.defects, layer.belt_speed));
+        let titres = Titres::new(web.layer_filaments(number, layer), &layer.defects, layer.belt_speed);
         let number = number as u64;
         let pieces = pieces as usize;
         Ok(Self { number, layer, surrogate, places, pieces, piece, titres })
@@ -86,7 +85,7 @@ impl<'a> Plan<'a> {
     }
 
     /// The curves of the filaments from the number `first` on.
-    fn paths(&self, web: &Web, isa: Isa, (first, count): (usize, usize)) -> Result<Paths, Fault> {
+    fn paths(&self, web: &Web, isa: Isa, first: usize, count: usize) -> Result<Paths, Fault> {
         let keys: Vec<PathKey> = (first..first + count).map(|f| self.key(web, f)).collect();
         Paths::new(isa, self.surrogate, self.piece, &keys).ok_or_else(|| {
             let Surrogate { sigma_md, sigma_cd, noise } = self.surrogate;
@@ -112,7 +111,8 @@ impl<'a> Plan<'a> {
     pub(super) fn draw(
         &self,
         web: &Web,
-        (which, quanta): (Range<usize>, u32),
+        which: Range<usize>,
+        quanta: u32,
         part: &mut CanvasPart<'_>,
         by: RunContext<'_>,
     ) -> Result<(), Error> {
@@ -171,7 +171,7 @@ impl<'a> Plan<'a> {
         by: RunContext<'_>,
         mut take: impl FnMut(usize, &[[Lanes; 2]]),
     ) -> Result<(), Error> {
-        let paths = sets.iter().map(|set| self.paths(web, by.isa, *set));
+        let paths = sets.iter().map(|(first, count)| self.paths(web, by.isa, *first, *count));
         let mut paths: Vec<Paths> = paths.collect::<Result<_, _>>()?;
         let filaments: usize = sets.iter().map(|(_, count)| count).sum();
         for first in (0..self.pieces).step_by(PATH_POINTS) {

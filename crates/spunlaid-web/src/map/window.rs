@@ -105,9 +105,10 @@ pub struct WindowCurves {
 impl WindowCurves {
     /// Keeps a piece of a filament that is in the window.
     ///
-    /// * `from`, `to` – its ends on the sheet [m]
+    /// * `ends` – on the sheet [m]
     /// * `titre` – its mass per length over that of the others; nothing is kept of one without mass
-    pub fn keep(&mut self, filament: usize, ([from, to], titre): ([[f64; 2]; 2], f64), on: &WindowOnSheet) {
+    pub fn keep(&mut self, filament: usize, ends: [[f64; 2]; 2], titre: f64, on: &WindowOnSheet) {
+        let [from, to] = ends;
         // Most pieces are far before or behind it.
         if titre == 0.0 || !(on.is_beside(from[1], from[1]) || on.is_beside(to[1], to[1])) {
             self.enters = false;

@@ -46,7 +46,7 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let correction = Correction { lamp, keep_shading: settings.keep_shading || is_even };
     let is_cleaned = matches!(settings.light, Light::Transmitted { .. }) && !settings.keep_spots;
     let spots = if is_cleaned { beside(picture, settings.light, correction)? } else { Spots::none(picture) };
-    let mut aside = ForeignParts::new((web.corner, beside_web), picture, lamp, &spots);
+    let mut aside = ForeignParts::new(web.corner, beside_web, picture, lamp, &spots);
     aside.bare = bare.or(aside.bare);
     let light = with_level_beside(settings.light, picture, lamp, aside.bare);
     // Only the part that is web, of the picture and of its lamp.

@@ -101,7 +101,8 @@ const MOST_SHADING: f64 = 1.6;
 pub(super) fn believed_shading(
     logs: &[f64],
     columns: usize,
-    (lamp, keep_shading): (Option<&Picture>, bool),
+    lamp: Option<&Picture>,
+    keep_shading: bool,
 ) -> Result<Option<Shading>, Fault> {
     if keep_shading || lamp.is_some() {
         return Ok(None);

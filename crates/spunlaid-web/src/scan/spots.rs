@@ -3,9 +3,7 @@
 use super::picture::{Picture, Rectangle, cut};
 use super::read::LEAST_SIDE;
 use spunlaid_ground::Fault;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::statistics::{median, quantile};
-use std::cmp::Reverse;
 
 /// What was found beside the web and on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -328,7 +326,8 @@ impl ForeignParts {
     /// * `corner` – of the picture in its file
     /// * `beside` – pixels of the file beside it
     pub(super) fn new(
-        (corner, beside): ([usize; 2], usize),
+        corner: [usize; 2],
+        beside: usize,
         picture: &Picture,
         lamp: Option<&Picture>,
         found: &Spots,
@@ -352,7 +351,7 @@ impl ForeignParts {
                 spots.push(Spot { area: count * area, place });
             }
         }
-        sort_by_key(&mut spots, |spot| Reverse(spot.area));
+        spots.sort_by(|one, other| other.area.total_cmp(&one.area));
         let pixels = masked.iter().filter(|is| **is).count();
         Self {
             cut_off: (beside + picture.values.len() - columns * rows) as f64 * area,

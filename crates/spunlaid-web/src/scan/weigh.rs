@@ -186,7 +186,7 @@ fn transmitted(
     let web = || picture.values.iter().zip(&logs).filter(|(_, log)| !log.is_nan()).map(|(level, _)| level);
     let inverse = web().map(|level| level.powi(-2)).sum::<f64>();
     let per_noise = (inverse / web().count() as f64).sqrt() / density;
-    let shading = believed_shading(&logs, picture.columns, (lamp, keep_shading))?;
+    let shading = believed_shading(&logs, picture.columns, lamp, keep_shading)?;
     for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {
         match &shading {
             Some(shading) => logs.iter_mut().zip(shading.row(row)).for_each(|(log, lamp)| *log -= lamp),
@@ -222,7 +222,7 @@ fn reflected(
     let mut logs = logs(picture, lamp);
     let advice = advice(picture, "let more light fall on it, or expose for longer");
     let filled = unusable(&logs, "black or without a value", advice)?;
-    let shading = believed_shading(&logs, picture.columns, (lamp, keep_shading))?;
+    let shading = believed_shading(&logs, picture.columns, lamp, keep_shading)?;
     let mean_log = mean_of(&logs);
     if let Some(shading) = &shading {
         for (row, logs) in logs.chunks_exact_mut(picture.columns).enumerate() {

@@ -29,7 +29,7 @@ pub struct Setup {
 impl Setup {
     /// The Table 1 fibre with another length [m] and number of elements, eddies of another length [m], and
     /// damping [1/s], to be simulated by steps of `h` [s].
-    pub fn of((length, elements): (f64, usize), length_scale: f64, damping: f64, h: f64) -> Self {
+    pub fn of(length: f64, elements: usize, length_scale: f64, damping: f64, h: f64) -> Self {
         let fibre = Fibre { length, elements, ..table1_fibre() };
         let air = table1_air();
         let eddies = Eddies::along(length, elements, length_scale);
@@ -45,7 +45,7 @@ impl Setup {
 
     /// Table 1 as it is.
     pub fn table1(h: f64) -> Self {
-        Self::of((1.0, 20), 0.05, 0.0, h)
+        Self::of(1.0, 20, 0.05, 0.0, h)
     }
 
     /// Advances eight fibres from the start.
@@ -67,7 +67,7 @@ pub fn instruction_sets() {
     title("kernel: 20 elements, 20 eddies, wind and ledger included [ns per element and step of a fibre]");
     let setups: Vec<(Scheme, Setup, Setup)> = STEPS
         .iter()
-        .map(|&(scheme, h)| (scheme, Setup::table1(h), Setup::of((1.0, 20), 0.05, 1.0, h)))
+        .map(|&(scheme, h)| (scheme, Setup::table1(h), Setup::of(1.0, 20, 0.05, 1.0, h)))
         .collect();
     let isas = Isa::available();
     let mut trials: Vec<Trial<'_>> = Vec::new();
@@ -104,7 +104,7 @@ pub fn growth() {
         println!();
         let setups = LENGTHS.map(|elements| {
             let length = if metre { 1.0 } else { 0.05 * elements as f64 };
-            Setup::of((length, elements), 0.05, 0.0, h)
+            Setup::of(length, elements, 0.05, 0.0, h)
         });
         for scheme in Scheme::ALL {
             let mut trials: Vec<Trial<'_>> =

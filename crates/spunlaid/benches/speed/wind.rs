@@ -35,7 +35,7 @@ pub fn costs() {
     title("wind within a step: 20 eddies less one for the whole fibre [ns per eddy and step of a fibre]");
     let steps = [1e-6, 2e-5, 1e-4, 2e-4, 5e-4];
     let many = steps.map(Setup::table1);
-    let one = steps.map(|h| Setup::of((1.0, 20), 2.0, 0.0, h));
+    let one = steps.map(|h| Setup::of(1.0, 20, 2.0, 0.0, h));
     let mut trials = Vec::new();
     for (many, one) in many.iter().zip(&one) {
         for setup in [many, one] {

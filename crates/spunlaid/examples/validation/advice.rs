@@ -108,7 +108,7 @@ pub fn changes() {
             continue;
         }
         let like = read(&format!("{SLOT}{REST}"), &[&LONG[..], &[("web.simulated", simulated)]].concat());
-        let [held, compared] = compare(&base, &estimated, &like, (seeds, threads));
+        let [held, compared] = compare(&base, &estimated, &like, seeds, threads);
         within += held;
         count += compared;
         println!(
@@ -150,7 +150,7 @@ fn estimated(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
         let word = Overrides::new(&[], "--set");
         let changes = read_changes((text, CASES), word, which).unwrap_or_else(|why| panic!("{why}"));
         let begun = Instant::now();
-        let advice = advise(&spec, (&web, &findings), changes, None, None, by).expect("advice");
+        let advice = advise(&spec, &web, &findings, changes, None, None, by).expect("advice");
         let seconds = begun.elapsed().as_secs_f64();
         println!(
             "  {name} {seconds:.1} s, {:.2} times the web, {} steps",
@@ -191,7 +191,8 @@ fn compare(
     base: &WebSpec,
     estimated: &[Estimate],
     like: &WebSpec,
-    (seeds, threads): (usize, usize),
+    seeds: usize,
+    threads: usize,
 ) -> [usize; 2] {
     let specs: Vec<&WebSpec> =
         std::iter::once(base).chain(estimated.iter().map(|estimated| &estimated.spec)).collect();

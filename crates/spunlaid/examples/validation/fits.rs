@@ -8,7 +8,7 @@ pub(crate) fn intervals() {
     title("fits of two keys that make up for each other to scans of 100 webs of 200 mm square");
     let truth = [16.0, 350.0];
     for spectrum in [false, true] {
-        let fits = closed_loops(&["laydown.noise", "line.filaments_per_metre"], &truth, spectrum, (100, 20));
+        let fits = closed_loops(&["laydown.noise", "line.filaments_per_metre"], &truth, spectrum, 100, 20);
         let mean = |of: &dyn Fn(&spunlaid::experiment::Fit) -> f64| fits.iter().map(of).sum::<f64>() / 100.0;
         let with = if spectrum { "patches and spectrum" } else { "patches" };
         let trials = mean(&|fit| fit.trials.len() as f64);

@@ -117,6 +117,13 @@ pub fn pure_moment() {
     }
 }
 
+/// Time step and duration of a flight [s].
+#[derive(Clone, Copy)]
+struct FlightTimes {
+    h: f64,
+    duration: f64,
+}
+
 /// Frequencies of a chain released from each of the mode shapes, one per lane, by leapfrog.
 fn simulated(
     fibre: Fibre,
@@ -125,8 +132,9 @@ fn simulated(
     modes: &[Vec<f64>],
     axis: V,
     size: f64,
-    (h, duration): (f64, f64),
+    times: FlightTimes,
 ) -> Vec<f64> {
+    let FlightTimes { h, duration } = times;
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
     let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
@@ -189,7 +197,7 @@ pub fn hanging_chain() {
         }
         let (discrete, modes) = vibrations(&k, &masses(&fibre));
         let h = 0.5 * fibre.axial_step_limit();
-        let found = simulated(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
+        let found = simulated(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, FlightTimes { h, duration: 6.0 });
         println!("  N = {elements}: {:.5?}, simulated {found:.5?}", &discrete[..3]);
         println!("     simulated over matrices less 1: {}", short(&ratios(&found, &discrete)));
     }
@@ -234,7 +242,8 @@ pub fn beam() {
     let (discrete, modes) = bending(&f);
     let nodes: Vec<V> = (0..=24).map(|i| X * (f.rest_length() * f64::from(i))).collect();
     let h = 0.2 * f.axial_step_limit().min(f.bending_step_limit());
-    let found = simulated(f, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, 20.0 / discrete[0]));
+    let found =
+        simulated(f, 0.0, &nodes, &modes[..3], Y, 1e-6, FlightTimes { h, duration: 20.0 / discrete[0] });
     println!("  simulated: {}", short(&ratios(&found, &discrete)));
     let wave = (f.youngs_modulus * f.second_moment() / (f.density * f.cross_section())).sqrt();
     let exact: Vec<f64> =
@@ -260,7 +269,7 @@ pub fn axial_chain() {
         .map(|mode| w * (f64::from(2 * mode + 1) * PI / (4 * n) as f64).sin() / (2.0 * PI))
         .map(|f| (PI * f * h).asin() / (PI * h))
         .collect();
-    let found = simulated(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact[0]));
+    let found = simulated(fibre, 0.0, &nodes, &modes, X, 1e-7, FlightTimes { h, duration: 30.0 / exact[0] });
     println!("  {}", short(&ratios(&found, &exact)));
 }
 

@@ -82,19 +82,20 @@ pub fn fitted(
     webs: u64,
     journal: &mut Journal,
 ) -> Result<Fit, Error> {
-    asked(file, scan, (spectrum, webs), |question, flyer, by| fit(question, flyer, by, journal, &|_| {}))
+    asked(file, scan, spectrum, webs, |question, flyer, by| fit(question, flyer, by, journal, &|_| {}))
 }
 
 /// How far the numbers of simulated webs are off by causes other than chance.
 pub fn model_errors(file: &FitFile, scan: &MeasuredWeb) -> Result<Vec<Vec<f64>>, Error> {
-    asked(file, scan, (false, 8), errors_of_model)
+    asked(file, scan, false, 8, errors_of_model)
 }
 
 /// Asks a question about a scan.
 fn asked<T>(
     file: &FitFile,
     scan: &MeasuredWeb,
-    (spectrum, webs): (bool, u64),
+    spectrum: bool,
+    webs: u64,
     ask: impl FnOnce(Question<'_>, Flyer<'_>, RunContext<'_>) -> Result<T, Error>,
 ) -> Result<T, Error> {
     let target = Target::new(scan, &file.start.spec.sheet, spectrum)?;
@@ -109,7 +110,7 @@ fn asked<T>(
 /// Webs of known values, each scanned and fitted.
 ///
 /// * `webs` – in each trial
-pub fn closed_loops(vary: &[&str], truth: &[f64], spectrum: bool, (loops, webs): (u64, u64)) -> Vec<Fit> {
+pub fn closed_loops(vary: &[&str], truth: &[f64], spectrum: bool, loops: u64, webs: u64) -> Vec<Fit> {
     let file = read(SMALL, vary);
     let one = |seed: u64| {
         let scan = scanned(&laid(&file, truth, seed));

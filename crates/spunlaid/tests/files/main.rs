@@ -20,7 +20,6 @@ mod knobs;
 mod one_file;
 mod rejects;
 mod relations;
-mod removed;
 mod slips;
 mod web_files;
 mod web_lines;

@@ -8,6 +8,13 @@ use spunlaid::fibre::{Fibre, Flight, Root};
 use spunlaid::ground::{Isa, Vec3, WIDTH};
 use std::f64::consts::PI;
 
+/// Time step and duration of a flight [s].
+#[derive(Clone, Copy)]
+struct FlightTimes {
+    h: f64,
+    duration: f64,
+}
+
 /// Flies a chain from rest at `start` displaced along each mode (one per lane, by `size` at the largest),
 /// and measures the frequency of each lane's displacement on its own mode.
 ///
@@ -19,8 +26,9 @@ fn flown_frequencies(
     modes: &[Vec<f64>],
     axis: V,
     size: f64,
-    (h, duration): (f64, f64),
+    times: FlightTimes,
 ) -> Vec<f64> {
+    let FlightTimes { h, duration } = times;
     let strand = in_vacuum(fibre, gravity);
     let (eddies, turbulence) = steady_air(0.0, fibre.elements, duration);
     let mut flight = Flight::assembled(Isa::detect(), &[strand], (&eddies, &turbulence), Scheme::Leapfrog, h)
@@ -114,7 +122,8 @@ fn published_hanging_chain() {
             nodes.push(nodes[nodes.len() - 1] + X * stretched(tension));
         }
         let h = 0.8 * fibre.axial_step_limit();
-        let simulated = flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, (h, 6.0));
+        let simulated =
+            flown_frequencies(fibre, 9.81, &nodes, &modes[..3], Y, 1e-4, FlightTimes { h, duration: 6.0 });
         for i in 0..3 {
             // Half of the last digit published.
             assert!((stiff[i] - published[i]).abs() < 6e-6, "N = {elements}: {} Hz", stiff[i]);
@@ -175,7 +184,7 @@ fn analytic_clamped_beam() {
     let nodes: Vec<V> = (0..=fibre.elements).map(|i| X * (l * i as f64)).collect();
     let h = 0.2 * fibre.axial_step_limit().min(fibre.bending_step_limit());
     let duration = 20.0 / discrete[0];
-    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes[..3], Y, 1e-6, (h, duration));
+    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes[..3], Y, 1e-6, FlightTimes { h, duration });
     for i in 0..3 {
         // Leapfrog raises a frequency by (ωh)²/24, below 1e-6 here; linear passages the same order.
         assert!(
@@ -212,7 +221,8 @@ fn analytic_axial_chain() {
         .collect();
     let nodes: Vec<V> = (0..=n).map(|i| X * (l * i as f64)).collect();
     let h = 0.02 * fibre.axial_step_limit();
-    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes, X, 1e-7, (h, 30.0 / exact(0)));
+    let times = FlightTimes { h, duration: 30.0 / exact(0) };
+    let simulated = flown_frequencies(fibre, 0.0, &nodes, &modes, X, 1e-7, times);
     for (mode, f) in simulated.into_iter().enumerate() {
         // Leapfrog: ω_flown = (2/h) asin(ωh/2).
         let leapfrog = (PI * exact(mode) * h).asin() / (PI * h);

@@ -221,7 +221,7 @@ fn of_study(text: &str, study: &str, key: &str) -> Result<[Vec<u64>; 2], String>
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let computing = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &steps };
     let bundle = [0, 1].map(|point| Batch { point, replicates: 0..1 });
-    let records = fly_bundle((&study.points, &study.patch_sides()), &bundle, computing).unwrap();
+    let records = fly_bundle(&study.points, &study.patch_sides(), &bundle, computing).unwrap();
     Ok([0, 1].map(|point| {
         let measured = records[point].outcome.measured().unwrap();
         // A web has nothing of the patches of the other one.

@@ -66,7 +66,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| work();
     let mut simulated = Flyer::new(threads, &on, &follow).web(&file.spec).unwrap();
     let findings = simulated.find(by).unwrap();
-    advise(&file.spec, (&simulated.web, &findings), changes, None, None, RunContext { stop, ..by })
+    advise(&file.spec, &simulated.web, &findings, changes, None, None, RunContext { stop, ..by })
 }
 
 fn weight(spec: &WebSpec) -> f64 {

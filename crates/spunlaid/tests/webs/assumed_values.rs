@@ -125,7 +125,7 @@ assumed = \"line.filaments_per_metre\"
     let mut simulated = Flyer::new(2, &stop, &|_, work| work()).web(&spec).unwrap();
     let findings = simulated.find(by).unwrap();
     assert!(are_tried(&spec, &findings, &changes));
-    let assumed_values = advise(&spec, (&simulated.web, &findings), changes, None, None, by).unwrap();
+    let assumed_values = advise(&spec, &simulated.web, &findings, changes, None, None, by).unwrap();
     let ends = assumed_values.range(10e-3);
     for (found, wanted) in ends.iter().zip([0.5_f64.sqrt(), 2.0_f64.sqrt()]) {
         assert!((found / wanted - 1.0).abs() < 1e-6, "{ends:?}");

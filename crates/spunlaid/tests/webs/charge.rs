@@ -29,8 +29,10 @@ fn charge(per_mass: f64, places: &[Inlet]) -> BeamCharge {
 
 fn lay(
     case: &Case,
-    (places, charge): (&[Inlet], Option<&BeamCharge>),
-    (isa, threads): (Isa, usize),
+    places: &[Inlet],
+    charge: Option<&BeamCharge>,
+    isa: Isa,
+    threads: usize,
 ) -> (LaidWeb, BeamFindings) {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let window = Window { corner: [5e-3, 5e-3], sides: [10e-3; 2] };
@@ -41,13 +43,13 @@ fn lay(
 #[test]
 fn identical_without_charge_and_with_none_of_it() {
     let (case, places) = (case_in("von-karman"), slot(12));
-    let by = (Isa::detect(), 2);
-    let (plain, of_plain) = lay(&case, (&places, None), by);
-    let (none, of_none) = lay(&case, (&places, Some(&charge(0.0, &places))), by);
+    let isa = Isa::detect();
+    let (plain, of_plain) = lay(&case, &places, None, isa, 2);
+    let (none, of_none) = lay(&case, &places, Some(&charge(0.0, &places)), isa, 2);
     assert_eq!(plain.map.cells, none.map.cells);
     assert_eq!(of_plain.kept, of_none.kept);
     assert!(plain.simulated[0].charged.is_none() && none.simulated[0].charged.is_none());
-    let (charged, of_charged) = lay(&case, (&places, Some(&charge(2e-3, &places))), by);
+    let (charged, of_charged) = lay(&case, &places, Some(&charge(2e-3, &places)), isa, 2);
     assert_ne!(plain.map.cells, charged.map.cells);
     assert_ne!(of_plain.kept, of_charged.kept);
 }
@@ -56,9 +58,9 @@ fn identical_without_charge_and_with_none_of_it() {
 fn identical_charged_webs_for_any_number_of_threads_and_any_registers() {
     let (case, places) = (case_in("von-karman"), slot(12));
     let charge = charge(3e-3, &places);
-    let (one, of_one) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 1));
+    let (one, of_one) = lay(&case, &places, Some(&charge), Isa::detect(), 1);
     for (isa, threads) in Isa::available().into_iter().map(|isa| (isa, 2)) {
-        let (other, of_other) = lay(&case, (&places, Some(&charge)), (isa, threads));
+        let (other, of_other) = lay(&case, &places, Some(&charge), isa, threads);
         assert_eq!(one.map.cells, other.map.cells, "{isa:?}");
         assert_eq!(of_one.kept, of_other.kept, "{isa:?}");
         assert_eq!(one.simulated[0].charged, other.simulated[0].charged, "{isa:?}");
@@ -81,7 +83,7 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
     let opened = |per_mass: f64, count: usize| {
         let places = slot(count);
         let charge = charge(per_mass, &places);
-        let (_, simulated) = lay(&case, (&places, Some(&charge)), (Isa::detect(), 2));
+        let (_, simulated) = lay(&case, &places, Some(&charge), Isa::detect(), 2);
         let belt = case.line.unwrap().belt_speed;
         let of_filament = |(filament, points): &(usize, Vec<spunlaid::fibre::LaidPoint>)| {
             let points: Vec<f64> = points.iter().map(|point| point.md + belt * point.time).collect();
@@ -103,7 +105,7 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
 #[test]
 fn limit_a_charge_of_next_to_nothing_keeps_the_load_on_the_air() {
     let (case, places) = (case_in("uniform"), slot(6));
-    let way = |charge| lay(&case, (&places, charge), (Isa::detect(), 2)).1.way;
+    let way = |charge| lay(&case, &places, charge, Isa::detect(), 2).1.way;
     let (plain, charged) = (way(None), way(Some(&charge(1e-12, &places))));
     assert!(plain.len() > 10 && plain.len() == charged.len(), "{} {}", plain.len(), charged.len());
     for (plain, charged) in plain.iter().zip(&charged) {
@@ -121,7 +123,7 @@ fn limit_the_load_on_the_air_does_not_depend_on_the_steps_of_an_element() {
         let mut case = case.clone();
         case.set_time_step(case.run.time_step * case.line.unwrap().steps_per_element as f64 / steps);
         assert_eq!(case.line.unwrap().steps_per_element as f64, steps);
-        lay(&case, (&places, None), (Isa::detect(), 2)).1.way.last().unwrap().force
+        lay(&case, &places, None, Isa::detect(), 2).1.way.last().unwrap().force
     });
     assert!((fine / coarse - 1.0).abs() < 0.2, "{fine} {coarse}");
 }

@@ -1,7 +1,7 @@
 //! Filaments that are filled in between simulated ones, against the same filaments as they are simulated.
 
 use super::one_air::{case_in, cv, lay_by, row, sheet as sheet_of};
-use spunlaid::ground::Isa;
+use spunlaid::ground::{Isa, Workers};
 use spunlaid::web::curtain::lay;
 use spunlaid::web::{Belt, Curtain, FlownCurves, Map, Window};
 use std::sync::atomic::AtomicBool;
@@ -23,7 +23,7 @@ fn correlation(maps: [&Map; 2], cell: f64) -> f64 {
 fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let (case, sheet) = (case_in("von-karman"), sheet_of(32, 64));
     let places = row(&sheet, 64);
-    let (_, simulated) = lay_by((&case, &sheet), &places, Isa::detect(), 2);
+    let (_, simulated) = lay_by(&case, &sheet, &places, Isa::detect(), 2);
     let line = case.line.unwrap();
     let start = line.feed_speed * case.run.spin_up();
     let curves = simulated.kept.iter().map(|(_, points)| {
@@ -31,8 +31,8 @@ fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
         points.map(|point| [point.md + line.belt_ratio() * point.fed, point.cd]).collect()
     });
     let curves: Vec<Vec<[f64; 2]>> = curves.collect();
-    let along = (case.fibre.rest_length(), line.belt_ratio());
-    let all = FlownCurves::new(places, Some(sheet.width), along, &curves).unwrap();
+    let spacing = case.fibre.rest_length();
+    let all = FlownCurves::new(places, Some(sheet.width), spacing, line.belt_ratio(), &curves).unwrap();
     let few = all.every_second().unwrap();
     assert_eq!(few.places().len(), 32);
     let filling = few.fill(all.places().to_vec(), 2);
@@ -42,7 +42,8 @@ fn stat_filaments_between_flown_ones_lie_as_they_are_flown() {
     let shorter = sheet_of(32, 56);
     let belt = Belt::within(&all, &shorter, window).unwrap();
     let laid = |curtain: &dyn Curtain| {
-        lay(curtain, belt, case.fibre.element_mass(), (2, &AtomicBool::new(false))).unwrap()
+        let workers = Workers { threads: 2, stop: &AtomicBool::new(false) };
+        lay(curtain, belt, case.fibre.element_mass(), workers).unwrap()
     };
     let [(simulated, strands), (filled, filled_strands)] = [laid(&all), laid(&filling)];
     let maps = [&simulated.map, &filled.map];

@@ -16,7 +16,7 @@ use spunlaid::web::map::uniformity::cv_of_piece;
 #[test]
 fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let truth = [350.0];
-    let fits = closed_loops(&["line.filaments_per_metre"], &truth, false, (10, 10));
+    let fits = closed_loops(&["line.filaments_per_metre"], &truth, false, 10, 10);
     let counts = coverage(&fits, &truth)[0];
     // Of a coverage of 95 %, three misses in ten loops happen once in a hundred times.
     assert!(counts[1] >= 8, "{counts:?}");

@@ -7,7 +7,7 @@ use spunlaid::simulation::BeamFindings;
 use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
 fn simulated(lateral: &str, sheet: &Sheet, places: &[Inlet], threads: usize) -> BeamFindings {
-    lay_by((&case_in(lateral), sheet), places, Isa::detect(), threads).1
+    lay_by(&case_in(lateral), sheet, places, Isa::detect(), threads).1
 }
 
 fn both(neighbour: &NeighbourCorrelation) -> [Correlation; 2] {

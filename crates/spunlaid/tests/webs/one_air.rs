@@ -42,7 +42,8 @@ pub(super) fn row(sheet: &Sheet, count: usize) -> Vec<Inlet> {
 }
 
 pub(super) fn lay_by(
-    (case, sheet): (&Case, &Sheet),
+    case: &Case,
+    sheet: &Sheet,
     places: &[Inlet],
     isa: Isa,
     threads: usize,
@@ -56,7 +57,7 @@ pub(super) fn lay_by(
 }
 
 fn lay(sheet: &Sheet, places: &[Inlet]) -> (LaidWeb, BeamFindings) {
-    lay_by((&case(), sheet), places, Isa::detect(), 2)
+    lay_by(&case(), sheet, places, Isa::detect(), 2)
 }
 
 pub(super) fn cv(map: &Map, side: usize) -> f64 {
@@ -85,7 +86,7 @@ fn limit_filaments_in_a_field_without_waves_across_lay_the_same_curve() {
 /// * `most` – that cells beside each other may differ by, over the mean
 fn rows_lay_bars(case: &Case, most: f64) {
     let sheet = sheet(24, 64);
-    let (laid, _) = lay_by((case, &sheet), &row(&sheet, 24), Isa::detect(), 2);
+    let (laid, _) = lay_by(case, &sheet, &row(&sheet, 24), Isa::detect(), 2);
     let (mut different, mut bars) = (0.0_f64, 0.0_f64);
     let mean = laid.map.total() as f64 / laid.map.cells.len() as f64;
     for row in 0..laid.map.rows {
@@ -140,7 +141,7 @@ fn identical_on_any_threads_and_instruction_sets() {
     let sheet = sheet(24, 32);
     for lateral in ["uniform", "von-karman"] {
         let (case, places) = (case_in(lateral), slot(&sheet, 12));
-        let lay = |isa, threads| lay_by((&case, &sheet), &places, isa, threads);
+        let lay = |isa, threads| lay_by(&case, &sheet, &places, isa, threads);
         let (one, simulated) = lay(Isa::detect(), 1);
         let strands = |laid: &LaidWeb| laid.simulated[0].strands.clone();
         assert!(!strands(&one).is_empty());
@@ -158,7 +159,7 @@ fn identical_on_any_threads_and_instruction_sets() {
 fn identical_a_filament_whatever_flies_beside_it() {
     let sheet = sheet(24, 32);
     let (case, places) = (case_in("von-karman"), slot(&sheet, 12));
-    let lay = |places: &[Inlet]| lay_by((&case, &sheet), places, Isa::detect(), 2).1.kept;
+    let lay = |places: &[Inlet]| lay_by(&case, &sheet, places, Isa::detect(), 2).1.kept;
     let (all, some) = (lay(&places), lay(&places[2..7]));
     for (number, points) in &some {
         let beside = &all.iter().find(|(other, _)| *other == number + 2).unwrap().1;
@@ -173,7 +174,7 @@ fn identical_a_filament_whatever_flies_beside_it() {
 #[test]
 fn stat_a_row_in_one_field_lies_between_one_curve_and_independent_ones() {
     let (sheet, case) = (sheet(64, 400), case_in("von-karman"));
-    let patch_cv = |places: &[Inlet]| cv(&lay_by((&case, &sheet), places, Isa::detect(), 2).0.map, 10);
+    let patch_cv = |places: &[Inlet]| cv(&lay_by(&case, &sheet, places, Isa::detect(), 2).0.map, 10);
     let place = Inlet { y: 0.0, z: 30e-3 };
     let (one, three) = (patch_cv(&[place]), patch_cv(&[place; 3]));
     assert!((three / one - 1.0).abs() < 1e-5, "{three} {one}");

@@ -45,7 +45,7 @@ fn few(webs: &[&WebFile], threads: usize) -> Vec<SubsampleEstimate> {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let specs: Vec<_> = webs.iter().map(|web| &web.spec).collect();
     let flyer = Flyer::new(threads, &stop, &unwatched);
-    let estimates = flyer.few_in_same_air((&specs, ALL), &steps).unwrap().unwrap();
+    let estimates = flyer.few_in_same_air(&specs, ALL, &steps).unwrap().unwrap();
     estimates.into_iter().flat_map(|layers| layers.unwrap()).collect()
 }
 
@@ -86,7 +86,7 @@ fn rejects_webs_whose_common_air_does_not_fit_into_the_memory() {
     let (stop, steps) = (AtomicBool::new(false), AtomicU64::new(0));
     let flyer = Flyer::new(1, &stop, &unwatched);
     web.spec.memory_limit = 1e6;
-    let said = flyer.few_in_same_air((&[&web.spec, &farther.spec], ALL), &steps).unwrap_err().to_string();
+    let said = flyer.few_in_same_air(&[&web.spec, &farther.spec], ALL, &steps).unwrap_err().to_string();
     let begin = "the field of eddies in which the changed webs are simulated together takes ";
     assert!(said.starts_with(begin) && said.contains("more than web.memory_limit = 1 MB; write "), "{said}");
 }

@@ -49,7 +49,7 @@ fn expected_over_found(seed: u64) -> [f64; 2] {
     case.run.seed = seed;
     // With coarser waves the sum is 4 to 6 % too high.
     case.air.lateral = Lateral::VonKarman { cutoff: 15.0 };
-    let (laid, simulated) = lay_by((&case, &sheet), &row(&sheet, COUNT), Isa::detect(), 2);
+    let (laid, simulated) = lay_by(&case, &sheet, &row(&sheet, COUNT), Isa::detect(), 2);
     assert_eq!(simulated.kept.len(), COUNT);
     let (line, spacing) = (case.line.unwrap(), case.fibre.rest_length());
     let per_point = line.belt_ratio() * spacing;

@@ -29,7 +29,7 @@ mod windows;
 use self::plan::Plan;
 use self::synthesis::Synthesis;
 use self::tape::Tape;
-use self::way::EddyPath;
+use self::way::{EddyPath, GenerationSteps};
 use super::{Air, SpectrumShape, StreamKey};
 pub use lattice::Extent;
 use lattice::{BEFORE, Lattice, NEEDED, Part, samples};
@@ -80,9 +80,8 @@ pub struct Room {
     pub extent: Extent,
     /// Length of the way [m].
     pub distance: f64,
-    /// Steps from one generation to the next that there are at least, and how many times as far apart as usual they
-    /// may be.
-    steps: (usize, f64),
+    /// Steps from one generation to the next.
+    steps: GenerationSteps,
     /// Largest wave number across, times the smallest length scale, of the waves that fields of any larger cut-off
     /// have in common.
     in_common: f64,
@@ -99,17 +98,17 @@ impl Room {
         let room = Self {
             extent,
             distance: largest(|(_, distance, _)| *distance),
-            steps: (0, COARSER),
+            steps: GenerationSteps { least: 0, longer: COARSER },
             in_common: f64::INFINITY,
             swing: None,
         };
         let steps = airs.iter().map(|(air, ..)| room.way(air).stages.len() - 1);
-        Self { steps: (steps.max().unwrap_or(0), COARSER), ..room }
+        Self { steps: GenerationSteps { least: steps.max().unwrap_or(0), longer: COARSER }, ..room }
     }
 
     /// The room of one air alone.
     pub const fn alone(distance: f64, extent: Extent) -> Self {
-        Self { extent, distance, steps: (0, 1.0), in_common: f64::INFINITY, swing: None }
+        Self { extent, distance, steps: GenerationSteps::USUAL, in_common: f64::INFINITY, swing: None }
     }
 
     /// The same room, in which a field of any larger cut-off than this one has the waves of a field of this one, and
@@ -268,7 +267,7 @@ impl EddyField {
         let [youngest, oldest] = plan.way.travels(j);
         let first = ((made.start - oldest) / spacing - margin).floor() as i64 - BEFORE;
         let end = ((made.end - youngest) / spacing + margin).ceil() as i64 + 1;
-        self.tapes[j].extend((&**plan, &**synthesis, *key), j, first..end, threads);
+        self.tapes[j].extend(plan, synthesis, *key, j, first..end, threads);
     }
 
     /// The same field, as far as it has been made and around a place that was missing, with the same bits.

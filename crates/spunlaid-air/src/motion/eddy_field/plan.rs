@@ -146,9 +146,11 @@ struct Mode {
 
 impl Shape {
     fn new(air: &Air, stage: &Stage, lattice: &Lattice, repeat_time: f64) -> Self {
-        let times = (stage.cutoff_frequency, stage.length_scale / stage.speed);
+        let integral_time = stage.length_scale / stage.speed;
         let amplitudes = [0, 1, 2].map(|component| {
-            Spectrum::new(&air.spectrum, 1.0, times, component, 1.0 / repeat_time).amplitudes()
+            let cutoff = stage.cutoff_frequency;
+            Spectrum::new(&air.spectrum, 1.0, cutoff, integral_time, component, 1.0 / repeat_time)
+                .amplitudes()
         });
         let modes = modes(lattice);
         let columns = lattice.most_waves()[1] as usize + 1;

@@ -108,7 +108,9 @@ impl Tape {
     /// Makes the samples of a range, and forgets those before it.
     pub(super) fn extend(
         &mut self,
-        (plan, synthesis, key): (&Plan, &Synthesis, StreamKey),
+        plan: &Plan,
+        synthesis: &Synthesis,
+        key: StreamKey,
         generation: usize,
         samples: Range<i64>,
         threads: usize,

@@ -43,15 +43,28 @@ pub(super) struct EddyPath {
     pub(super) ageing: f64,
 }
 
+/// Steps from one generation of eddies to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GenerationSteps {
+    /// Number that there are at least, where eddies are carried.
+    pub(super) least: usize,
+    /// How many times as much of their age and of the air they may be apart as usual.
+    pub(super) longer: f64,
+}
+
+impl GenerationSteps {
+    /// As many as the air needs.
+    pub(super) const USUAL: Self = Self { least: 0, longer: 1.0 };
+}
+
 impl EddyPath {
     /// * `distance` – from the inlet, or the root, to the end of the way [m]
     pub(super) fn new(air: &Air, distance: f64) -> Self {
-        Self::with_steps(air, distance, (0, 1.0))
+        Self::with_steps(air, distance, GenerationSteps::USUAL)
     }
 
-    /// * `least` – steps from one generation to the next that there are at least, where eddies are carried
-    /// * `longer` – how many times as much of their age and of the air they may be apart as usual
-    pub(super) fn with_steps(air: &Air, distance: f64, (least, longer): (usize, f64)) -> Self {
+    pub(super) fn with_steps(air: &Air, distance: f64, steps: GenerationSteps) -> Self {
+        let GenerationSteps { least, longer } = steps;
         let mut hint = Hint::default();
         let x = |i: f64| distance * i / PIECES as f64;
         let mut stage = |i: f64| {
@@ -89,7 +102,7 @@ impl EddyPath {
             return Self { pieces_per_length, passages, stages, ageing: f64::INFINITY };
         };
         let whole = travels[PIECES];
-        let steps = steps(&stages, &travels, (whole / decay_time, longer), least);
+        let steps = self::steps(&stages, &travels, whole / decay_time, longer, least);
         let travel = if steps == 0 { 0.0 } else { whole / steps as f64 };
         let passages = travels.iter().map(|&time| [if steps == 0 { 0.0 } else { time / travel }, time]);
         Self {
@@ -200,7 +213,7 @@ fn at(stages: &[Stage], rising: &[f64], value: f64) -> Stage {
 /// * `age` – of the air at the end of the way, in decay times
 /// * `longer` – how many times as large as usual a step may be
 /// * `least` – number of them
-fn steps(stages: &[Stage], travels: &[f64], (age, longer): (f64, f64), least: usize) -> usize {
+fn steps(stages: &[Stage], travels: &[f64], age: f64, longer: f64, least: usize) -> usize {
     let whole = travels[travels.len() - 1];
     let change = |a: &Stage, b: &Stage| {
         let ratios =

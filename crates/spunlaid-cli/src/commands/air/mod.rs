@@ -47,9 +47,10 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());
     }
-    let (name, shown) = (stem(&air.source.case, "case"), (&air.output, air.figures.files()));
+    let (name, figures) = (stem(&air.source.case, "case"), air.figures.files());
     let folder = format!("{name}_air");
-    let delivery = Delivery::open::<AirFolder<'_>>(invocation, [&air.source.case], folder, shown)?;
+    let delivery =
+        Delivery::open::<AirFolder<'_>>(invocation, [&air.source.case], folder, &air.output, figures)?;
     let (replicate, threads) = (air.replicate - 1, air.threads.number());
     let looks = AirViews { replicate, frames: air.frames, duration: air.duration, threads };
     let done = AtomicU64::new(0);

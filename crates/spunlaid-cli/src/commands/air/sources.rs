@@ -30,14 +30,20 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     Sources::fault(case).map_or(Ok(()), |fault| Err(refuse(fault)))?;
     let curtain = curtain.ok_or_else(|| refuse(no_filaments()))?;
     notes.iter().for_each(say::note);
-    let (name, shown) = (stem(path, "case"), (&air.output, air.figures.files()));
-    let delivery = Delivery::open::<SourcesFolder<'_>>(invocation, [path], format!("{name}_sources"), shown)?;
+    let (name, figures) = (stem(path, "case"), air.figures.files());
+    let delivery = Delivery::open::<SourcesFolder<'_>>(
+        invocation,
+        [path],
+        format!("{name}_sources"),
+        &air.output,
+        figures,
+    )?;
     let done = AtomicU64::new(0);
     let (steps, replicates) = (case.run.steps * case.run.replicates, case.run.replicates);
     let label = format!("simulating {}", counted(replicates, "fibre"));
     let fly = || Sources::fly(case, &curtain, control(air.threads, &done));
     let sources = progress::follow(&done, steps, &label, quiet, fly)?;
-    let contents = SourcesFolder::new(name, (input, case, notes), sources);
+    let contents = SourcesFolder::new(name, input, case, notes, sources);
     delivery.deliver(&contents, air.threads, &[])?;
     let what = contents.lacking.join("\n");
     if what.is_empty() { Ok(()) } else { Err(Failure::Incomplete { what }) }

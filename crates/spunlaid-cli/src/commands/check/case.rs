@@ -16,7 +16,7 @@ pub(super) fn case(check: &Check) -> Result<(), Failure> {
     let (case, notes) = looked_at(|resources| check.source.read(&[], resources))?;
     notes.iter().for_each(say::note);
     let comments = about_case(&case, Threads::default().number(), started.elapsed().as_secs_f64())?;
-    show("case", (&write_case(&case), &[]), &comments, "run", &check.source);
+    show("case", &write_case(&case), &[], &comments, "run", &check.source);
     Ok(())
 }
 
@@ -27,7 +27,7 @@ pub(super) fn spinline_alone(check: &Check) -> Result<(), Failure> {
     file.notes.iter().for_each(say::note);
     let results = SpinResults::new(&file)?;
     let comments: Vec<String> = spinline_text(&results).lines().map(str::to_owned).collect();
-    show("spinline", (&write_spinline(&file.spec), &[]), &comments, "spin", &check.source);
+    show("spinline", &write_spinline(&file.spec), &[], &comments, "spin", &check.source);
     Ok(())
 }
 
@@ -40,6 +40,6 @@ pub(super) fn web(check: &Check) -> Result<(), Failure> {
         .map(|which| looked_at(|resources| read_changes(&check.source.case, set.with(resources), which)));
     let [assumed, of_line] = changes;
     let expected = expected_of_web(&file.spec, Threads::default().number(), [&assumed?, &of_line?])?;
-    show("web", (&file.text, &file.notes), &[about_web(&file.spec), expected].concat(), "web", &check.source);
+    show("web", &file.text, &file.notes, &[about_web(&file.spec), expected].concat(), "web", &check.source);
     Ok(())
 }

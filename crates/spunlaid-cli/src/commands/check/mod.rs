@@ -38,7 +38,8 @@ fn looked_at<T>(read: impl Fn(&Resources) -> Result<T, Error>) -> Result<T, Erro
 /// * `notes` – of the file; one may doubt that it is meant
 fn show(
     kind: &str,
-    (text, notes): (&str, &[Diagnostic]),
+    text: &str,
+    notes: &[Diagnostic],
     comments: &[String],
     command: &str,
     source: &CaseSource,

@@ -23,7 +23,7 @@ pub(super) fn study(check: &Check) -> Result<(), Failure> {
     let count = counted(study.points.len() as u64, "point");
     let mut comments = vec![format!("{count} of {}, each with {each}", file.base_path.display())];
     comments.extend(points(study).lines().map(str::to_owned));
-    show("study", (&file.text, &[]), &comments, "sweep", &check.source);
+    show("study", &file.text, &[], &comments, "sweep", &check.source);
     Ok(())
 }
 

@@ -62,6 +62,6 @@ fn write(
     let complete =
         format!("the study was already complete: no {noun} was {done}, and the files were written again");
     let lines = &Vec::from_iter((before == fibres).then_some(complete));
-    print_results(&found, (folder.path(), &text), lines, &sweep.output);
+    print_results(&found, folder.path(), &text, lines, &sweep.output);
     lost(&file.study, journal, fibres)?.map_or(Ok(()), |what| Err(Failure::Incomplete { what }))
 }

@@ -29,9 +29,9 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let web = settled(threads, output.quiet, read)?;
     web.notes.iter().for_each(say::note);
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&web.spec, text)).transpose()?;
-    let (name, shown) = (stem(file, "web"), (output, arguments.figures.files()));
+    let (name, figures) = (stem(file, "web"), arguments.figures.files());
     let beside = output.folder(&name).display().to_string();
-    let mut delivery = Delivery::open::<WebFolder>(invocation, [file], &name, shown)?;
+    let mut delivery = Delivery::open::<WebFolder>(invocation, [file], &name, output, figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;
     // Before anything is simulated, because the file may change meanwhile.
     let trials = Trials::read(arguments, &web.spec)?;
@@ -46,7 +46,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let findings = progress::follow(&laid, simulated.pieces()?, &label, output.quiet, || simulated.find(by))?;
     let laying = format!("{label} took {:.2} s", started.elapsed().as_secs_f64());
     let trials = trials.worth_it(arguments.advice, &web.spec, &findings);
-    let mut web = WebFolder::new((name, beside), web, simulated, findings, started, by);
+    let mut web = WebFolder::new(name, beside, web, simulated, findings, started, by);
     web.awaited = !trials.is_empty();
     if let Some(sheet) = &arguments.sheet {
         fs::write(sheet, web.specification()?).map_err(|error| Error::unwritable(sheet)(error))?;
@@ -54,7 +54,7 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     delivery.publish(&web, threads)?;
     // The web is safe now, whatever becomes of what is tried with it.
     delivery.say(&web, &[laying]);
-    trials.run((web, judged_by), kept, by, output.quiet, &mut delivery)
+    trials.run(web, judged_by, kept, by, &mut delivery)
 }
 
 /// Shows the progress of the flights of a case.

@@ -52,18 +52,17 @@ impl Trials {
     /// * `judged_by` – side of the patches by whose CV they are judged, if it was asked for [m]
     pub(super) fn run(
         self,
-        (mut web, judged_by): (WebFolder, Option<f64>),
+        mut web: WebFolder,
+        judged_by: Option<f64>,
         kept: Option<Kept>,
         by: RunContext<'_>,
-        quiet: bool,
         delivery: &mut Delivery<'_>,
     ) -> Result<(), Failure> {
         let changes_line = self.0[1].is_some();
         let log = kept.as_ref().map(|kept| &kept.log);
         for (number, changes) in self.0.into_iter().enumerate() {
             let Some(changes) = changes else { continue };
-            let tried = (&mut web, judged_by);
-            let found = try_changes(changes, WORDS[number], tried, log, by, (quiet, delivery))?;
+            let found = try_changes(changes, WORDS[number], &mut web, judged_by, log, by, delivery)?;
             *(if number == 0 { &mut web.assumed_values } else { &mut web.advice }) = found;
             web.awaited = number == 0 && changes_line;
             delivery.rewrite(&web)?;

@@ -17,16 +17,17 @@ use std::time::Instant;
 pub(super) fn try_changes(
     changes: Vec<Change>,
     [noun, of, without]: [&str; 3],
-    (web, judged_by): (&mut WebFolder, Option<f64>),
+    web: &mut WebFolder,
+    judged_by: Option<f64>,
     kept: Option<&Log>,
     by: RunContext<'_>,
-    (quiet, delivery): (bool, &mut Delivery<'_>),
+    delivery: &mut Delivery<'_>,
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
     let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
     let (all, by) = (steps(spec, &changes), RunContext { done: &done, ..by });
-    let work = || advise(spec, (&web.simulated.web, &web.findings), changes, judged_by, kept, by);
-    match progress::follow(&done, all, &label, quiet, work) {
+    let work = || advise(spec, &web.simulated.web, &web.findings, changes, judged_by, kept, by);
+    match progress::follow(&done, all, &label, delivery.is_quiet(), work) {
         Err(Error::Interrupted) => {
             by.stop.store(false, Ordering::Relaxed);
             web.awaited = false;

@@ -31,9 +31,7 @@ use super::journal::Journal;
 use super::{Design, Study};
 use fit::{EffectsFit, fits};
 use solution::Solution;
-use spunlaid_ground::sort::sort_by_key;
 use spunlaid_ground::{Effect, Error};
-use std::cmp::Reverse;
 
 pub use fit::Term;
 
@@ -96,7 +94,7 @@ pub fn rankings(study: &Study, journal: &mut Journal) -> Result<Rankings, Error>
     let ranking = |measure: usize| {
         let mut effects: Vec<Effect<Contrast>> =
             solved.iter().flat_map(|solution| &solution.effects[measure]).copied().collect();
-        sort_by_key(&mut effects, |effect| Reverse(effect.difference.value.abs()));
+        effects.sort_by(|one, other| other.difference.value.abs().total_cmp(&one.difference.value.abs()));
         let terms = fits.iter().zip(&solved).flat_map(|(fit, solution)| {
             fit.terms.iter().copied().zip(solution.coefficients[measure].iter().skip(1).copied())
         });

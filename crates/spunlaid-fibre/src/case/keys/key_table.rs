@@ -95,7 +95,8 @@ impl<T> KeyTable<T> {
     /// What is wrong with its value, or that it is missing.
     pub fn fill(
         &self,
-        (key, input): (&Key<T>, &mut T),
+        key: &Key<T>,
+        input: &mut T,
         written: Option<Option<Value>>,
         is_written: impl Fn(&str) -> bool,
         missing: impl FnOnce(&T) -> Option<Fault>,

@@ -24,7 +24,7 @@ pub use value::{Content, DataFile, Kind, Sign, Value};
 pub use varied::VariedKey;
 
 use super::Case;
-use spunlaid_ground::{Diagnostic, Dimension, Fault, Removed};
+use spunlaid_ground::{Diagnostic, Dimension, Fault};
 
 /// The tables of a case file, in order.
 pub const TABLES: [&str; table::NAMES.len()] = table::NAMES;
@@ -151,8 +151,7 @@ pub fn named(name: &str) -> Result<&'static Key, Box<Diagnostic>> {
             (format!("[{table}] takes"), known)
         };
         let nearest = nearest(name).map(|key| key.name.to_owned());
-        let unknown = || Fault::unknown("is not a key of a case file", nearest, &takes, &known);
-        let what = Removed::Key.fault(name).unwrap_or_else(unknown);
+        let what = Fault::unknown("is not a key of a case file", nearest, &takes, &known);
         let key = spunlaid_ground::units::excerpt(name, 60);
         Box::new(Diagnostic { key, ..what.into() })
     })

@@ -59,10 +59,11 @@ pub(crate) fn step<S: Register, const FED: bool>(
     if FED {
         chain.hold_landing();
     }
-    let mut sums = (WorkRegisters::new(work, split), Supports::start(work));
-    let change = correct_and_move::<S, FED>(chain, h, damped, &mut sums);
-    sums.0.put(work);
-    sums.1.put(work);
+    let mut registers = WorkRegisters::new(work, split);
+    let mut supports = Supports::start(work);
+    let change = correct_and_move::<S, FED>(chain, h, damped, &mut registers, &mut supports);
+    registers.put(work);
+    supports.put(work);
     if FED {
         chain.iterate(&change.store(), h, split, work);
     }

@@ -15,7 +15,8 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
     chain: &mut Chain,
     h: f64,
     damped: bool,
-    sums: &mut (WorkRegisters<S>, Supports),
+    work: &mut WorkRegisters<S>,
+    supports: &mut Supports,
 ) -> Wide<S> {
     let Chain { position, velocity, earlier, constants: c, tensions: t, laying, .. } = chain;
     let nodes = position.len();
@@ -27,8 +28,8 @@ pub(super) fn correct_and_move<S: Register, const FED: bool>(
         c,
         t,
         laying: if FED { laying.as_ref() } else { None },
-        work: &mut sums.0,
-        supports: &mut sums.1,
+        work,
+        supports,
         h: Wide::splat(h),
         rate: Wide::splat(1.0 / h),
         correction: Wide::zero(),

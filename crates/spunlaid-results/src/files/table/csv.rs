@@ -8,11 +8,11 @@ use std::fs::File;
 use std::path::PathBuf;
 
 pub(super) const FORMAT: TableFormat =
-    TableFormat { name: "csv", create: |place, columns| separated(b',', place, columns) };
+    TableFormat { name: "csv", create: |now, path, columns| separated(b',', now, path, columns) };
 
 /// Values with tabs between them, which a spreadsheet takes in any country.
 pub(super) const WITH_TABS: TableFormat =
-    TableFormat { name: "tsv", create: |place, columns| separated(b'\t', place, columns) };
+    TableFormat { name: "tsv", create: |now, path, columns| separated(b'\t', now, path, columns) };
 
 struct Lines {
     path: PathBuf,
@@ -20,7 +20,7 @@ struct Lines {
 }
 
 /// Begins a table with a sign between its cells.
-fn separated(sign: u8, (now, path): (PathBuf, PathBuf), columns: &[Column]) -> Begun {
+fn separated(sign: u8, now: PathBuf, path: PathBuf, columns: &[Column]) -> Begun {
     let file = File::create(now).map_err(Failure::unwritable(&path))?;
     let writer = WriterBuilder::new().delimiter(sign).from_writer(file);
     let mut lines = Lines { path, writer };

@@ -12,7 +12,7 @@ pub struct TableFormat {
     /// The ending of its files.
     pub name: &'static str,
     /// Begins a table at its present path, whose final path is reported in messages.
-    create: fn((PathBuf, PathBuf), &[Column]) -> Begun,
+    create: fn(PathBuf, PathBuf, &[Column]) -> Begun,
 }
 
 /// A table that has been begun.
@@ -92,14 +92,18 @@ impl Table {
     /// * `begin` – begins a file: its present and its final path
     pub(super) fn create(
         name: &str,
-        (usual, asked): (&[&str], &[&'static TableFormat]),
+        usual: &[&str],
+        asked: &[&'static TableFormat],
         columns: &[Column],
         begin: impl Fn(&str) -> Result<(PathBuf, PathBuf), Failure>,
     ) -> Result<Self, Failure> {
         let usual = FORMATS.iter().filter(|format| usual.contains(&format.name));
         let usual = usual.map(|format| (format, format!("{name}.{}", format.name)));
         let asked = asked.iter().map(|format| (*format, format!("{TABLES}/{name}.{}", format.name)));
-        let create = |(format, file): (&TableFormat, String)| (format.create)(begin(&file)?, columns);
+        let create = |(format, file): (&TableFormat, String)| {
+            let (now, later) = begin(&file)?;
+            (format.create)(now, later, columns)
+        };
         usual.chain(asked).map(create).collect::<Result<_, _>>().map(Self)
     }
 

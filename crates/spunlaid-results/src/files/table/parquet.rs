@@ -25,9 +25,9 @@ const VALUES: usize = 1 << 18;
 
 pub(super) const FORMAT: TableFormat = TableFormat {
     name: "parquet",
-    create: |place, columns| {
+    create: |now, later, columns| {
         let rows = VALUES.div_ceil(columns.len().max(1));
-        Parquet::create(place, columns, rows).map(|table| Box::new(table) as Box<dyn Rows>)
+        Parquet::create(now, later, columns, rows).map(|table| Box::new(table) as Box<dyn Rows>)
     },
 };
 
@@ -71,14 +71,14 @@ enum PendingValues {
 }
 
 impl Parquet {
-    /// * `now`, `later` – present and final path of the table
+    /// * `now`, `path` – present and final path of the table
     /// * `group` – number of rows in a group
     pub(crate) fn create(
-        (now, later): (PathBuf, PathBuf),
+        now: PathBuf,
+        path: PathBuf,
         columns: &[Column],
         group: usize,
     ) -> Result<Self, Failure> {
-        let path = later;
         let file = File::create(now).map_err(Failure::unwritable(&path))?;
         let field = |column: &Column| {
             let (physical, repetition) = match column.holds {

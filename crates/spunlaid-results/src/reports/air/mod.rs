@@ -69,8 +69,7 @@ impl Contents for AirFolder<'_> {
         let pictures = pictures(self.case, self.slices);
         let figures: Vec<&Figure> = field.iter().chain(&pictures).collect();
         let files = |staging: &Staging<'_>| files::write_vtk(staging, self.slices);
-        let report =
-            || Ok(air_report((self.case, &input), self.slices, [&field, &pictures], self.headline()));
-        maker.finish((self.name, self.notes), &figures, files, report)
+        let report = || Ok(air_report(self.case, &input, self.slices, [&field, &pictures], self.headline()));
+        maker.finish(self.name, self.notes, &figures, files, report)
     }
 }

@@ -10,11 +10,12 @@ use spunlaid_charts::Figure;
 
 /// The air of a case, in pictures.
 ///
-/// * `case` – and the same as a file
+/// * `toml` – the case as a file
 /// * `field` – how it lies around the line, if it is a CFD field
 /// * `headline` – how strong the eddies are
 pub fn air_report<'a>(
-    (case, toml): (&Case, &str),
+    case: &Case,
+    toml: &str,
     slices: &Slices,
     [field, pictures]: [&'a [Figure]; 2],
     headline: String,

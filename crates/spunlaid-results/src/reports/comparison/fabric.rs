@@ -58,7 +58,7 @@ fn both<T>(
         let values = known(declared.entry(), [a?, b?]);
         let unit = declared.unit.readable(values[0].value);
         let (label, column) = (format!("{}{of}", declared.label), format!("{}{ending}", declared.entry()));
-        Some(measure(label, column, (unit.shown, unit.per_si), values.map(Ok), None))
+        Some(measure(label, column, unit, values.map(Ok), None))
     };
     measures.iter().filter_map(in_common).collect()
 }

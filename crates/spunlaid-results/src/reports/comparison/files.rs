@@ -4,7 +4,7 @@ use crate::effects::difference_text;
 use crate::files::measured::{known, mean};
 use crate::numbers::plus_minus;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::{Difference, Estimate};
+use spunlaid::ground::{Difference, Estimate, Unit};
 
 /// Two runs, measure by measure.
 #[derive(Clone, Debug)]
@@ -40,10 +40,8 @@ pub struct ComparedMeasure {
     pub label: String,
     /// Its name in `comparison.json`.
     pub column: String,
-    /// The unit in which it is shown, and how many of it are in the SI unit.
-    pub unit: &'static str,
-    /// Factor from SI to the unit that is shown.
-    pub per_si: f64,
+    /// The unit in which it is shown.
+    pub unit: Unit,
     /// Of the run that is compared with, and of the other; NaN where one has none.
     pub means: [Estimate; 2],
     /// None where there are too few replicates for an error, or there is a doubt.
@@ -118,7 +116,7 @@ impl Comparison {
 impl ComparedMeasure {
     /// Both means, the difference with its sign, and the verdict, in the unit of the measure.
     pub fn cells(&self) -> [String; 4] {
-        let factor = self.per_si;
+        let factor = self.unit.per_si;
         let mean = |estimate: &Estimate| {
             plus_minus(estimate.mean * factor, estimate.standard_error.map(|error| error * factor))
         };

@@ -116,6 +116,6 @@ impl Contents for ComparedFolders {
             })
         };
         let report = || Ok(comparison_report(comparisons, figures, pictures.as_ref()));
-        maker.finish(("", notes), figures, files, report)
+        maker.finish("", notes, figures, files, report)
     }
 }

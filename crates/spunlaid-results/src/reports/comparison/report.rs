@@ -67,7 +67,8 @@ fn row(compared: &ComparedMeasure) -> Row {
     let is_sure = compared.difference.is_some_and(|difference| difference.is_significant());
     let tone = if is_sure { Tone::Plain } else { Tone::Faint };
     let [first, other, difference, verdict] = compared.cells();
-    let unit = if compared.unit.is_empty() { String::new() } else { format!(" ({})", compared.unit) };
+    let unit =
+        if compared.unit.shown.is_empty() { String::new() } else { format!(" ({})", compared.unit.shown) };
     let cells = [Cell::from(first), Cell::from(other), Cell::new(difference, tone), Cell::new(verdict, tone)];
     Row::new(format!("{}{unit}", compared.label), cells)
 }
@@ -108,5 +109,9 @@ fn clearest(comparison: &Comparison) -> Option<String> {
     let clear = |difference: &Difference| difference.value.abs() / difference.half_width();
     let (measure, _) = beyond.max_by(|a, b| clear(&a.1).total_cmp(&clear(&b.1)))?;
     let [.., difference, _] = measure.cells();
-    Some(format!(", most clearly “{}”: {difference} {}", measure.label, measure.unit).trim_end().to_owned())
+    Some(
+        format!(", most clearly “{}”: {difference} {}", measure.label, measure.unit.shown)
+            .trim_end()
+            .to_owned(),
+    )
 }

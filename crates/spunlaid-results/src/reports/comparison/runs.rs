@@ -37,8 +37,7 @@ fn compare_with(first: &ComparedRun, other: &ComparedRun) -> Comparison {
         means.iter().all(|values_of_run| values_of_run.mean.is_finite()).then(|| ComparedMeasure {
             label: measure.label.to_owned(),
             column: measure.column.to_owned(),
-            unit: measure.unit.shown,
-            per_si: measure.unit.per_si,
+            unit: measure.unit,
             means,
             difference,
             remark: None,

@@ -5,7 +5,7 @@ use crate::numbers::significant;
 use crate::reports::web::files::pieces::MapFile;
 use serde_json::Value as Json;
 use spunlaid::ground::statistics::difference_of_logarithms;
-use spunlaid::ground::{Difference, Estimate, NORMAL_95};
+use spunlaid::ground::{Difference, Estimate, NORMAL_95, Unit};
 use spunlaid::web::FEWEST;
 use spunlaid::web::scan::ScanWarning;
 use std::path::{Path, PathBuf};
@@ -210,12 +210,11 @@ impl WebNumber {
 
 /// A number of two webs, or why one has none.
 ///
-/// * `unit` – and the factor to it from SI
 /// * `objection` – why nothing is said of such numbers
 pub(super) fn measure(
     label: String,
     column: String,
-    (unit, per_si): (&'static str, f64),
+    unit: Unit,
     values: [Result<WebNumber, String>; 2],
     objection: Option<String>,
 ) -> ComparedMeasure {
@@ -245,7 +244,8 @@ pub(super) fn measure(
     let remark = match (&values, &difference) {
         ([Ok(a), Ok(b)], Some(difference)) if !difference.is_significant() => {
             let up = b.value > a.value;
-            let far = [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, per_si));
+            let far =
+                [(a, up), (b, !up)].into_iter().filter_map(|(number, up)| far_end(number, up, unit.per_si));
             far.reduce(|a, b| format!("{a}; {b}"))
         }
         _ => None,
@@ -255,7 +255,7 @@ pub(super) fn measure(
             number.map_or((f64::NAN, None), |number| (number.value, number.standard_error));
         Estimate { mean, standard_error, values: Vec::new() }
     });
-    ComparedMeasure { label, column, unit, per_si, means, difference, remark, doubt }
+    ComparedMeasure { label, column, unit, means, difference, remark, doubt }
 }
 
 /// That the interval of a number reaches far further to one side than its standard error reports.

@@ -11,7 +11,7 @@ use crate::Failure;
 use crate::numbers::significant;
 use crate::reports::finished::read_summary;
 use crate::reports::web::figures::clouds::SEEN;
-use spunlaid::ground::{Error, Fault};
+use spunlaid::ground::{Error, Fault, PERCENT, RATIO};
 use spunlaid::web::scan::shortest_sharp_wave;
 use std::path::PathBuf;
 
@@ -74,7 +74,7 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     let of_patch = |side: f64, [whose, end]: [&str; 2], values: [Result<WebNumber, String>; 2]| {
         let side = significant(side * 1e3, 3);
         let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
-        measure(label, column, ("%", 100.0), values, None)
+        measure(label, column, PERCENT, values, None)
     };
     let mut sides: Vec<f64> = first.sides().collect();
     sides.extend(other.sides().filter(|side| !has(first, *side)));
@@ -82,8 +82,8 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     let of_map = |side: f64| of_patch(side, ["CV", ""], [first.cv(side), other.cv(side)]);
     let mut measures: Vec<ComparedMeasure> = sides.into_iter().map(of_map).collect();
     let of_clouds = [
-        ("cloudiness index", "cloudiness", ("%", 100.0), blur_objection([first, other])),
-        ("texture along MD", "texture_md", ("", 1.0), wave_mismatch(first, other)),
+        ("cloudiness index", "cloudiness", PERCENT, blur_objection([first, other])),
+        ("texture along MD", "texture_md", RATIO, wave_mismatch(first, other)),
     ];
     for (i, (label, column, unit, objection)) in of_clouds.into_iter().enumerate() {
         if let (Some(a), Some(b)) = (first.clouds[i].clone(), other.clouds[i].clone()) {
@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn the_ends_that_face_each_other_decide_and_a_doubt_leaves_no_verdict() {
         let compared =
-            |values: [WebNumber; 2]| measure(String::new(), String::new(), ("", 1.0), values.map(Ok), None);
+            |values: [WebNumber; 2]| measure(String::new(), String::new(), RATIO, values.map(Ok), None);
         // Upwards the first reaches 13, downwards the second 11.1; the logarithms have this distance together.
         let [a, b] = [number(10.0, Some([9.9, 13.0])), number(15.1, Some([11.1, 30.0]))];
         let far = (13.0_f64 / 10.0).ln().hypot((15.1_f64 / 11.1).ln());
@@ -175,7 +175,7 @@ mod tests {
                     doubt: None,
                 };
                 let values = [power_of(&first), power_of(&second)];
-                measure(String::new(), String::new(), ("%", 1.0), values.map(Ok), None)
+                measure(String::new(), String::new(), RATIO, values.map(Ok), None)
             };
             let distance = |power: i32| {
                 let difference = of(power).difference.unwrap();

@@ -139,9 +139,10 @@ impl Contents for FoundFit<'_> {
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let (Self { input, fit, spec }, FitInput { name, paths, target, .. }) = (self, self.input);
+        let Self { input, fit, spec } = self;
+        let FitInput { name, paths, target, .. } = input;
         let (text, figures) = (maker.keep(Input::Web(spec))?, fit_figures(fit));
-        let report = || Ok(fit_report(fit, (&paths[1], target), (spec, &text), &figures));
-        maker.finish((name, &input.notes()), &figures, |staging| write_trials(staging, fit), report)
+        let report = || Ok(fit_report(fit, &paths[1], target, spec, &text, &figures));
+        maker.finish(name, &input.notes(), &figures, |staging| write_trials(staging, fit), report)
     }
 }

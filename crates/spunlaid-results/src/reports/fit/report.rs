@@ -12,12 +12,16 @@ use spunlaid_charts::Figure;
 
 /// Values of a web that make it like a scan.
 ///
-/// * `scan` – its results folder, and what of it was compared
-/// * `spec` – the web with the values that were found, and as a file
+/// * `scan` – its results folder
+/// * `target` – what of the scan was compared
+/// * `spec` – the web with the values that were found
+/// * `toml` – this web as a file
 pub fn fit_report<'a>(
     fit: &Fit,
-    (scan, target): (&str, &Target),
-    (spec, toml): (&WebSpec, &str),
+    scan: &str,
+    target: &Target,
+    spec: &WebSpec,
+    toml: &str,
     figures: &'a [Figure],
 ) -> Report<'a> {
     let title = title(fit);

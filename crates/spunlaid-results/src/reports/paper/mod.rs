@@ -44,7 +44,7 @@ impl Contents for PaperFolder<'_> {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let input = maker.keep(Input::Case(self.case))?;
         let report = || Ok(self.report(&input));
-        maker.finish(("Battocchio, Sutcliffe & Teschner 2015", &[]), self.figures, |_| Ok(()), report)
+        maker.finish("Battocchio, Sutcliffe & Teschner 2015", &[], self.figures, |_| Ok(()), report)
     }
 }
 

@@ -47,6 +47,6 @@ impl Contents for RecordFolder<'_> {
             staging.write("air.toml", &air)
         };
         let report = || Ok(analysis_report(record, analysis, &figures, remarks, &air));
-        maker.finish((name, &warnings), &figures, files, report)
+        maker.finish(name, &warnings, &figures, files, report)
     }
 }

@@ -45,7 +45,7 @@ pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String>
         )
     });
     let open = not_converged(measure, checks);
-    open.map(|off| format!("not converged: {}", compared_with_finest(&off))).or(silent)
+    open.map(|off| format!("not converged: {}", compared_with_finest(off.0, &off.1))).or(silent)
 }
 
 /// Length of the finest elements [m], and what they change.
@@ -54,12 +54,12 @@ fn finest(check: &FinerCheck, change: &Change) -> (f64, Estimate) {
 }
 
 /// `44 % lower than with elements of 12.5 mm`.
-pub(super) fn compared_with_finest((length, change): &(f64, Estimate)) -> String {
+pub(super) fn compared_with_finest(length: f64, change: &Estimate) -> String {
     format!(
         "{} % {} than with elements of {}",
         significant(100.0 * change.mean.abs(), 2),
         if change.mean < 0.0 { "lower" } else { "higher" },
-        Dimension::Length.pretty_to(*length, 3)
+        Dimension::Length.pretty_to(length, 3)
     )
 }
 
@@ -157,7 +157,8 @@ fn unsettled(checks: &FinerChecks) -> Option<String> {
     let check = checks.mesh.as_ref().ok()?;
     let each: Vec<String> = beyond(check, false)
         .map(|change| {
-            let off = compared_with_finest(&finest(check, change));
+            let (length, off) = finest(check, change);
+            let off = compared_with_finest(length, &off);
             format!("the {} is {off}", change.statistic.label.to_lowercase())
         })
         .collect();

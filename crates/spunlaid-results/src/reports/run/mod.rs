@@ -62,6 +62,17 @@ pub struct SimulatedRun {
     pub kept: Option<FlightRecords>,
 }
 
+/// The replicates of a run that have landed.
+#[derive(Debug)]
+pub struct LandedRun {
+    /// Their results.
+    pub results: Results,
+    /// Their number.
+    pub replicates: u64,
+    /// Whether these are all replicates of the case.
+    pub is_whole: bool,
+}
+
 /// Flies all replicates. If there is a results folder, the tables are written during the flights, and flights
 /// are kept for a process that goes on where this one is interrupted. A fibre that is lost is in
 /// [`Results::lost`], and in no table.
@@ -154,16 +165,17 @@ impl RunFolder {
     /// landed.
     ///
     /// * `notes` – about the case
-    /// * `simulated` – the results, the number of replicates, and whether these are all
     /// * `started` – when the flights began
     pub fn new(
         name: String,
-        (mut case, notes): (Arc<Case>, &[Diagnostic]),
-        (results, replicates, is_whole): (Results, u64, bool),
+        mut case: Arc<Case>,
+        notes: &[Diagnostic],
+        landed: LandedRun,
         plans: &FinerPlans,
         started: Instant,
         by: RunContext<'_>,
     ) -> Self {
+        let LandedRun { results, replicates, is_whole } = landed;
         let mut notes = Diagnostic::notes_of_results(notes);
         let checks = if is_whole { plans.before_flight() } else { plans.stopped() };
         if !is_whole {
@@ -218,11 +230,10 @@ impl Contents for RunFolder {
         };
         let report = || {
             let drawn = drawn.as_ref().map(|(solved, figures)| (*solved, &figures[..]));
-            let report =
-                run_report((case, &input), (results, &self.checks), figures, drawn, self.performance)?;
+            let report = run_report(case, &input, results, &self.checks, figures, drawn, self.performance)?;
             Ok(report.named(&self.name).noting(&self.all_notes()))
         };
-        maker.finish((&self.name, &self.all_notes()), &all, files, report)
+        maker.finish(&self.name, &self.all_notes(), &all, files, report)
     }
 }
 

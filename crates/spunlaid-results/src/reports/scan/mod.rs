@@ -46,7 +46,7 @@ impl Contents for ScanFolder {
     const ENTRIES: &'static [&'static str] = WebFolder::ENTRIES;
 
     fn summary(&self) -> String {
-        summary_of_scan(&self.file, (&self.findings, &self.fabric), self.performance, &self.notes)
+        summary_of_scan(&self.file, &self.findings, &self.fabric, self.performance, &self.notes)
     }
 
     fn found(&self) -> &[String] {
@@ -54,11 +54,11 @@ impl Contents for ScanFolder {
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let found = (&self.findings, &self.fabric);
         let figures = scan_figures(&self.findings);
-        let report = || scan_report(&self.file, found, &figures, self.performance);
+        let report = || scan_report(&self.file, &self.findings, &self.fabric, &figures, self.performance);
         maker.finish(
-            (&self.name, &self.notes),
+            &self.name,
+            &self.notes,
             &figures,
             |staging| write_scan(staging, &self.findings.map),
             report,

@@ -31,13 +31,15 @@ use std::borrow::Cow;
 /// A scanned web.
 ///
 /// * `file` – its path
-/// * `findings` – of it, with what is reported of its fabric
+/// * `findings` – of it
+/// * `fabric` – what is reported of its fabric
 ///
 /// # Errors
 /// The picture cannot be drawn.
 pub fn scan_report<'a>(
     file: &str,
-    (findings, fabric): (&Findings, &Fabric),
+    findings: &Findings,
+    fabric: &Fabric,
     figures: &'a [Figure],
     performance: Performance,
 ) -> Result<Report<'a>, Failure> {
@@ -172,10 +174,10 @@ fn streaks(findings: &Findings) -> Section<'static> {
     ));
     let [place, measures @ ..] = SCAN_STREAK_MEASURES else { return section };
     let rows: Vec<_> = search.streaks.iter().map(|streak| (of_fabric(place, streak), streak)).collect();
-    let section = compare(section, ("Streaks", place.label), measures, &rows);
+    let section = compare(section, "Streaks", place.label, measures, &rows);
     let [period, measures @ ..] = SCAN_PERIOD_MEASURES else { return section };
     let rows: Vec<_> = search.periods.iter().map(|wave| (of_fabric(period, wave), wave)).collect();
-    compare(section, ("Periods", period.label), measures, &rows).caption(ABOUT_STREAKS)
+    compare(section, "Periods", period.label, measures, &rows).caption(ABOUT_STREAKS)
 }
 
 /// Whether basis weights were read, which no camera has blurred.

@@ -35,10 +35,14 @@ pub struct SourcesFolder<'a> {
 
 impl<'a> SourcesFolder<'a> {
     /// * `name` – what the line is called: the name of its file
-    /// * `input` – what it is from, the case that was simulated, and notes about both
+    /// * `input` – what it is from
+    /// * `case` – that was simulated
+    /// * `notes` – about both
     pub fn new(
         name: String,
-        (input, case, notes): (Input<'a>, &'a Case, &[Diagnostic]),
+        input: Input<'a>,
+        case: &'a Case,
+        notes: &[Diagnostic],
         sources: Sources,
     ) -> Self {
         let lost = lost(&sources.lost, case.run.replicates);
@@ -70,7 +74,7 @@ impl Contents for SourcesFolder<'_> {
             sources::vtk::write_vtk(staging, self.case, &self.sources)?;
             write_openfoam(staging, self.case, &self.sources)
         };
-        let report = || Ok(sources_report((self.case, &input), &self.sources));
-        maker.finish((&self.name, &self.notes), &[] as &[Figure], files, report)
+        let report = || Ok(sources_report(self.case, &input, &self.sources));
+        maker.finish(&self.name, &self.notes, &[] as &[Figure], files, report)
     }
 }

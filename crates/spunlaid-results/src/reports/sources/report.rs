@@ -12,8 +12,8 @@ use spunlaid::simulation::Sources;
 
 /// What filaments do to the cells of their field.
 ///
-/// * `case` – and what it is from, as a file
-pub fn sources_report<'a>((case, toml): (&Case, &str), sources: &Sources) -> Report<'a> {
+/// * `toml` – what the case is from, as a file
+pub fn sources_report<'a>(case: &Case, toml: &str, sources: &Sources) -> Report<'a> {
     let force = |estimate: &Estimate| format!("{}{THIN}N/m", estimate_text(estimate, 1.0));
     let power = |estimate: &Estimate| format!("{}{THIN}kW/m", estimate_text(estimate, 1e-3));
     let celsius = |estimate: &Estimate| {

@@ -75,6 +75,6 @@ impl Contents for SpinFolder {
         figures.extend(rows.first().iter().flat_map(|row| drag_laws::of_files(&drag, row.final_diameter)));
         let report = || Ok(spinline_report(&self.file.spec, &self.results, &figures, &input));
         let files = |staging: &Staging<'_>| write_stations(staging, &[(1, rows)]);
-        maker.finish((&self.name, &self.notes()), &figures, files, report)
+        maker.finish(&self.name, &self.notes(), &figures, files, report)
     }
 }

@@ -183,15 +183,19 @@ impl Contents for FoundStudy<'_> {
     }
 
     fn write_summary(&self, to: &mut dyn Write) -> io::Result<()> {
-        write_json(to, &self.file.study, &self.results, (&self.rankings, &self.claims))
+        write_json(to, &self.file.study, &self.results, &self.rankings, &self.claims)
     }
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
-        let (StudyFile { study, text, base_text, notes, .. }, refusal) = (self.file, self.refusal());
+        let StudyFile { study, text, base_text, notes, .. } = self.file;
+        let refusal = self.refusal();
         let figures = study_figures(study, &self.results, &self.rankings.of_measures);
-        let judged = (&self.rankings.of_measures[..], refusal.as_deref(), &self.claims[..]);
-        let report = || Ok(study_report(study, &self.results, judged, &figures, [text, base_text]));
-        maker.finish((&self.name, &StudyNote::notes_of_results(notes)), &figures, |_| Ok(()), report)
+        let (rankings, claims) = (&self.rankings.of_measures[..], &self.claims[..]);
+        let report = || {
+            let refusal = refusal.as_deref();
+            Ok(study_report(study, &self.results, rankings, refusal, claims, &figures, [text, base_text]))
+        };
+        maker.finish(&self.name, &StudyNote::notes_of_results(notes), &figures, |_| Ok(()), report)
     }
 }
 

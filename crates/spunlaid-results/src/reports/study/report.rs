@@ -21,12 +21,16 @@ const IN_SHORT: [&str; 4] = ["cv", "basis_weight", "md_cd_ratio", "thin_places"]
 /// A study.
 ///
 /// * `results` – of every point
-/// * `rankings`, `claims` – main effects; empty if the study cannot give them, and why; and claims, judged
+/// * `rankings` – main effects; empty if the study does not give them
+/// * `refusal` – why it does not
+/// * `claims` – with their verdicts
 /// * `texts` – the study as a file, and the case or web that it varies
 pub fn study_report<'a>(
     study: &Study,
     results: &[PointResults],
-    (rankings, refusal, claims): (&[Ranking], Option<&str>, &[Claim]),
+    rankings: &[Ranking],
+    refusal: Option<&str>,
+    claims: &[Claim],
     figures: &'a [Figure],
     texts: [&str; 2],
 ) -> Report<'a> {
@@ -63,7 +67,7 @@ fn ranking(study: &Study, rankings: &[Ranking], refusal: Option<&str>) -> Option
     let mut quantities = shown::quantities(study);
     quantities.retain(|quantity| ranking_of(rankings, *quantity).is_some());
     let row = |effect: &Effect<Contrast>| {
-        let cells = quantities.iter().map(|quantity| cell((study, rankings), *quantity, effect.of));
+        let cells = quantities.iter().map(|quantity| cell(study, rankings, *quantity, effect.of));
         let [from, to] = ends(study, effect.of);
         let range = match is_of_words(study, effect.of) {
             false => format!("{from} to {to}"),
@@ -342,7 +346,7 @@ fn ranking_of(rankings: &[Ranking], quantity: usize) -> Option<&Ranking> {
     rankings.iter().find(|ranking| ranking.measure == quantity)
 }
 
-fn cell((study, rankings): (&Study, &[Ranking]), quantity: usize, of: Contrast) -> Cell {
+fn cell(study: &Study, rankings: &[Ranking], quantity: usize, of: Contrast) -> Cell {
     let effect = ranking_of(rankings, quantity).and_then(|ranking| ranking.of(of));
     let difference = effect.map(|effect| &effect.difference);
     effect_cell(difference, "–", |difference| change(&study.quantities[quantity], difference))

@@ -21,9 +21,9 @@ use crate::reports::spinline::figures::{SPINLINE, spinline_figures};
 use crate::reports::spinline::files::{STATIONS, SpinResults, part_of_case, write_stations};
 use figures::effects::effects_figure;
 use figures::web_figures;
+use files::effects::Advised;
 use files::picture::Pictures;
 use files::summary::LayerSummary;
-use report::effects::Advised;
 use report::spinlines::LayerSpinline;
 use report::web_report;
 use spunlaid::experiment::Advice;
@@ -70,9 +70,11 @@ pub struct WebFolder {
 impl WebFolder {
     /// A web of which nothing has been tried.
     ///
+    /// * `beside` – the folder of the web, next to which the folders of changed webs are
     /// * `started` – when it began to be laid
     pub fn new(
-        (name, beside): (String, String),
+        name: String,
+        beside: String,
         file: WebFile,
         simulated: FlownWeb,
         findings: Findings,
@@ -98,12 +100,18 @@ impl WebFolder {
         }
     }
 
+    /// What was tried with it.
+    fn advised(&self) -> Advised<'_> {
+        let (advice, assumed_values) = (self.advice.as_ref(), self.assumed_values.as_ref());
+        Advised { advice, assumed_values, awaited: self.awaited, beside: &self.beside }
+    }
+
     /// The specification sheet, one page of PDF.
     ///
     /// # Errors
     /// If it cannot be drawn.
     pub fn specification(&self) -> Result<Vec<u8>, Failure> {
-        files::sheet::specification_sheet(&self.name, (&self.findings, &self.fabric), &self.notes.concat())
+        files::sheet::specification_sheet(&self.name, &self.findings, &self.fabric, &self.notes.concat())
     }
 }
 
@@ -129,11 +137,11 @@ impl Contents for WebFolder {
     fn summary(&self) -> String {
         let web = &self.simulated.web;
         let rows = rows(&self.file.spec, web);
-        let tried = (self.advice.as_ref(), self.assumed_values.as_ref(), &*self.beside);
         files::summary::summary_of_web(
             web,
-            (&self.findings, &self.fabric),
-            tried,
+            &self.findings,
+            &self.fabric,
+            self.advised(),
             &rows,
             self.performance,
             &self.notes.concat(),
@@ -146,15 +154,14 @@ impl Contents for WebFolder {
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let Self { simulated: FlownWeb { web, .. }, findings, .. } = self;
-        let (spec, advice, assumed_values) =
-            (&self.file.spec, self.advice.as_ref(), self.assumed_values.as_ref());
+        let spec = &self.file.spec;
         let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
         let by = RunContext { threads, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
         let strands = match findings.laid.simulated.is_empty() {
             true => strands(web, spec.window(), by)?,
             false => findings.laid.strands(),
         };
-        let tried = [advice, assumed_values].into_iter().flatten();
+        let tried = self.advice.iter().chain(&self.assumed_values);
         let effects = tried.filter_map(|tried| effects_figure(spec, tried));
         let field = spec.cases().find_map(|case| field_figure(case, None));
         let figures: Vec<Figure> =
@@ -176,18 +183,8 @@ impl Contents for WebFolder {
             staging.write("figures/web_picture.png", slide)?;
             files::map::write(staging, &findings.laid.map)
         };
-        let report = || {
-            web_report(
-                (spec, &input, web),
-                (findings, &self.fabric),
-                Advised { advice, assumed_values, awaited: self.awaited, beside: &self.beside },
-                (&rows(spec, web), &spinlines),
-                (&pictures, &strands),
-                &figures,
-                self.performance,
-            )
-        };
-        maker.finish((&self.name, &self.notes.concat()), &all, files, report)
+        let report = || web_report(self, &input, &rows(spec, web), &spinlines, &pictures, &strands, &figures);
+        maker.finish(&self.name, &self.notes.concat(), &all, files, report)
     }
 }
 

@@ -67,7 +67,7 @@ fn fly_until_lost(
         } else {
             let (snapshot, relative) = see(&mut flight, step);
             for (lane, (watch, balance)) in watches.iter_mut().zip(&balances).enumerate() {
-                watch.see((&snapshot, &relative), lane, fitting, balance);
+                watch.see(&snapshot, &relative, lane, fitting, balance);
             }
             let nodes = NodeStates::of(&snapshot, tension_lag(&flight), |lane| lane < jobs.len());
             MomentumBalance::see(&mut balances, &nodes);
@@ -129,7 +129,8 @@ impl Watch {
     /// The fibre at an instant is taken for the way of each of its elements.                     theory.md (121)
     fn see(
         &mut self,
-        (snapshot, relative): (&Snapshot, &[Vec3<Lanes>]),
+        snapshot: &Snapshot,
+        relative: &[Vec3<Lanes>],
         lane: usize,
         fitting: &Fitting<'_>,
         balance: &MomentumBalance,

@@ -112,7 +112,7 @@ impl DepositionGrid {
     /// * `quanta` – of a piece, by its last point
     pub fn draw(&self, curve: &[[f64; 2]], longest: f64, quanta: impl Fn([f64; 2]) -> u32) {
         let mut part = CanvasPart::new(self);
-        part.draw_curve((curve, longest), quanta, true);
+        part.draw_curve(curve, longest, quanta, true);
         part.pass_on();
     }
 
@@ -120,7 +120,7 @@ impl DepositionGrid {
     pub(crate) fn draw_alone(&mut self, curve: &[[f64; 2]], longest: f64, quanta: u32) {
         let cells = std::mem::take(&mut lock(&self.sums).cells);
         let mut part = CanvasPart { size: self.size, cells, ..CanvasPart::new(self) };
-        part.draw_curve((curve, longest), |_| quanta, false);
+        part.draw_curve(curve, longest, |_| quanta, false);
         let CanvasPart { cells, mut far, is_full, .. } = part;
         let mut sums = lock(&self.sums);
         sums.cells = cells;
@@ -226,7 +226,8 @@ impl<'a> CanvasPart<'a> {
     /// * `moves` – whether the part moves with it
     fn draw_curve(
         &mut self,
-        (mut curve, longest): (&[[f64; 2]], f64),
+        mut curve: &[[f64; 2]],
+        longest: f64,
         quanta: impl Fn([f64; 2]) -> u32,
         moves: bool,
     ) {

@@ -53,9 +53,9 @@ impl Task for Draw<'_, '_> {
             let (at, by) = ([column + cd, row + md], [next_cd - cd, next_md - md - advance]);
             let longest = by[0].abs().max(by[1].abs());
             if !pens.is_bounded && longest.any_above(pens.parts as f64) {
-                ink.draw_each((at, by), longest.store(), pens, part);
+                ink.draw_each(at, by, longest.store(), pens, part);
             } else {
-                ink.draw((at, by), &pieces, part);
+                ink.draw(at, by, &pieces, part);
             }
             row -= advance;
         }
@@ -162,7 +162,8 @@ impl<S: Register> Ink<S> {
     #[inline(always)]
     fn draw_each(
         &mut self,
-        ends: ([Wide<S>; 2], [Wide<S>; 2]),
+        at: [Wide<S>; 2],
+        by: [Wide<S>; 2],
         longest: Lanes,
         pens: &LaneDepositors,
         part: &mut CanvasPart<'_>,
@@ -171,19 +172,14 @@ impl<S: Register> Ink<S> {
             let quanta = Lanes::from_fn(|lane| if lane == i { pens.quanta.0[i] } else { 0.0 });
             self.finish(part);
             let parts = pens.parts.max(longest.0[i].ceil() as usize);
-            self.draw(ends, &Pieces::new(Wide::load(&quanta), parts), part);
+            self.draw(at, by, &Pieces::new(Wide::load(&quanta), parts), part);
         }
         self.finish(part);
     }
 
     /// Draws a piece of each curve.
     #[inline(always)]
-    fn draw(
-        &mut self,
-        (mut at, by): ([Wide<S>; 2], [Wide<S>; 2]),
-        of: &Pieces<S>,
-        part: &mut CanvasPart<'_>,
-    ) {
+    fn draw(&mut self, mut at: [Wide<S>; 2], by: [Wide<S>; 2], of: &Pieces<S>, part: &mut CanvasPart<'_>) {
         let by = [by[0] * of.share, by[1] * of.share];
         // Nothing that starts so far inside ends outside.
         let parts = of.parts as f64;
@@ -196,7 +192,7 @@ impl<S: Register> Ink<S> {
         for i in 1..=of.parts {
             let quanta = if i < of.parts { of.each } else { of.last };
             let from = [at[0], self.wrapped(at[1])];
-            self.draw_part((from, by), quanta, is_far, part);
+            self.draw_part(from, by, quanta, is_far, part);
             at = [at[0] + by[0], at[1] + by[1]];
         }
     }
@@ -205,7 +201,8 @@ impl<S: Register> Ink<S> {
     #[inline(always)]
     fn draw_part(
         &mut self,
-        (at, by): ([Wide<S>; 2], [Wide<S>; 2]),
+        at: [Wide<S>; 2],
+        by: [Wide<S>; 2],
         all: Wide<S>,
         is_far: bool,
         part: &mut CanvasPart<'_>,

@@ -176,7 +176,7 @@ impl Subsample<'_> {
             // The error falls faster than the pitch.
             let by_pitch = (0.5 * off).hypot(by_places).hypot(small);
             let by_filling =
-                filled.and_then(|filled| self.by_filling(filled, (*patch, all.cv, whole[1]), &at_random));
+                filled.and_then(|filled| self.by_filling(filled, *patch, all.cv, whole[1], &at_random));
             let of_filled = filled.and_then(|filled| patch_cv(&filled.of_all, self.side(*patch)));
             let of_places = if self.arrangement == Arrangement::AtRandom { whole[1] } else { 0.0 };
             if let Some((mut by_filling, of_filled)) = by_filling {
@@ -226,7 +226,9 @@ impl Subsample<'_> {
     fn by_filling(
         &self,
         filled: &FilledMaps,
-        (patch, few, slot): (f64, f64, f64),
+        patch: f64,
+        few: f64,
+        slot: f64,
         at_random: &dyn Fn(f64) -> f64,
     ) -> Option<(SubsampleCv, Vec<f64>)> {
         if !filled.patches.contains(&patch) {

@@ -62,7 +62,8 @@ fn spread(i: usize, from: f64, block: f64, distance: f64) -> (f64, [f64; 3]) {
 fn correlations(
     field: &mut EddyField,
     distance: f64,
-    (blocks, places): (usize, usize),
+    blocks: usize,
+    places: usize,
     apart: &[(f64, [f64; 3])],
 ) -> Vec<[[f64; 3]; 3]> {
     let block = field.plan.repeat_time;

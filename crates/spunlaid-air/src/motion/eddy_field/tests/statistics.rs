@@ -20,7 +20,7 @@ fn analytic_the_correlation_across_is_von_karmans_frequency_by_frequency() {
         |axis: usize, r: f64| (0.0, std::array::from_fn(|k| if k == axis { r * LENGTH } else { 0.0 }));
     let apart: Vec<_> = distances.iter().flat_map(|(r, _)| [along(1, *r), along(2, *r)]).collect();
     let mut field = frozen(SpectrumShape::Flat, CUTOFF);
-    let found = correlations(&mut field, 0.5, (24, 20_000), &apart);
+    let found = correlations(&mut field, 0.5, 24, 20_000, &apart);
     for ((r, error), found) in distances.iter().zip(found.chunks_exact(2)) {
         let mut mean = [0.0; 3];
         for i in 0..200 {
@@ -64,7 +64,7 @@ fn analytic_with_von_karmans_spectra_the_field_is_isotropic_turbulence() {
     let distances = [0.5 * LENGTH, LENGTH];
     let places = distances.iter().flat_map(|r| directions.map(|unit| (*r, unit)));
     let apart: Vec<_> = places.clone().map(|(r, unit)| (0.0, unit.map(|part| r * part))).collect();
-    let found = correlations(&mut field, 0.5, (100, 2000), &apart);
+    let found = correlations(&mut field, 0.5, 100, 2000, &apart);
     for (((r, unit), (_, apart)), found) in places.zip(apart).zip(found) {
         let expected = over_spectra(HIGHEST, 60, |frequency| cross_spectra(frequency, apart));
         let [g, f] = von_karman(r);
@@ -176,7 +176,7 @@ fn analytic_a_pattern_that_ages_is_forgotten_exponentially() {
     let generations = [2, 6, 12];
     let lags = generations.map(|count| f64::from(count) * ageing);
     let apart: Vec<_> = lags.iter().map(|age| (age * decay, [age * decay * SPEED, 0.0, 0.0])).collect();
-    let found = correlations(&mut field, 0.2, (12, 10_000), &apart);
+    let found = correlations(&mut field, 0.2, 12, 10_000, &apart);
     for ((count, age), found) in generations.iter().zip(lags).zip(found) {
         let expected =
             shares().map(|share| between_generations(walk, [share; 2], *count) / 60.0).sum::<f64>();

@@ -26,16 +26,19 @@ use words::{case as words_of_case, headline, mesh};
 
 /// A run. The page has less than 6 MB.
 ///
-/// * `case` – and the resolved case as a case file
-/// * `results` – with the trajectories that are to be seen moving, and what finer steps and elements change
+/// * `toml` – the resolved case as a case file
+/// * `results` – with the trajectories that are to be seen moving
+/// * `checks` – what finer steps and elements change
 /// * `figures` – see [`super::figures::run_figures`]
 /// * `spinline` – from which the fibre is fed, with its figures
 ///
 /// # Errors
 /// The file of the shapes cannot be read.
 pub fn run_report<'a>(
-    (case, toml): (&Case, &str),
-    (results, checks): (&Results, &FinerChecks),
+    case: &Case,
+    toml: &str,
+    results: &Results,
+    checks: &FinerChecks,
     figures: &'a [Figure],
     spinline: Option<(&SpinResults, &'a [Figure])>,
     performance: Performance,

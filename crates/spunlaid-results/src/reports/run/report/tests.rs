@@ -30,7 +30,7 @@ const MOST: usize = 6_000_000;
 fn page(case: &Case, results: &Results, name: &str, notes: &[String], case_toml: &str) -> String {
     let figures = run_figures(case, results, &sample::turbulence());
     let checks = FinerChecks::none(Unchecked::TooShort);
-    let report = run_report((case, case_toml), (results, &checks), &figures, None, PERFORMANCE);
+    let report = run_report(case, case_toml, results, &checks, &figures, None, PERFORMANCE);
     report.expect("shapes in memory").named(name).noting(notes).html()
 }
 
@@ -297,7 +297,7 @@ fn the_report_of_a_run_shows_its_spinline() {
     let shown = |case: &Case| {
         let checks = FinerChecks::none(Unchecked::TooShort);
         let spinline = Some((&results, &figures[..]));
-        run_report((case, ""), (&simulated, &checks), &[], spinline, PERFORMANCE).unwrap().html()
+        run_report(case, "", &simulated, &checks, &[], spinline, PERFORMANCE).unwrap().html()
     };
     let page = shown(&case);
     check_well_formed(&page);

@@ -437,7 +437,8 @@ impl<'a> Tables<'a> {
     pub fn create(staging: &Staging<'_>, flights: &'a FlightRecords) -> Result<Self, Failure> {
         let create = |name: &str, columns: Vec<&str>| {
             let all = [whole("replicate")].into_iter().chain(columns.into_iter().map(number));
-            Parquet::create(staging.place(name), &all.collect::<Vec<_>>(), ROWS)
+            let (now, later) = staging.place(name);
+            Parquet::create(now, later, &all.collect::<Vec<_>>(), ROWS)
         };
         let samples = tables(flights.fed).into_iter().map(|(name, columns)| {
             let table = create(name, columns.iter().map(|(name, _)| *name).collect())?;

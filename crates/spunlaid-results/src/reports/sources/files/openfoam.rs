@@ -60,7 +60,7 @@ fn vectors(name: &str, cells: &[CellSource], value: impl Fn(&CellSource) -> [f64
         let [x, y, z] = value(cell);
         format!("({x:e} {y:e} {z:e})")
     };
-    field(("volVectorField", "vector", name), OF_FORCE, cells, value)
+    field("volVectorField", "vector", name, OF_FORCE, cells, value)
 }
 
 fn scalars(
@@ -69,12 +69,14 @@ fn scalars(
     cells: &[CellSource],
     value: impl Fn(&CellSource) -> f64,
 ) -> String {
-    field(("volScalarField", "scalar", name), dimensions, cells, |cell| format!("{:e}", value(cell)))
+    field("volScalarField", "scalar", name, dimensions, cells, |cell| format!("{:e}", value(cell)))
 }
 
 /// The text of a field. Patches with a constraint keep their own kind, and the others have no source on them.
 fn field(
-    (class, of, name): (&str, &str, &str),
+    class: &str,
+    of: &str,
+    name: &str,
     [mass, length, time, temperature]: [i32; 4],
     cells: &[CellSource],
     value: impl Fn(&CellSource) -> String,

@@ -78,7 +78,8 @@ fn over_factor(
     let mut chart = Chart::new(&name, &title, along.axis.clone(), group.axis());
     for (position, (measure, _)) in group.members.iter().enumerate() {
         let shift = along.aside(position, group.members.len());
-        let spots = spots(study, results, group, *measure, (factor, &along, shift), points);
+        let x = |point: usize| along.place(study.points[point].values[factor]) + shift;
+        let spots = spots(results, group, *measure, points, x);
         let series = series(group, position);
         chart = if along.is_joined() { joined(chart, series, &spots) } else { chart.scatter(series, &spots) };
     }
@@ -111,7 +112,8 @@ pub(super) fn family(
                 .named(&format!("{called} at {label}"));
             let series_count = levels.len() * group.members.len();
             let shift = place.aside(index * group.members.len() + position, series_count);
-            let spots = spots(study, results, group, *measure, (along, &place, shift), &points);
+            let x = |point: usize| place.place(study.points[point].values[along]) + shift;
+            let spots = spots(results, group, *measure, &points, x);
             if !place.is_joined() {
                 let series = if position == 0 { series } else { series.unlabelled() };
                 chart = chart.scatter(series, &spots);
@@ -141,17 +143,19 @@ pub(super) fn family(
     Figure::new(&chart, caption)
 }
 
+/// The values of a measure at some points of a study, from left to right.
+///
+/// * `x` – the abscissa of a point
 fn spots(
-    study: &Study,
     results: &[PointResults],
     group: &QuantityGroup,
     measure: usize,
-    (factor, along, aside): (usize, &FactorAxis, f64),
     points: &[usize],
+    x: impl Fn(usize) -> f64,
 ) -> Vec<Spot> {
     let spot = |point: &usize| {
         let (value, error) = group.value(&results[*point], measure);
-        (along.place(study.points[*point].values[factor]) + aside, value, error)
+        (x(*point), value, error)
     };
     let mut spots: Vec<Spot> = points.iter().map(spot).collect();
     spots.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -16,7 +16,8 @@ pub fn write_json(
     out: &mut dyn Write,
     study: &Study,
     results: &[PointResults],
-    (rankings, claims): (&Rankings, &[Claim]),
+    rankings: &Rankings,
+    claims: &[Claim],
 ) -> std::io::Result<()> {
     let ranking = |ranking: &Ranking| {
         let effects: Json = ranking.effects.iter().map(|effect| effect_of(study, effect)).collect();

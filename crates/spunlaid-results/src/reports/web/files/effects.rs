@@ -12,11 +12,24 @@ use spunlaid::web::map::Findings;
 /// Seconds of an hour.
 pub(crate) const HOUR: f64 = 3600.0;
 
+/// What was tried with a web.
+#[derive(Clone, Copy, Debug)]
+pub struct Advised<'a> {
+    /// What would make it more uniform; None if it was not tried.
+    pub advice: Option<&'a Advice>,
+    /// What assumed values matter for it; None if these were not tried.
+    pub assumed_values: Option<&'a Advice>,
+    /// Whether what was not tried is tried next.
+    pub awaited: bool,
+    /// The folder of the web, next to which the folders of changed webs are.
+    pub beside: &'a str,
+}
+
 /// Changes of the line.
 ///
 /// * `beside` – the folder of the web
 pub(super) fn of_line(advice: &Advice, findings: &Findings, beside: &str) -> Json {
-    let changes = changed_webs(advice, (findings, beside), false);
+    let changes = changed_webs(advice, findings, beside, false);
     with_failed(json!({"judged_by_patch_m": advice.judged_by, "changes": changes}), advice)
 }
 
@@ -29,7 +42,7 @@ pub(super) fn of_assumed_values(assumed_values: &Advice, findings: &Findings, be
     };
     let ranges = assumed_values.tried.iter().take(1).flat_map(|first| first.effects.iter().map(range));
     let ranges: Json = ranges.collect();
-    let values = changed_webs(assumed_values, (findings, beside), true);
+    let values = changed_webs(assumed_values, findings, beside, true);
     with_failed(
         json!({"judged_by_patch_m": assumed_values.judged_by, "ranges": ranges, "values": values}),
         assumed_values,
@@ -69,7 +82,7 @@ fn with_failed(mut object: Json, advice: &Advice) -> Json {
     object
 }
 
-fn changed_webs(advice: &Advice, (findings, beside): (&Findings, &str), are_assumed: bool) -> Json {
+fn changed_webs(advice: &Advice, findings: &Findings, beside: &str, are_assumed: bool) -> Json {
     let patch = |tried: &SensitivityRun, effect: &Effect<f64>| {
         let (cv, difference) = (cv_over(findings, effect.of), &effect.difference);
         let at_first = tried.at_first.iter().find(|first| first.of == effect.of);

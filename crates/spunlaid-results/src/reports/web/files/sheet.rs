@@ -39,7 +39,8 @@ const MEANING: &str = "Simulated, not measured. A number has its standard error,
 /// If the page cannot be drawn.
 pub fn specification_sheet(
     name: &str,
-    (findings, fabric): (&Findings, &Fabric),
+    findings: &Findings,
+    fabric: &Fabric,
     notes: &[String],
 ) -> Result<Vec<u8>, Failure> {
     let title = format!("Specification of the web {name}");

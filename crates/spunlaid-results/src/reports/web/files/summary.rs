@@ -1,5 +1,6 @@
 //! `summary.json`: all results of a web.
 
+use super::effects::Advised;
 use super::fabric::all;
 use super::{effects, fabric};
 use crate::files::measured::{joined, json, known, mean, values, with_errors};
@@ -73,12 +74,11 @@ fn curtain<S: Serializer>(curtain: &Option<Load>, serializer: S) -> Result<S::Ok
 }
 
 /// The text of the file of a web.
-///
-/// * `beside` – the folder of the web, beside which those of changed ones lie
 pub fn summary_of_web(
     web: &Web,
-    (findings, fabric): (&Findings, &Fabric),
-    (advice, assumed_values, beside): (Option<&Advice>, Option<&Advice>, &str),
+    findings: &Findings,
+    fabric: &Fabric,
+    tried: Advised<'_>,
     layers: &[LayerSummary],
     performance: Performance,
     notes: &[String],
@@ -93,10 +93,9 @@ pub fn summary_of_web(
         let side = patch.map.patch;
         let mut numbers = numbers_of_patch(side, PATCH_MEASURES, patch, interval);
         // With half and twice of each assumed value, which the error excludes.
-        let known =
-            |assumed_values: &&Advice| assumed_values.tried.iter().any(|tried| tried.on(side).is_some());
-        if let (Some(assumed_values), Some(reported)) = (assumed_values.filter(known), patch.reported()) {
-            numbers["cv_assumed"] = json(assumed_values.range(side).map(|ratio| ratio * reported.cv));
+        let is_known = |values: &&Advice| values.tried.iter().any(|tried| tried.on(side).is_some());
+        if let (Some(values), Some(cv)) = (tried.assumed_values.filter(is_known), patch.reported()) {
+            numbers["cv_assumed"] = json(values.range(side).map(|ratio| ratio * cv.cv));
         }
         numbers
     });
@@ -128,8 +127,8 @@ pub fn summary_of_web(
         "layers": (!layers.is_empty()).then_some(layers),
         "web": joined([map, laid, declared]),
         "fabric": fabric::summary(fabric),
-        "advice": advice.map(|advice| effects::of_line(advice, findings, beside)),
-        "assumed_values": assumed_values.map(|tried| effects::of_assumed_values(tried, findings, beside)),
+        "advice": tried.advice.map(|advice| effects::of_line(advice, findings, tried.beside)),
+        "assumed_values": tried.assumed_values.map(|values| effects::of_assumed_values(values, findings, tried.beside)),
         "neighbours": neighbours(findings, name),
         "charge": charged.as_array().is_some_and(|charged| !charged.is_empty()).then_some(charged),
         "performance": performance,
@@ -141,7 +140,8 @@ pub fn summary_of_web(
 /// The text of the file of a scanned web, which was read from a file.
 pub fn summary_of_scan(
     file: &str,
-    (findings, fabric): (&scan::Findings, &Fabric),
+    findings: &scan::Findings,
+    fabric: &Fabric,
     performance: Performance,
     notes: &[String],
 ) -> String {
@@ -164,7 +164,8 @@ pub fn summary_of_scan(
     if !findings.mean_known {
         web["basis_weight_kg_m2"] = Json::Null;
     }
-    let assumption = ScanWarning::ASSUMPTIONS.into_iter().find(|(_, warning)| Some(*warning) == findings.assumption);
+    let assumption =
+        ScanWarning::ASSUMPTIONS.into_iter().find(|(_, warning)| Some(*warning) == findings.assumption);
     let about = json!({"file": file, "assumed": assumption.map(|(name, _)| name)});
     let parts = json!({
         "web": web,

@@ -7,24 +7,11 @@ use crate::effects::{PER_CENT, describe, difference_text, label};
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::page::table::{Cell, Row, Table, Tone};
 use crate::page::words::{grams, millimetres};
-use crate::reports::web::files::effects::HOUR;
+use crate::reports::web::files::effects::{Advised, HOUR};
 use spunlaid::experiment::{Advice, ChangedWeb, SensitivityRun, setting};
 use spunlaid::ground::{Difference, Effect, NAMED, Turned};
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::{Evidence, Findings};
-
-/// What was tried with a web.
-#[derive(Clone, Copy, Debug)]
-pub struct Advised<'a> {
-    /// What would make it more even; None if it was not tried.
-    pub advice: Option<&'a Advice>,
-    /// What assumed values matter for it; None if these were not tried.
-    pub assumed_values: Option<&'a Advice>,
-    /// Whether what was not tried is tried next.
-    pub awaited: bool,
-    /// The folder of the web, beside which those of changed webs lie.
-    pub beside: &'a str,
-}
 
 /// Side of the patches by which changes are judged [m].
 fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {
@@ -204,7 +191,8 @@ pub(crate) fn effect_cell(
 pub(super) fn effects_table(
     spec: &WebSpec,
     findings: &Findings,
-    (advice, beside): (&Advice, &str),
+    advice: &Advice,
+    beside: &str,
 ) -> Option<(Table, String)> {
     let are_assumed = advice.tried.first()?.change.setting == setting::ASSUMED;
     let patches: Vec<f64> = findings.patches.iter().map(|patch| patch.map.patch).collect();

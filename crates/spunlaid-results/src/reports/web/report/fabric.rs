@@ -35,26 +35,28 @@ pub(crate) fn fabric_section(fabric: &Fabric) -> Section<'static> {
     let weights = places.iter().position(|measure| measure.unit == PERCENT).unwrap_or(places.len());
     let (places, weights) = places.split_at(weights);
     let sides: Vec<_> = fabric.patches.iter().map(|of| (shown(patch, of), of)).collect();
-    section = compare(section, ("Thin and thick spots", patch.label), places, &sides);
-    section = compare(section, ("Weight of patches over the mean", patch.label), weights, &sides);
+    section = compare(section, "Thin and thick spots", patch.label, places, &sides);
+    section = compare(section, "Weight of patches over the mean", patch.label, weights, &sides);
     let thinnest: Vec<_> =
         (1..).zip(&fabric.marks.thinnest).map(|(i, place)| (i.to_string(), place)).collect();
     let heading = format!("The thinnest spots, patches of {}", millimetres(fabric.marks.patch));
-    section = compare(section, (&heading, "Place"), THINNEST_PATCH_MEASURES, &thinnest);
+    section = compare(section, &heading, "Place", THINNEST_PATCH_MEASURES, &thinnest);
     let strips = ["Along MD", "Along CD"].into_iter().zip(&fabric.strips);
     let strips: Vec<_> = strips.filter_map(|(along, of)| Some((along.to_owned(), of.as_ref()?))).collect();
-    section = compare(section, ("Strips", "Direction"), STRIP_MEASURES, &strips);
+    section = compare(section, "Strips", "Direction", STRIP_MEASURES, &strips);
     let [place, measures @ ..] = STREAK_MEASURES else { return section };
     let streaks: Vec<_> = fabric.streaks.iter().map(|streak| (shown(place, streak), streak)).collect();
-    compare(section, ("Streaks of the defects", place.label), measures, &streaks)
+    compare(section, "Streaks of the defects", place.label, measures, &streaks)
 }
 
 /// A row for each of several parts of the fabric, a column for each measure; below it, what the measures mean.
 ///
-/// * `heads` – above the table, and above the names of its rows
+/// * `heading` – above the table
+/// * `head` – above the names of its rows
 pub(crate) fn compare<T>(
     section: Section<'static>,
-    (heading, head): (&str, &'static str),
+    heading: &str,
+    head: &'static str,
     measures: &'static [Measure<T>],
     parts: &[(String, &T)],
 ) -> Section<'static> {

@@ -8,11 +8,12 @@ pub(crate) mod patch_cv;
 pub(crate) mod scale;
 pub(crate) mod spinlines;
 
+use super::WebFolder;
+use super::files::effects::Advised;
 use super::files::picture::Pictures;
 use super::files::summary::LayerSummary;
 use crate::Failure;
 use crate::effects::PER_CENT;
-use crate::files::origin::Performance;
 use crate::numbers::{THIN, number, significant};
 use crate::page::document::{Part, Report, Section};
 use crate::page::methods::{methods, of_web};
@@ -20,7 +21,7 @@ use crate::page::table::{Row, Table};
 use crate::page::words::{cost, count, grams, grams_with_error, metres, millimetres};
 use crate::reports::load::section_of_loads;
 use cards::scale_card;
-use effects::{Advised, advice_card, assumed_card, effects_table};
+use effects::{advice_card, assumed_card, effects_table};
 use fabric::fabric_section;
 use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet};
 use patch_cv::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
@@ -29,31 +30,31 @@ use spinlines::{LayerSpinline, sections_of_web};
 use spunlaid::experiment::Advice;
 use spunlaid::fibre::{BREAKDOWN, Load};
 use spunlaid::ground::Dimension;
+use spunlaid::input::WebFile;
 use spunlaid::simulation::WebSpec;
 use spunlaid::web::map::uniformity::PatchCv;
 use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{ChargedCurtain, Fabric, SubsampleEstimate, Web, WindowCurve};
+use spunlaid::web::{ChargedCurtain, SubsampleEstimate, Web, WindowCurve};
 use spunlaid_charts::Figure;
 
 /// A web.
 ///
-/// * `web` – what is said of it, the same as a file, and the web
-/// * `findings` – of the web, with what is reported of its fabric
-/// * `tried` – what was tried with it
-/// * `layers` – with the spinlines from which their filaments come
-/// * `pictures` – of the web, with the fibres in its window
+/// * `toml` – the web as a file
+/// * `strands` – the fibres in its window
 ///
 /// # Errors
 /// The picture cannot be drawn.
 pub fn web_report<'a>(
-    (spec, toml, web): (&WebSpec, &str, &Web),
-    (findings, fabric): (&Findings, &Fabric),
-    tried: Advised<'_>,
-    (layers, spinlines): (&[LayerSummary], &'a [LayerSpinline]),
-    (pictures, strands): (&Pictures, &[WindowCurve]),
+    folder: &WebFolder,
+    toml: &str,
+    layers: &[LayerSummary],
+    spinlines: &'a [LayerSpinline],
+    pictures: &Pictures,
+    strands: &[WindowCurve],
     figures: &'a [Figure],
-    performance: Performance,
 ) -> Result<Report<'a>, Failure> {
+    let WebFolder { file: WebFile { spec, .. }, simulated, findings, fabric, .. } = folder;
+    let (web, tried) = (&simulated.web, folder.advised());
     let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
     let strands = Strands { window: spec.window(), strands, diameter };
     let marks = Some(MarkedPlaces::new(fabric));
@@ -94,8 +95,8 @@ pub fn web_report<'a>(
         .with(Section::of_figures(figures))
         .with_all(sections_of_web(web, layers, spinlines))
         .with(methods("web", of_web(spec), "web.toml of the results"))
-        .with(file(layers, toml))
-        .costing(cost(performance)))
+        .with(file_section(layers, toml))
+        .costing(cost(folder.performance)))
 }
 
 /// All that was changed, and all that was assumed.
@@ -105,7 +106,7 @@ fn effects(spec: &WebSpec, findings: &Findings, tried: Advised<'_>) -> Section<'
         ("Influence of the assumed values", tried.assumed_values),
     ];
     let tables = all.into_iter().filter_map(|(heading, effects)| {
-        Some((heading, effects_table(spec, findings, (effects?, tried.beside))?))
+        Some((heading, effects_table(spec, findings, effects?, tried.beside)?))
     });
     tables.fold(
         Section::new("tried", "All changes and assumed values"),
@@ -136,7 +137,7 @@ fn named_loads(layers: &[LayerSummary]) -> Vec<(Option<&str>, &Load)> {
 }
 
 /// What the web was made from.
-fn file(layers: &[LayerSummary], toml: &str) -> Section<'static> {
+fn file_section(layers: &[LayerSummary], toml: &str) -> Section<'static> {
     let heads = [
         "Layer",
         "Filaments",
