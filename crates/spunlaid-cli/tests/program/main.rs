@@ -36,6 +36,8 @@ mod spin;
 mod sweep;
 mod sweep_again;
 mod sweep_killed;
+#[cfg(unix)]
+mod transcripts;
 mod web;
 mod web_advice;
 mod web_in_one_air;
