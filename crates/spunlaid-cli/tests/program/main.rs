@@ -9,7 +9,6 @@ mod desk;
 mod air;
 mod assumed_values;
 mod cases;
-mod check;
 mod commands;
 mod compare;
 mod compared_webs;
