@@ -1,6 +1,6 @@
 //! `new`: the files that it writes, from nothing and from the numbers of a line.
 
-use crate::desk::{Desk, names, refusal, success};
+use crate::desk::{Desk, refusal, success};
 use spunlaid::input::{Resources, Turn, read_line, read_web};
 
 #[test]
