@@ -1,9 +1,9 @@
-//! The transcripts `tests/cmd/*.txt` of a shell: what the program says and with which code it ends.
+//! Transcripts of a shell, `tests/cmd/*.txt`: what the program prints and with which code it ends.
 //!
-//! `$ ` begins a command for `sh`, `> ` continues it, and `? 1` is its exit code, where this is not 0. Each transcript
-//! has a folder of its own with `brief.toml` and `fed.toml`; `$CASES` is the folder `cases`. In what is said, a line
-//! `...` means any lines, and `[..]` any part of a line. To renew all transcripts after a change of the program, and then
-//! read what has changed (`git diff`):
+//! `$ ` begins a command for `sh`, `> ` continues it, and `? 1` is its exit code if this is not 0. Each transcript runs in
+//! a folder of its own with `brief.toml` and `fed.toml`; `$CASES` is the folder `cases` of the repository. In the output,
+//! a line `...` matches any lines, and `[..]` any part of a line. After a change of the program, renew all transcripts and
+//! read what has changed with `git diff`:
 //!
 //!     SNAPSHOTS=overwrite cargo test --release -p spunlaid-cli --test program transcripts
 
@@ -16,7 +16,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// A command of a shell in a folder; its errors stand between its results.
+/// Runs a command of a shell in a folder, with standard error in standard output.
 fn shell(desk: &Desk, command: &str) -> Output {
     let program = Path::new(env!("CARGO_BIN_EXE_spunlaid")).parent().unwrap();
     let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap());
@@ -26,7 +26,10 @@ fn shell(desk: &Desk, command: &str) -> Output {
     shell.args(["-c", &format!("exec 2>&1\n{command}")]).output().unwrap()
 }
 
-/// The transcript of the commands of another one. A command that ends with 1 has changed no file.
+/// Runs the commands of a transcript and returns theirs.
+///
+/// # Panics
+/// If a command that ends with 1 has changed a file.
 fn replayed(transcript: &str) -> String {
     let desk = Desk::new();
     fs::write(desk.path("fed.toml"), FED).unwrap();
@@ -35,7 +38,8 @@ fn replayed(transcript: &str) -> String {
     for command in commands.split("\n$ ") {
         let mut lines = command.lines();
         let first = lines.next().unwrap();
-        let more = lines.map_while(|line| line.strip_prefix('>')).map(|line| line.strip_prefix(' ').unwrap_or(line));
+        let more =
+            lines.map_while(|line| line.strip_prefix('>')).map(|line| line.strip_prefix(' ').unwrap_or(line));
         let command = std::iter::once(first).chain(more).collect::<Vec<_>>();
         let before = contents(desk.folder.path());
         let output = shell(&desk, &command.join("\n"));
@@ -51,7 +55,7 @@ fn replayed(transcript: &str) -> String {
 }
 
 #[test]
-fn every_transcript_is_what_the_program_says() {
+fn every_transcript_is_what_the_program_prints() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cmd");
     let assert = Assert::new().action_env("SNAPSHOTS").normalize_paths(false);
     let files = fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
