@@ -1,6 +1,6 @@
 //! `spunlaid compare`: differences of runs, and what is refused.
 
-use crate::desk::{Desk, names, refusal, success};
+use crate::desk::{Desk, names, success};
 use serde_json::{Value, json};
 
 const LONGER: [&str; 4] =
@@ -108,24 +108,6 @@ fn a_run_does_not_differ_from_itself() {
     let said = success(&mut desk.spunlaid("compare a again --out c"));
     assert!(said.contains("the same") && said.contains(" 0 of "), "{said}");
     success(&mut desk.spunlaid("compare a again --out c --force --quiet"));
-}
-
-#[test]
-fn rejects_what_is_no_run() {
-    let desk = Desk::new();
-    simulated(&desk, "a", &[]);
-    assert!(
-        refusal(&mut desk.spunlaid("compare a nothing"), 1)
-            .contains("nothing: does not hold the results of a run: there is no such folder")
-    );
-    std::fs::create_dir(desk.path("empty")).unwrap();
-    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("summary.json"));
-    std::fs::write(desk.path("empty/summary.json"), "{}").unwrap();
-    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("is not that of a run"));
-    std::fs::write(desk.path("empty/results.csv"), "").unwrap();
-    assert!(refusal(&mut desk.spunlaid("compare a empty"), 1).contains("holds a study or an analysis"));
-    assert!(refusal(&mut desk.spunlaid("compare a a a a a a a"), 1).contains("at most 6"));
-    assert!(!desk.path("results").exists());
 }
 
 /// The CV of a web over patches of 10 mm, and its formation number, which goes with the square. One web has few waves,

@@ -1,6 +1,6 @@
 //! Figures in the formats and at the width of a paper.
 
-use crate::desk::{Desk, names, refusal, success};
+use crate::desk::{Desk, names, success};
 use png::{Decoder, Unit};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -104,21 +104,6 @@ fn every_command_that_draws_figures_writes_pdf_and_a_paragraph_of_methods() {
 }
 
 #[test]
-fn rejects_unknown_formats_and_widths_with_what_is_allowed() {
-    let desk = Desk::new();
-    let refused = |options: &[&str]| refusal(desk.spunlaid("run").arg(case("table1.toml")).args(options), 1);
-    let format = refused(&["--figures", "eps"]);
-    assert!(format.contains("eps") && format.contains("write one of svg, png, pdf"), "{format}");
-    let help = success(&mut desk.spunlaid("run --help"));
-    assert!(help.contains("Formats of the figures: svg, png, pdf"), "{help}");
-    let width = refused(&["--figure-width", "5 mm"]);
-    assert!(
-        width.contains("one-column (84 mm), two-columns (174 mm), or a width from 60 to 400 mm"),
-        "{width}"
-    );
-}
-
-#[test]
 fn tables_have_the_formats_that_are_asked_for_besides_the_usual_one() {
     let desk = Desk::new();
     let spin = |options: &[&str]| {
@@ -132,6 +117,4 @@ fn tables_have_the_formats_that_are_asked_for_besides_the_usual_one() {
     // They go with the results that are replaced.
     spin(&[]);
     assert!(!desk.path("r/tables").exists() && desk.path("r/spinline.parquet").exists());
-    let refused = refusal(desk.spunlaid("spin").arg(case("spinline.toml")).args(["--tables", "xlsx"]), 1);
-    assert!(refused.contains("write one of csv, parquet, tsv"), "{refused}");
 }

@@ -1,6 +1,6 @@
 //! `spunlaid air`: the turbulent air of a case, looked at.
 
-use crate::desk::{Desk, entries, names, refusal, success};
+use crate::desk::{Desk, entries, names, success};
 use spunlaid::air::AirAtPlaces;
 use spunlaid::ground::Vec3;
 use spunlaid::input::read_case;
@@ -83,19 +83,4 @@ fn air_that_is_the_same_across_is_shown_as_neighbours_share_it() {
     assert!(output.status.success() && said.contains("air.lateral = \"uniform\""), "{said}");
     let page = String::from_utf8(desk.read("a/report.html")).unwrap();
     assert!(page.contains("as neighbours share it") && page.contains("Eddies across the end of the path"));
-}
-
-#[test]
-fn rejects_air_that_has_no_gusts_in_space() {
-    let desk = Desk::new();
-    let record = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/records/probe.csv");
-    let said =
-        refusal(&mut desk.with("air brief.toml --out a", &[&format!("air.record={}", record.display())]), 1);
-    assert!(
-        said.contains("brief.toml: has the air of a record (air.record)") && !said.contains("--set"),
-        "{said}"
-    );
-    assert!(!desk.path("a").exists());
-    let said = refusal(&mut desk.spunlaid("air brief.toml --frames 0 --out a"), 1);
-    assert!(said.contains("--frames"), "{said}");
 }

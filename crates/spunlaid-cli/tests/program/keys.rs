@@ -1,6 +1,6 @@
 //! `spunlaid keys` and the page it makes.
 
-use crate::desk::{Desk, refusal, success};
+use crate::desk::{Desk, success};
 use std::path::Path;
 
 #[test]
@@ -82,46 +82,4 @@ fn words_of_buyers_are_answered() {
             "{output}"
         );
     }
-}
-
-#[test]
-fn rejects_a_word_that_no_key_has() {
-    let desk = Desk::new();
-    assert_eq!(
-        refusal(&mut desk.spunlaid("keys air.velocty"), 1),
-        "error: no key has \"air.velocty\" in its name or meaning; did you mean air.velocity or spinline.velocity?\n"
-    );
-    assert_eq!(
-        refusal(&mut desk.spunlaid("keys zebra"), 1),
-        "error: no key has \"zebra\" in its name or meaning; `spunlaid keys` lists them all\n"
-    );
-}
-
-/// Words of the trade and units, of a case and of a web alike.
-#[test]
-fn keys_are_found_by_other_words_and_by_their_units() {
-    let desk = Desk::new();
-    for (word, names) in [
-        ("dtex", &["fibre.linear_density"][..]),
-        ("titre", &["fibre.linear_density"]),
-        ("Denier", &["fibre.linear_density"]),
-        ("gsm", &["line.basis_weight  (of a web file)"]),
-        ("g/m^2", &["line.basis_weight  (of a web file)"]),
-        ("grammage", &["line.basis_weight  (of a web file)"]),
-        ("MFI", &["spinline.melt_flow_rate"]),
-        ("throughput", &["spinline.throughput", "line.throughput  (of a web file)"]),
-        ("g/min", &["spinline.throughput", "line.throughput  (of a web file)"]),
-    ] {
-        let said = success(&mut desk.spunlaid(&format!("keys {word}")));
-        for name in names {
-            assert!(said.lines().any(|line| line == *name), "{word}: {name}\n{said}");
-        }
-        let keys = said.lines().filter(|line| !line.starts_with(' ') && !line.is_empty()).count();
-        assert!(keys <= 8, "{word}: {keys} keys");
-    }
-    let said = success(&mut desk.spunlaid("keys --web titre"));
-    assert!(
-        said.starts_with("fibre.linear_density\n") && said.contains("    also       titre, titer, denier"),
-        "{said}"
-    );
 }

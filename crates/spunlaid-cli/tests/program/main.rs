@@ -9,7 +9,6 @@ mod desk;
 mod air;
 mod assumed_values;
 mod cases;
-mod check;
 mod commands;
 mod compare;
 mod compared_webs;
@@ -36,6 +35,8 @@ mod spin;
 mod sweep;
 mod sweep_again;
 mod sweep_killed;
+#[cfg(unix)]
+mod transcripts;
 mod web;
 mod web_advice;
 mod web_in_one_air;

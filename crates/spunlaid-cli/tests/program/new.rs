@@ -1,52 +1,7 @@
 //! `new`: the files that it writes, from nothing and from the numbers of a line.
 
-use crate::desk::{Desk, names, refusal, success};
+use crate::desk::{Desk, refusal, success};
 use spunlaid::input::{Resources, Turn, read_line, read_web};
-
-#[test]
-fn new_writes_a_case_that_can_be_run_and_overwrites_nothing() {
-    let desk = Desk::new();
-    let said = success(&mut desk.spunlaid("new my.toml"));
-    assert_eq!(said, "wrote my.toml; change it, then: spunlaid run my.toml\n");
-    let written = desk.read("my.toml");
-    let shorter = ["run.duration=2 ms", "run.time_step=20 us"];
-    success(&mut desk.with("run my.toml", &shorter));
-    assert_eq!(
-        refusal(&mut desk.spunlaid("new my.toml"), 1),
-        "error: my.toml: exists already and is not overwritten; name another file\n"
-    );
-    assert!(desk.read("my.toml") == written);
-    // On standard output the same.
-    assert_eq!(success(&mut desk.spunlaid("new -")).as_bytes(), written);
-    assert!(success(&mut desk.spunlaid("new - --fed")).contains("[belt]") && !desk.path("-").exists());
-    let said = refusal(&mut desk.spunlaid("new no/such/folder/my.toml"), 2);
-    assert!(said.starts_with("error: no/such/folder/my.toml: cannot be written: "), "{said}");
-    assert!(said.ends_with("; name another file\n"), "{said}");
-}
-
-#[test]
-fn new_writes_a_study_beside_its_case() {
-    let desk = Desk::new();
-    let said = success(&mut desk.spunlaid("new --study brief.toml"));
-    let wanted =
-        "wrote brief_study.toml, which varies brief.toml; change it, then: spunlaid sweep brief_study.toml\n";
-    assert_eq!(said, wanted);
-    let said = success(&mut desk.spunlaid("sweep brief_study.toml"));
-    assert!(said.contains("9 points"), "{said}");
-    assert_eq!(
-        refusal(&mut desk.spunlaid("new --study brief.toml"), 1),
-        "error: brief_study.toml: exists already and is not overwritten; name another file\n"
-    );
-    // Without a case, that is written too.
-    let said = success(&mut desk.spunlaid("new --study --fed line.toml"));
-    assert!(said.starts_with("wrote line.toml\nwrote line_study.toml, which varies line.toml;"), "{said}");
-    assert!(success(&mut desk.spunlaid("sweep line_study.toml --print-point 1")).contains("[belt]"));
-    let said = refusal(&mut desk.spunlaid("new --study line_study.toml"), 1);
-    assert!(said.contains("line_study.toml: is a study already"), "{said}");
-    assert!(refusal(&mut desk.spunlaid("new --study -"), 1).contains("name a file"));
-    std::fs::write(desk.path("bad.toml"), "[fibre]\nlength = 3\n").unwrap();
-    assert!(refusal(&mut desk.spunlaid("new --study bad.toml"), 1).starts_with("error: bad.toml:"));
-}
 
 #[test]
 fn new_writes_a_fed_fibre_that_can_be_run() {
@@ -274,33 +229,6 @@ fn analytic_each_of_two_beams_says_what_it_gives_and_what_all_give() {
     assert_eq!(web.matches(flows).count(), 2, "{web}");
 }
 
-/// What is outside of the usual range by a factor of ten or more is not written, and the unit that was probably meant
-/// is said; nearer, it is written with a warning.
-#[test]
-fn rejects_a_line_that_nobody_can_have_with_the_unit_that_was_meant() {
-    let desk = Desk::new();
-    for (option, absurd, meant) in [
-        ("--throughput", "0.5 g/s", "did you mean 0.5 g/min?"),
-        ("--dtex", "2 kg/m", "2 dtex?"),
-        ("--basis-weight", "20 kg/m²", "did you mean 20 g/m²?"),
-        ("--air-speed", "60000", "mm/s"),
-        ("--slot-gap", "25 m", "25 mm?"),
-        ("--width", "3200 m", "3200 mm"),
-        ("--distance", "500 m", "did you mean"),
-        ("--thickness", "3 m", "3 mm?"),
-    ] {
-        let kept = LINE.chunks(2).filter(|pair| pair[0] != option).flatten();
-        let mut command = desk.spunlaid("new --web line.toml");
-        let said = refusal(command.args(kept).args([option, absurd]), 1);
-        assert!(said.contains(meant), "{option} {absurd}: {said}");
-        assert!(!desk.path("line.toml").exists() && !desk.path("line_air.csv").exists(), "{option}");
-    }
-    // A filament twice as fast as any that is known.
-    let mut fast = LINE.to_vec();
-    fast[3] = "3 g/min";
-    success(desk.spunlaid("new --web line.toml").args(fast));
-}
-
 /// A number alone has the unit that its option names, and a polymer may come with the melt flow rate of its
 /// grade: the files are the same, and each is said once.
 #[test]
@@ -371,39 +299,6 @@ fn new_takes_answers_through_a_pipe_and_what_is_known_is_not_assumed() {
     let line = [&LINE[..], &["--thickness", "0.25"]].concat();
     success(desk.spunlaid("new --web thick.toml").args(line));
     assert!(String::from_utf8(desk.read("thick.toml")).unwrap().contains("[fabric]\nthickness = \"250 µm\""));
-}
-
-#[test]
-fn rejects_a_line_that_is_not_whole_or_cannot_run() {
-    let desk = Desk::new();
-    assert_eq!(
-        refusal(&mut desk.spunlaid("new --web line.toml --polymer pp --dtex 2 --holes-per-metre 5000"), 1),
-        "error: the numbers of the line are incomplete: --throughput, --basis-weight (or --belt-speed) and \
-        --air-speed (or --cabin-pressure) are missing; give them, or call the command in a terminal, where it \
-        asks; `spunlaid new --help` has examples\n"
-    );
-    let other = |more: &[&str]| refusal(desk.spunlaid("new --web line.toml").args(&LINE[..6]).args(more), 1);
-    let said = other(&["--basis-weight", "0.01 g/m²", "--holes-per-metre", "1000", "--air-speed", "60 m/s"]);
-    assert!(
-        said.contains(
-            "line.basis_weight = \"0.01 g/m²\" takes a belt of 833.3 m/s, which is more than line.feed_speed"
-        ),
-        "{said}"
-    );
-    let said = other(&[
-        "--width",
-        "3.2173 m",
-        "--basis-weight",
-        "10 g/m²",
-        "--holes-per-metre",
-        "1000",
-        "--air-speed",
-        "60 m/s",
-    ]);
-    assert!(said.contains("web.width = \"3.2173 m\" is not a whole number of cells"), "{said}");
-    assert_eq!(desk.entries(""), names(&["brief.toml"]), "nothing is left");
-    let said = refusal(&mut desk.spunlaid("new line.toml --dtex 2"), 1);
-    assert!(said.contains("--web"), "{said}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `spunlaid air --at`: the air at given places, against the formulas and the files that it comes from.
 
-use crate::desk::{BRIEF, Desk, refusal, success};
+use crate::desk::{BRIEF, Desk};
 use spunlaid::input::read_case;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -138,42 +138,4 @@ fn analytic_the_middle_of_a_plane_diffuser() {
         [("line", "x_m,y_m,z_m\n0.2,0.003,0.01\n"), ("field", "x_m,y_m,z_m\n0.3,0.008,0.01\n")]
             .map(|(axes, places)| at(&case("spunbond_field.toml"), places, &[&root[..], &[axes]].concat()).0);
     assert_row(&line[0], std::array::from_fn(|i| field[0][3 + i]), 1e-9);
-}
-
-#[test]
-fn rejects_tables_and_axes_that_do_not_fit() {
-    let desk = Desk::new();
-    for (places, expected) in [
-        ("x,y,z\n0,0,0\n", "places.csv:1: "),
-        ("x_m,y_m\n0,0\n", "has no column of the coordinate z (it has x_m and y_m); name one like z [m]"),
-        ("x_m,y_m,z_m\n0,0,0\n1,2,here\n", "places.csv:3: "),
-        ("x_m,y_m,z_m\n1,,2\n", "is not a finite number"),
-        ("x_s,y_m,z_m\n1,1,2\n", "places.csv:1: "),
-        ("0,0,0\n1,1,1\n", "places.csv"),
-        ("", "places.csv"),
-    ] {
-        fs::write(desk.path("places.csv"), places).unwrap();
-        let said = refusal(&mut desk.spunlaid("air brief.toml --at places.csv"), 1);
-        assert!(said.contains(expected), "{places}: {said}");
-    }
-    let said = refusal(&mut desk.spunlaid("air brief.toml --at nowhere.csv"), 1);
-    assert!(said.contains("nowhere.csv"), "{said}");
-    fs::write(desk.path("places.csv"), "x_m,y_m,z_m\n5,0,0\n").unwrap();
-    let said = refusal(&mut desk.spunlaid("air brief.toml --at places.csv --axes field"), 1);
-    assert!(said.contains("places.csv: the air of the case is not a CFD field"), "{said}");
-    let said = refusal(desk.spunlaid("air --at places.csv").arg(case("point_table.toml")), 1);
-    assert!(said.contains("none of the 1 positions lies where the air is known: x from 0 m to"), "{said}");
-    assert!(refusal(&mut desk.spunlaid("air brief.toml --axes line"), 1).contains("--at"));
-}
-
-#[test]
-fn the_table_goes_to_a_file_that_is_not_replaced_unasked() {
-    let desk = Desk::new();
-    fs::write(desk.path("places.csv"), "x_m,y_m,z_m\n0,0,0\n").unwrap();
-    assert_eq!(success(&mut desk.spunlaid("air brief.toml --at places.csv --out air.csv")), "");
-    let table = String::from_utf8(desk.read("air.csv")).unwrap();
-    assert_eq!(table, format!("{HEADER}\n0,0,0,10,0,0,10,1.5,0.05,100\n"));
-    let said = refusal(&mut desk.spunlaid("air brief.toml --at places.csv --out air.csv"), 1);
-    assert!(said.contains("air.csv: is there already") && said.contains("--out, --force"), "{said}");
-    success(&mut desk.spunlaid("air brief.toml --at places.csv --out air.csv --force"));
 }

@@ -69,31 +69,4 @@ fn a_case_may_come_from_standard_input() {
     let summary = piped("run - --json --quiet --set air.velocity=20m/s", &case);
     assert!(String::from_utf8_lossy(&summary.stdout).contains("\"velocity_m_s\": 20.0"));
     assert!(piped("check -", &case).status.success());
-    let wrong = [
-        (&b"[fibre]\nlength = 3\n"[..], "standard input:2: fibre.length"),
-        (b"\xff", "standard input:1: is not UTF-8 text"),
-    ];
-    for (text, words) in wrong {
-        let refused = piped("run -", text);
-        let said = String::from_utf8(refused.stderr).unwrap();
-        assert!(refused.status.code() == Some(1) && said.contains(words), "{said}");
-    }
-}
-
-#[test]
-fn numbers_of_options_are_asked_for_in_plain_words() {
-    let desk = Desk::new();
-    for (arguments, option) in [
-        ("run brief.toml --replicates 1e9", "--replicates <N>"),
-        ("run brief.toml --seed x", "--seed <S>"),
-        ("sweep study.toml --replicates 0", "--replicates <N>"),
-        ("sweep study.toml --points 1.5", "--points <N>"),
-    ] {
-        let said = refusal(&mut desk.spunlaid(arguments), 1);
-        let least = u8::from(arguments.ends_with(" 0"));
-        let wanted = format!("for '{option}': write a whole number from {least} in digits, like 1000");
-        assert!(said.contains(&wanted), "{said}");
-    }
-    let hours = success(&mut desk.with("check brief.toml", &["run.duration=1 h", "run.spin_up=30 min"]));
-    assert!(hours.contains("duration = \"3600 s\"") && hours.contains("spin_up = \"1800 s\""), "{hours}");
 }

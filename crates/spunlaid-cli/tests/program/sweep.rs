@@ -147,24 +147,6 @@ fn identical_to_single_runs_of_its_points() {
 }
 
 #[test]
-fn rejects_points_that_are_not_there() {
-    let place = place();
-    for number in ["0", "7"] {
-        let output = place.spunlaid(&["sweep", "study.toml", "--print-point", number]).output().unwrap();
-        assert_eq!(output.status.code(), Some(1));
-        assert!(said(&output).contains("the study has 6 points, counted from 1"), "{}", said(&output));
-    }
-    assert!(!place.path("results").exists());
-}
-
-#[test]
-fn rejects_bad_studies_before_anything_is_written() {
-    let place = StudyFolder::new(&case(0.02), &STUDY.replace("'20 m/s'", "'20 m'"));
-    assert!(place.refused("out", &[]).contains("study.toml:5: air.velocity = '20 m' is a length"));
-    assert!(!place.path("out").exists());
-}
-
-#[test]
 fn words_are_words_in_every_result() {
     let study = "case = 'case.toml'\ndesign = 'grid'\nreplicates = 2\n[vary]\n'air.velocity' = ['5 m/s', '10 m/s']\n\
                  'drag.along' = ['sakiadis', 'matsui']\n'air.spectrum' = ['flat', 'von-karman']\n";

@@ -14,34 +14,6 @@ pub(super) fn desk() -> Desk {
     desk
 }
 
-#[test]
-fn rejects_bad_webs_with_the_command_that_helps() {
-    let desk = desk();
-    for (arguments, message) in [
-        (
-            "web nowhere.toml",
-            "error: nowhere.toml: there is no such file; name the file of a web (`spunlaid help web` shows one)\n",
-        ),
-        (
-            "web brief.toml",
-            "error: brief.toml:5: [fibre] belongs to a case, and the file does not describe a web; add \
-            [line] and [web], or read it as a case (`spunlaid run`)\n",
-        ),
-        (
-            "web web.toml --set line.belt_speed=60m/s",
-            "error: --set line.belt_speed = \"60m/s\" is more than line.feed_speed = 50 m/s, which would \
-            tear the fibre",
-        ),
-        ("web web.toml --set web.width", "write a key and a value"),
-        ("web web.toml --threads 0", "--threads"),
-    ] {
-        let said = refusal(&mut desk.spunlaid(arguments), 1);
-        assert!(said.contains(message), "{arguments}: {said}");
-    }
-    // Nothing is left behind.
-    assert_eq!(desk.entries("."), desk::names(&["brief.toml", "web.toml"]));
-}
-
 /// Two beams, one above the other, in numbers.
 pub(super) const BEAMS: &str = r#"
 version = 1

@@ -86,6 +86,7 @@ fn coverage(
 type Signals<'a> = &'a dyn Fn(u64, usize) -> Vec<Vec<f64>>;
 
 #[test]
+#[ignore = "slow: eight hundred records of each kind and length"]
 fn stat_short_records_hold_the_known_values() {
     let weights = von_karman_weights();
     let kinds: [(&str, Signals<'_>); 3] = [
@@ -116,6 +117,7 @@ fn stat_short_records_hold_the_known_values() {
 }
 
 #[test]
+#[ignore = "slow: eight hundred records of each length"]
 fn stat_moments_of_a_skewed_record() {
     // exp(σ g) of a normal g: skewness (w + 2) √(w − 1) = 1.3 with w = e^{σ²}, flatness w⁴ + 2 w³ + 3 w² − 3.
     let w: f64 = 1.16835;

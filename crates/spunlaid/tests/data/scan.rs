@@ -165,6 +165,7 @@ fn stat_given_noise_is_taken_out_and_other_noise_is_at_most_what_is_reported() {
 }
 
 #[test]
+#[ignore = "slow: scans of many webs"]
 fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
     // Five pieces of 160 by 180 mm out of each of eight webs.
     const PIECE: [usize; 2] = [320, 360];

@@ -43,6 +43,7 @@ fn assert_same(what: &str, a: [Number; 4], b: [Number; 4]) {
 }
 
 #[test]
+#[ignore = "slow: six meshes, steps and schemes of eight fibres"]
 fn stat_the_lay_down_depends_on_neither_mesh_nor_step_nor_scheme_nor_where_the_chain_ends() {
     let duration = 0.8;
     let run = |set: &[(&str, &str)]| {
@@ -131,11 +132,13 @@ fn a_hundred_fibres_stay_finite() {
 }
 
 #[test]
+#[ignore = "slow: a hundred fibres"]
 fn a_hundred_fibres_stay_finite_at_twice_the_intensity() {
     fly_a_hundred("20 %");
 }
 
 #[test]
+#[ignore = "slow: a hundred fibres"]
 fn a_hundred_fibres_stay_finite_at_four_times_the_intensity() {
     fly_a_hundred("40 %");
 }

@@ -110,6 +110,7 @@ const COMMON: Noise = Noise { fibre: 0.3, replicate: 1.0, slopes: 0.2 };
 const ALONE: Noise = Noise { fibre: 1.0, replicate: 0.0, slopes: 0.0 };
 
 #[test]
+#[ignore = "slow: three hundred studies"]
 fn stat_intervals_hold_the_truth_as_often_as_they_say() {
     let mut wrong = Vec::new();
     for (design, replicates, model, noise) in [
@@ -282,6 +283,7 @@ fn analytic_effects_of_words_are_differences_from_the_first() {
 }
 
 #[test]
+#[ignore = "slow: three hundred studies"]
 fn stat_intervals_of_words_hold_the_truth_as_often_as_they_say() {
     let mut wrong = Vec::new();
     for (design, replicates, noise) in [

@@ -147,6 +147,7 @@ fn rejects_defects_without_a_hole_and_filaments_that_are_too_thick() {
 /// random places that lie between them. The error of the weight of a slot was two to four times too large, random
 /// defects had none, and clouds varied with the weight by up to four errors.
 #[test]
+#[ignore = "slow: forty webs of each kind"]
 fn stat_the_errors_of_basis_weight_and_clouds() {
     const SEEDS: u64 = 40;
     let (stop, laid) = (AtomicBool::new(false), AtomicU64::new(0));

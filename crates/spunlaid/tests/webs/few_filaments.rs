@@ -160,6 +160,7 @@ fn identical_two_levels_on_any_number_of_threads() {
 /// What was simulated for a large error is not simulated again for a smaller one, whose bits are those without it; and
 /// what is kept of another web is not taken.
 #[test]
+#[ignore = "slow: seven webs of two levels"]
 fn identical_a_smaller_error_goes_on_from_the_kept_sheets_of_a_larger_one() {
     let (large, small) = (of_two_levels("0.2"), of_two_levels("0.06"));
     let fibres = AtomicU64::new(0);

@@ -14,6 +14,7 @@ use spunlaid::web::map::uniformity::cv_of_piece;
 /// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code;
 /// here, that laid and scanned webs give what their fit needs.
 #[test]
+#[ignore = "slow: ten fits of ten webs"]
 fn stat_the_number_of_filaments_of_a_scanned_web_lies_in_the_intervals() {
     let truth = [350.0];
     let fits = closed_loops(&["line.filaments_per_metre"], &truth, false, 10, 10);
@@ -96,6 +97,7 @@ fn what_cannot_be_compared_is_refused() {
 /// An eighth of the filaments of a small line lay maps nearly like those of all in the same air. How far off they are
 /// over three webs is the error that counts; here it is found from the maps themselves.
 #[test]
+#[ignore = "slow: three webs of all filaments"]
 fn few_filaments_of_a_trial_are_held_against_all_in_the_same_air() {
     const LINE: &str = "
 [laydown]

@@ -29,6 +29,7 @@ fn overlap(apart: f64, variance: f64, side: f64) -> f64 {
 /// across and a fed length, `CV² = p Σ ∫ dv [T(v, 2σ₁²(1 − C₁)) T(z, 2σ₂²(1 − C₂)) − T(v, 2σ₁²) T(z, 2σ₂²)]`
 /// over all neighbours at z and the belt v that passes meanwhile, with the pitch p and [`overlap`] T.
 #[test]
+#[ignore = "slow: eight webs of filaments in shared turbulence"]
 fn stat_two_filaments_say_how_uneven_a_web_in_one_air_is() {
     // In single airs the sum is up to a tenth off, and 3 % too high on average of twelve.
     const AIRS: u64 = 8;
