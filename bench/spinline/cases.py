@@ -14,7 +14,7 @@ from pathlib import Path
 
 from reference import ZERO, Failure, read
 
-PLACES = [0.02, 0.05, 0.1]  # Where speed and temperature are told, in parts of the length.
+PLACES = [0.02, 0.05, 0.1]  # Where speed and temperature are reported, in parts of the length.
 
 
 def solution(line, rtol, method):

@@ -145,7 +145,7 @@ MATSUI = {"matsui": 0.9, "majumdar-shambaugh": 0.78}
 
 
 class Failure(Exception):
-    """What a user is told; the first word names the failure."""
+    """The message for a user; the first word names the failure."""
 
 
 class Spinline:

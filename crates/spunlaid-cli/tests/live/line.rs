@@ -184,7 +184,7 @@ fn rejects_what_is_no_knob_and_what_cannot_be_laid() {
         (set("throughput", &json!("0.6 mm"), 1), "write a mass flow"),
         (set("throughput", &json!(-1), 1), "throughput"),
         (set("throughput", &json!("../secret.toml"), 1), "throughput"),
-        (json!({"do": "back", "to": 77}), "not remembered"),
+        (json!({"do": "back", "to": 77}), "no longer stored"),
         (json!({"do": "step"}), "no such message"),
         (json!({"do": "case", "text": ""}), "no such message"),
         (json!({"do": "save", "name": "../a", "replace": true}), "cannot be the name of the file"),
@@ -225,7 +225,7 @@ fn identical_confirmation_and_change_of_a_line_with_the_other_seed() {
     let mut page = live.page();
     page.ask(&json!({"do": "confirm"}));
     let problem = page.message("refused")["problems"][0]["text"].as_str().unwrap().to_owned();
-    assert!(problem.contains("turn a knob"), "{problem}");
+    assert!(problem.contains("change a setting"), "{problem}");
     page.ask(&set("throughput", &json!(0.6), 1));
     until(&mut page, "found", |found| patches(found).iter().any(|patch| patch["change"].is_object()));
     page.ask(&json!({"do": "confirm"}));

@@ -45,7 +45,7 @@ fn rejects_bad_values_by_key_and_bad_cases_by_line() {
         (set("fibre.diameter", json!(-1e-5)), Some(6), "fibre.diameter = \"-10 µm\" is not positive"),
         (set("fibre.diameter", json!("5 s")), Some(6), "is a time; write a length"),
         (set("fibre.root", json!("glued")), Some(9), "is unknown"),
-        (set("air.profile", json!("/etc/passwd")), None, "may not name other files"),
+        (set("air.profile", json!("/etc/passwd")), None, "can use only the files"),
         (json!({ "do": "case", "text": text.replace("50 mm", "50 mmm") }), Some(14), "air.length_scale"),
         (json!({ "do": "case", "text": "a =\n= b" }), Some(1), ""),
         (json!({ "do": "case", "text": "" }), None, "fibre"),

@@ -213,7 +213,7 @@ impl SubsamplePlan {
 
     /// What they say of all filaments.
     ///
-    /// * `blocks` – number of those that are estimate of the sheet, across and along
+    /// * `blocks` – number of those that are reported of the sheet, across and along
     /// * `curves` – of the filaments, from which those between them are filled in
     ///
     /// # Errors

@@ -196,7 +196,7 @@ fn a_fed_fibre_is_shown_above_its_belt() {
             page.contains("the fibre itself folds at a scale of 0.36\u{202f}mm")
                 || page.contains("360\u{202f}µm")
         );
-        assert!(page.contains("is that of the mesh and no result"));
+        assert!(page.contains("depends on the mesh"));
     }
 }
 

@@ -87,8 +87,8 @@ pub(super) fn mesh(case: &Case) -> Option<(String, String)> {
     } else {
         format!(
             "Elements of {each} cannot show such folds. So the texture below 10{THIN}mm (chord over arc in the \
-            table, and the finest bends in the pictures) depends on the mesh and is not a result: with finer \
-            elements the fibre is folded more closely."
+            table, and the finest bends in the pictures) depends on the mesh: with finer elements the fibre is \
+            folded more closely."
         )
     };
     Some((
