@@ -68,7 +68,7 @@ where
     Ok(PyErr::from_value(class.call1(arguments)?))
 }
 
-/// Problems as the fields of `spunlaid.Problem`.
+/// Problems as the fields of `spunlaid.Diagnostic`.
 fn listed<'py>(py: Python<'py>, problems: &[Diagnostic]) -> PyResult<Vec<Bound<'py, PyTuple>>> {
     let fields = |problem: &Diagnostic| {
         let Diagnostic { key, value, cause, place, .. } = problem;

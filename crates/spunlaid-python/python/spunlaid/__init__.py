@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ._errors import (
     CaseError,
     ClusterError,
+    Diagnostic,
     Error,
     FibreLost,
     FileError,
@@ -24,7 +25,6 @@ from ._errors import (
     FolderError,
     InternalError,
     Interrupted,
-    Problem,
     SpunlaidWarning,
 )
 from ._keys import Key, keys
@@ -51,6 +51,7 @@ __all__ = [
     "ClusterError",
     "Comparison",
     "Curve",
+    "Diagnostic",
     "Error",
     "FibreLost",
     "FileError",
@@ -63,7 +64,6 @@ __all__ = [
     "Key",
     "Measure",
     "Measures",
-    "Problem",
     "Run",
     "Scan",
     "Shapes",

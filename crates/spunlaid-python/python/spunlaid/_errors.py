@@ -22,7 +22,7 @@ class SpunlaidWarning(UserWarning):
         return type(self), (self.args[0], self.key)
 
 
-class Problem(NamedTuple):
+class Diagnostic(NamedTuple):
     """One reason why a case, a study or a web cannot be run."""
 
     key: str | None
@@ -49,10 +49,10 @@ class CaseError(Error, ValueError):
 
     def __init__(self, text: str, problems: list[tuple[Any, ...]] | None = None) -> None:
         super().__init__(text)
-        self.problems: list[Problem] = [Problem(*problem) for problem in problems or []]
+        self.problems: list[Diagnostic] = [Diagnostic(*problem) for problem in problems or []]
 
     @property
-    def first(self) -> Problem | None:
+    def first(self) -> Diagnostic | None:
         """The first problem."""
         return self.problems[0] if self.problems else None
 
