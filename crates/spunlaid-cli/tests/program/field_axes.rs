@@ -97,6 +97,7 @@ fn assert_alike(found: &[f64], first: &[f64], tolerance: f64, what: &str) {
 /// Where fibre and web lie, and what the air is at places of the line, does not depend on the axes of the file. The
 /// flow is linear in space, so the numbers differ by rounding, which a flight makes larger.
 #[test]
+#[ignore = "slow: a web in each of eight orientations"]
 fn invariant_one_diffuser_in_all_orientations_lays_the_same_fibre_and_the_same_web() {
     let mut first: Option<[Vec<f64>; 3]> = None;
     for (axis, axes) in ORIENTATIONS {

@@ -75,7 +75,8 @@ fn every_command_that_draws_figures_writes_pdf_and_a_paragraph_of_methods() {
     run("compare", &["a", "b", "--out", "compare"]);
     run("spin", &[&case("spinline.toml"), "--out", "spin"]);
     run("sweep", &[&case("studies/throughput.toml"), "--out", "sweep"]);
-    run("web", &[&case("web_known.toml"), "--out", "web"]);
+    let small = ["--set", "web.width=250 mm", "--set", "web.length=250 mm", "--out", "web"];
+    run("web", &[&[case("web_known.toml").as_str()], &small[..]].concat());
     run("air", &[&case("spunbond_slot.toml"), "--frames", "2", "--out", "air"]);
     run("analyse", &[&case("records/probe.csv"), "--out", "analyse"]);
     run("analyse", &["web/map.npy", "--pixel", "1 mm", "--out", "scan"]);

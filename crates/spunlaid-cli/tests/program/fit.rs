@@ -73,6 +73,7 @@ fn the_number_of_filaments_is_found_and_the_web_that_was_found_can_be_laid() {
 }
 
 #[test]
+#[ignore = "slow: a fit that is killed several times"]
 fn a_fit_that_is_killed_goes_on_and_ends_with_the_same_bits() {
     let desk = desk();
     let fit = "fit web.toml --to truth --vary line.filaments_per_metre,laydown.noise --webs 8 --quiet --out";

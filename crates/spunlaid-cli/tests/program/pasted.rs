@@ -67,6 +67,7 @@ fn paste_all(desk: &Desk, texts: &[String], least: usize) {
 }
 
 #[test]
+#[ignore = "slow: a web with advice for each command"]
 fn every_command_of_a_web_can_be_pasted() {
     let desk = Desk::with_case(FED);
     fs::write(desk.path("my line.toml"), LINE).unwrap();
@@ -101,6 +102,7 @@ fn every_command_of_a_web_can_be_pasted() {
 }
 
 #[test]
+#[ignore = "slow: a web for each command"]
 fn every_command_of_a_new_line_and_of_a_check_can_be_pasted() {
     let desk = Desk::new();
     let numbers =

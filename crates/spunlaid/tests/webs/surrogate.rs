@@ -120,6 +120,7 @@ fn stat_autocorrelation_of_paths_is_that_of_the_generator() {
 }
 
 #[test]
+#[ignore = "slow: paths of many kilometres"]
 fn stat_paths_are_stationary() {
     for ratio in [1.0, 2.0] {
         let of = surrogate(ratio, 10.0);
@@ -281,6 +282,7 @@ fn analytic_residual_of_fibres_that_differ_from_a_surrogate_by_known_amounts() {
 }
 
 #[test]
+#[ignore = "slow: six closed loops of two kilometres"]
 fn stat_closed_loops_find_the_noise() {
     for (ratio, noise) in [(1.0, 12.4), (1.0, 30.0), (2.5, 8.0)] {
         let of = surrogate(ratio, noise);
