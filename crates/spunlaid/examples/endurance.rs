@@ -25,7 +25,9 @@ fn main() {
     let one: Option<u64> = arguments.get(1).and_then(|number| number.parse().ok());
     let folder = std::env::temp_dir().join(format!("spunlaid-endurance-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let (mut simulated, mut lost, mut refused, mut fast, mut cases) = (0.0, 0, 0, 0, 0);
+    let mut simulated = 0.0;
+    let (mut lost, mut refused) = (0, 0);
+    let (mut fast, mut cases) = (0, 0);
     for number in one.unwrap_or(0).. {
         let mut random = Random(Xoshiro256PlusPlus::seed_from_u64(number));
         let text = if wide && random.share() < 0.4 { random.hanging() } else { random.fed(wide, &folder) };

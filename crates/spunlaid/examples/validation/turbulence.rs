@@ -99,8 +99,9 @@ pub fn spectrum() {
         spectrum.add(&record, None);
     }
     let wanted = air.rms().powi(2) / air.cutoff_frequency;
-    let (mut low, mut high, mut sum, mut count, mut above): (f64, f64, f64, u32, f64) =
-        (9.0, 0.0, 0.0, 0, 0.0);
+    let (mut low, mut high) = (9.0_f64, 0.0_f64);
+    let (mut sum, mut count) = (0.0, 0_u32);
+    let mut above = 0.0_f64;
     for (f, density) in spectrum.finish().points() {
         let ratio = density / wanted;
         if f > 4.0 && f < 96.0 {
