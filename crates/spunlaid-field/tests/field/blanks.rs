@@ -331,3 +331,104 @@ fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
         }
     }
 }
+
+/// The hole around a point without a number goes as far as the diagonal of its cells, and between points without cells
+/// as far as twice their usual distance.
+#[test]
+fn analytic_holes_go_as_far_as_their_cells() {
+    // Cells of 2 × 0.5; points off their rows by turns, in a box of 8 × 1.6.
+    let bent = |i: usize| if i % 2 == 1 && i < 15 { 0.1 } else { 0.0 };
+    let of_cells = 4.25_f64.sqrt();
+    let of_points = 2.0 * (8.0 * 1.5 / 20.0_f64).sqrt();
+    for (off, reach) in [(0.0, of_cells), (1.0, of_points)] {
+        let row = |i: usize| {
+            let (x, y) = (2 * (i % 5), 0.5 * (i / 5) as f64 + off * bent(i));
+            let speed = if i == 19 { "nan".to_owned() } else { (10 + x).to_string() };
+            format!("{x},{y},{speed},0\n")
+        };
+        let text = format!("x,y,u,v\n{}", (0..20).map(row).collect::<String>());
+        let (field, _) = Field::parse(text.as_bytes(), "a.csv").unwrap();
+        let why = |share: f64| field.why_no_air(Vec3::new(8.0 + share * reach, 1.5, 0.0)).is_some();
+        assert_eq!([0.5, 0.999, 1.001].map(why), [true, true, false], "{off}");
+    }
+}
+
+/// The first place without a number is said, in its own kind: points by their coordinates, cells by their middle.
+#[test]
+fn analytic_the_first_point_or_cell_without_a_number_is_where_it_is_said_to_be() {
+    for (kind, count, missing, said) in [
+        ("POINT_DATA", 30, vec![6], "U has no number at 1 point; it is point 7, at (1.123457, 1, 0)"),
+        (
+            "POINT_DATA",
+            30,
+            vec![24, 29],
+            "U has no number at 2 points; the first is point 25, at (4.123457, 1, 2)",
+        ),
+        ("CELL_DATA", 8, vec![5], "U has no number at 1 cell; it is cell 6, at (1.623457, 1.5, 1)"),
+    ] {
+        let value = |i: usize| if missing.contains(&i) { "nan 0 0\n" } else { "5 0 0\n" };
+        let text = format!(
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 5 3 2\n\
+            ORIGIN 0.1234567 0 0\nSPACING 1 1 2\n{kind} {count}\nVECTORS U double\n{}",
+            (0..count).map(value).collect::<String>()
+        );
+        let (_, warnings) = Field::parse(text.as_bytes(), "a.vtk").unwrap();
+        assert!(warnings.iter().any(|warning| warning.message.starts_with(said)), "{said}: {warnings:?}");
+    }
+}
+
+/// Two cells in two pieces, of which one has the points between them too, with other values: those of their owner hold.
+#[test]
+fn analytic_points_that_another_piece_of_a_mesh_has_too_have_its_values() {
+    let numbers = |name: &str, kind: &str, components: usize, values: &[f64]| {
+        let values: String = values.iter().map(|value| format!("{value} ")).collect();
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+            format=\"ascii\">{values}</DataArray>\n"
+        )
+    };
+    let piece = |from: usize, copies: Option<usize>| {
+        let corners =
+            [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+        let points = corners.map(|[x, y, z]| [from + x, y, z].map(|at| at as f64));
+        let is_copy = points.map(|[x, ..]| copies == Some(x as usize));
+        let of = |own: fn(f64) -> f64| {
+            [0, 1, 2, 3, 4, 5, 6, 7].map(|i| if is_copy[i] { 999.0 } else { own(points[i][0]) })
+        };
+        let velocity = of(|x| 10.0 + x).map(|u| [u, 0.0, 0.0]);
+        format!(
+            "<Piece NumberOfPoints=\"8\" NumberOfCells=\"1\">\n<PointData>\n{}{}{}{}</PointData>\n\
+            <Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n</Piece>\n",
+            numbers("U", "Float64", 3, velocity.as_flattened()),
+            numbers("k", "Float64", 1, &of(|x| 2.0 + x)),
+            numbers("epsilon", "Float64", 1, &of(|x| 3.0 + x)),
+            numbers("vtkGhostType", "UInt8", 1, &is_copy.map(f64::from)),
+            numbers("Points", "Float64", 3, points.as_flattened()),
+            numbers("connectivity", "Int64", 1, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
+            numbers("offsets", "Int64", 1, &[8.0]),
+            numbers("types", "UInt8", 1, &[12.0]),
+        )
+    };
+    for (left, right) in [(None, Some(1)), (Some(1), None)] {
+        for is_turned in [false, true] {
+            let mut pieces = [piece(0, left), piece(1, right)];
+            if is_turned {
+                pieces.reverse();
+            }
+            let text = format!(
+                "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
+                <UnstructuredGrid>\n{}</UnstructuredGrid>\n</VTKFile>\n",
+                pieces.concat()
+            );
+            let (field, _) = Field::parse(text.as_bytes(), "a.vtu").unwrap();
+            for x in [0.25, 0.75, 1.25, 1.75] {
+                let local = field.sample(Vec3::new(x, 0.5, 0.5), &mut Hint::default());
+                let found = [local.velocity.x - 10.0, local.k - 2.0, local.epsilon - 3.0];
+                assert!(
+                    local.inside && found.iter().all(|off| (off - x).abs() < 1e-9),
+                    "{left:?} {x}: {local:?}"
+                );
+            }
+        }
+    }
+}

@@ -443,3 +443,71 @@ proptest! {
         }
     }
 }
+
+/// A table of 20 points whose velocity has these values in a component, and the largest of the others.
+fn marked(component: &str, mark: f64, count: usize, others: f64) -> Result<usize, String> {
+    let row = |i: usize| {
+        let value = if i < count { mark } else { 0.5 * others };
+        let parts = ["u", "v", "w"].map(|name| if name == component { value } else { others }.to_string());
+        format!("{},{},{}\n", i % 5, i / 5, parts.join(","))
+    };
+    let text = format!("x,y,u,v,w\n{}", (0..20).map(row).collect::<String>());
+    let read = Field::parse(text.as_bytes(), "a.csv");
+    read.map(|(_, warnings)| warnings.len()).map_err(|error| error.to_string())
+}
+
+/// Beyond 300 m/s and beyond twenty times all others, at more than one place and fewer than half of them.
+#[test]
+fn rejects_velocities_that_mark_points_without_a_number() {
+    for (mark, others, is_mark) in [
+        (-9999.0, 13.0, true),
+        (301.0, 13.0, true),
+        (300.0, 13.0, false),
+        (401.0, 20.0, true),
+        (-401.0, 20.0, true),
+        (400.0, 20.0, false),
+        (301.0, 0.0, false),
+    ] {
+        for component in ["u", "v", "w"] {
+            let found = marked(component, mark, 3, others);
+            let said = format!("has a velocity of {mark} m/s at 3 places and no other beyond {others} m/s");
+            let is_told = found.as_ref().is_err_and(|error| error.contains(&said));
+            assert_eq!(
+                (is_told, found.is_err()),
+                (is_mark, is_mark),
+                "{component} {mark} {others}: {found:?}"
+            );
+        }
+    }
+    assert_eq!(
+        [1, 2, 9, 10].map(|count| marked("u", 9999.0, count, 13.0).is_err()),
+        [false, true, true, false]
+    );
+}
+
+/// Down to a thousandth of the largest value: zero below zero, with a warning.
+#[test]
+fn rejects_energies_below_zero_by_more_than_rounding() {
+    let read = |least: &str| {
+        let rows: String = (0..20)
+            .map(|i| format!("{},{},10,0,{},5\n", i % 5, i / 5, if i == 7 { least } else { "2" }))
+            .collect();
+        let text = format!("x,y,u,v,k,epsilon\n{rows}");
+        let read = Field::parse(text.as_bytes(), "a.csv").map_err(|error| error.to_string());
+        read.map(|(_, warnings)| {
+            warnings.into_iter().map(|warning| warning.message.into_owned()).collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(read("0"), Ok(Vec::new()));
+    for least in ["-0.0000001", "-0.002"] {
+        assert_eq!(
+            read(least),
+            Ok(vec!["k is negative at 1 point; zero is used there".to_owned()]),
+            "{least}"
+        );
+    }
+    let error = read("-0.0021").unwrap_err();
+    let said = "is below zero at 1 point, and it cannot be: its smallest value is -0.0021 and its largest 2. Only \
+                values down to -0.1 % of the largest count as rounding";
+    assert!(error.contains(said), "{error}");
+}
