@@ -239,8 +239,7 @@ impl OpenCase {
                         everywhere, from spinline.temperature",
                         Dimension::Temperature.pretty(temperature)
                     ));
-                    let note = key_values.placed(what.with_key("spinline.field", None));
-                    notes.push(Diagnostic { value: None, ..note });
+                    notes.push(key_values.placed(what.with_key("spinline.field", None)));
                     if let Some(line) = &mut case.spinline {
                         line.air = Surroundings::Field { temperature, table };
                     }

@@ -216,8 +216,8 @@ fn a_row_that_does_not_stand_in_the_middle_of_the_air_is_doubted() {
     let at = |x: &str| format!("air.field_root=[\"{x}\", \"0 m\", \"0 m\"]");
     let said = output(&["line.slot_gap=20 mm"]);
     let place = "the middle of the slot is at [0 m, 0 m, 0 m] of the field (air.field_root); filaments are fed from \
-        -10 mm to 10 mm from there along the machine direction, -x. They hang side by side along the cross \
-        direction, y";
+        -10 mm to 10 mm from there along the machine direction, -x. They are side by side along the cross \
+        direction, y, in the same mean flow";
     assert!(said.contains(place) && !said.contains("feeds filaments"), "{said}");
     assert!(!output(&[&at("4 mm")]).contains("feeds filaments"));
     for (root, depth, doubt) in [

@@ -86,7 +86,7 @@ fn analytic_a_profile_between_its_rows() {
     assert!(rows[1..].iter().flat_map(|row| &row[3..]).all(|number| number.is_nan()), "{rows:?}");
     assert!(
         said.contains(
-            "2 of 3 places lie where the air is not known, the first of them in row 2 (0.5, 0, 0 m)"
+            "2 of 3 positions are where the air is not known, the first of them in row 2 (0.5, 0, 0 m)"
         ),
         "{said}"
     );
@@ -115,7 +115,7 @@ fn identical_a_field_at_its_own_points() {
         assert_row(row, [u, v, w, speed, k, length, cutoff], 1e-9);
     }
     assert!(rows[own.len()][3..].iter().all(|number| number.is_nan()));
-    assert!(said.contains(&format!("1 of {} places", rows.len())), "{said}");
+    assert!(said.contains(&format!("1 of {} positions", rows.len())), "{said}");
 }
 
 /// The middle of the diffuser of `spunbond_field.toml` is 60 m/s × 15 mm / (15 mm + 0.15 x), and v = u y/b × 0.15: 1 %

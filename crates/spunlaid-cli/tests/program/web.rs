@@ -202,7 +202,7 @@ fn the_first_screen_says_what_changes_do_to_the_line_and_equal_beams_once() {
     let page = |folder: &str| String::from_utf8(desk.read(&format!("{folder}/report.html"))).unwrap();
     let [line, other] =
         ["w", "other"].map(|folder| read_between(&page(folder), "The line", "Defects per area"));
-    assert!(line.contains("Beams 2, alike") && !line.contains("of layer"), "{line}");
+    assert!(line.contains("Beams 2, identical") && !line.contains("of layer"), "{line}");
     assert_eq!(line.matches("Holes per metre").count(), 1, "{line}");
     assert!(other.contains("Filament of layer S1") && other.contains("Filament of layer S2"), "{other}");
 

@@ -100,7 +100,8 @@ fn numbers(results: &Results, whole: &Whole<'_>, is_checked: bool) -> Section<'s
     let (about, caption) = if n > 1 {
         let caption = "Replicates are fibres that differ in nothing but the random phases of the turbulence. \
             About two times in three the true mean lies within one standard error.";
-        let contained = if is_checked { ", with the results of the checks of time step and mesh" } else { "" };
+        let contained =
+            if is_checked { ", with the results of the checks of time step and mesh" } else { "" };
         let replicates = count(n, "replicate");
         (format!("Mean ± one standard error of the mean over {replicates}{contained}."), caption)
     } else {
