@@ -202,6 +202,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
 /// Straight fibres at random leave `exp(−τd)` bare: drawn with their true width, in squares of 2 mm, and as the map
 /// reports it, whose patches vary by chance only.
 #[test]
+#[ignore = "slow: many webs of straight fibres"]
 fn stat_the_bare_area_of_straight_fibres_at_random() {
     let (side, pixels, length) = (2e-3, 400, 20e3);
     let expected = libm::exp(-length * DIAMETER);
@@ -414,6 +415,7 @@ fn analytic_the_dip_of_a_blocked_hole() {
 /// Even webs are beyond the bounds of 95 % once in twenty, and the length that is reported makes a dip as large
 /// as its bound.
 #[test]
+#[ignore = "slow: many webs with a defect"]
 fn stat_streaks_of_even_webs_and_of_a_defect() {
     let mut random = Random::new(9);
     let (_, mut even) = streaked(&mut random, 0.01, 0.0);

@@ -169,6 +169,7 @@ fn invariant_the_whole_force_does_not_depend_on_the_cells() {
 
 /// The same flow around fibres along other axes of the field. The air is linear in space, so only rounding differs.
 #[test]
+#[ignore = "slow: a flight in each of eight orientations"]
 fn invariant_the_sources_lie_along_the_axes_of_the_field() {
     let turned = |(along, normal): (usize, usize)| {
         let axis = Axis::ALL[along];
@@ -326,6 +327,7 @@ fn lost_filaments_are_counted_and_the_others_are_the_same_without_them() {
 }
 
 #[test]
+#[ignore = "slow: thirty flights on one and on two threads"]
 fn identical_for_any_number_of_threads() {
     let case = line(mesh(20, 6), 10);
     let inlets = [-0.01, 0.0, 0.01];
