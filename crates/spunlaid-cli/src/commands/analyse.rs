@@ -54,7 +54,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "record");
     let output = analyse.output.with_folder(&name);
     let air = output.folder(&name).join("air.toml");
-    let (files, figures) = ([&analyse.record], analyse.figures.files());
+    let files = [&analyse.record];
+    let figures = analyse.figures.files();
     let delivery = Delivery::open::<RecordFolder<'_>>(invocation, files, &name, &output, figures)?;
     let record = read_record(&analyse.record, &analyse.reading.layout())?;
     let analysis = spunlaid::air::record::analyse(&record, &analyse.reading.settings())?;
@@ -69,7 +70,8 @@ fn record(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
 fn scan(analyse: &Analyse, invocation: &Invocation) -> Result<(), Failure> {
     let name = stem(&analyse.record, "scan");
     let output = analyse.output.with_folder(&name);
-    let (files, figures) = ([&analyse.record], analyse.figures.files());
+    let files = [&analyse.record];
+    let figures = analyse.figures.files();
     let delivery = Delivery::open::<ScanFolder>(invocation, files, &name, &output, figures)?;
     let started = Instant::now();
     let (picture, findings) = analyse.scan.request().analyse_file(&analyse.record)?;

@@ -19,7 +19,8 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
     let (case, notes) = settled(run.threads, quiet, |resources| run.source.read(&set, resources))?;
     notes.iter().for_each(say::note);
     let name = name_of(&run.source.case, FileKind::Case, ["case", "fibre"]);
-    let (files, figures) = ([&run.source.case], run.figures.files());
+    let files = [&run.source.case];
+    let figures = run.figures.files();
     let mut delivery = Delivery::open::<RunFolder>(invocation, files, &name, &run.output, figures)?;
 
     let fibre_steps = AtomicU64::new(0);

@@ -108,7 +108,8 @@ fn identical_a_field_at_its_own_points() {
     assert!(own.len() > 10 && rows.len() == own.len() + 1);
     for (row, own) in rows.iter().zip(&own) {
         let [u, v, w] = [own[3], own[4], own[5]];
-        let (k, epsilon) = (own[6], own[7]);
+        let k = own[6];
+        let epsilon = own[7];
         let speed = u.hypot(v).hypot(w);
         let length = 0.43 * k.powf(1.5) / epsilon;
         let cutoff = 0.25 * (speed / length + epsilon / (0.3 * k));

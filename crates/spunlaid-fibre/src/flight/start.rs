@@ -155,7 +155,7 @@ impl Flight {
         self.chain.settle_tensions();
         let at_rest = self.chain.velocity.clone();
         self.chain.earlier.clone_from(&at_rest);
-        self.run(1, (-0.5 * self.h, 0.0), false);
+        self.run(1, -0.5 * self.h, 0.0, false);
         self.scheme = scheme;
         self.steps_done = 0;
         self.work = WorkDone::default();

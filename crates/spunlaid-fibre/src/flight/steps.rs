@@ -40,7 +40,7 @@ impl Flight {
 
     /// Advances all fibres by a number of steps.
     pub fn advance(&mut self, steps: u64) {
-        self.run(steps, (self.h, self.h), false);
+        self.run(steps, self.h, self.h, false);
     }
 
     /// Positions, velocities and energies now.
@@ -61,7 +61,7 @@ impl Flight {
         let carried = chain.laying.as_ref().map(|laying| laying.carried).unwrap_or_default();
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);
-        self.run(1, (self.h, self.h), true);
+        self.run(1, self.h, self.h, true);
         let drag = self.drag_of_elements(tension.len());
         if first {
             velocity.clone_from(&self.start.velocity);
@@ -90,11 +90,10 @@ impl Flight {
         Snapshot { time, position, velocity, tension, drag, nodes, in_air, root_strain_integral, energy }
     }
 
-    pub(super) fn run(&mut self, steps: u64, kick_and_drift: (f64, f64), split: bool) {
+    pub(super) fn run(&mut self, steps: u64, kick: f64, drift: f64, split: bool) {
         // The very first step always stores the work separately, because the sums begin with it.
         let first = steps.min(u64::from(self.steps_done == 0));
         for (steps, split) in [(first, true), (steps - first, split)] {
-            let (kick, drift) = kick_and_drift;
             let stride = Stride { kick, drift, damped: self.damped, split };
             match self.scheme {
                 _ if steps == 0 => {}

@@ -56,7 +56,8 @@ impl Flyer<'_> {
         let elements: Vec<f64> = beams.iter().map(|layer| layer.beam().element_mass()).collect();
         let canvas =
             DepositionGrid::new(&spec.sheet, &elements, beams.iter().map(LayerBeam::basis_weight).sum())?;
-        let (mut fibres, mut simulated) = (Vec::new(), Vec::new());
+        let mut fibres = Vec::new();
+        let mut simulated = Vec::new();
         for (number, layer) in beams.into_iter().enumerate() {
             let brush = Depositor::new(&canvas, layer.beam().element_mass(), spec.titres(number));
             let (layer, mut found, curves) = self.simulate_until_estimated(spec, number, layer, &brush)?;
@@ -96,7 +97,8 @@ impl Flyer<'_> {
             spent.in_parallel += simulated.layer.spent.in_parallel;
             simulated.layer.spent = spent;
             let Some(few) = &layer.few else { return Ok((layer, simulated, None)) };
-            let (beam, sheet) = (layer.beam(), &layer.sheet);
+            let beam = layer.beam();
+            let sheet = &layer.sheet;
             let curves = few.curves(sheet, &beam, &simulated)?;
             let workers = self.workers();
             let estimate =

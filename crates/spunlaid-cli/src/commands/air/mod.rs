@@ -47,7 +47,8 @@ pub(crate) fn air(air: &Air, invocation: &Invocation) -> Result<(), Failure> {
         say::remark(false, &UNIFORM);
         remarks.push(UNIFORM.to_owned());
     }
-    let (name, figures) = (stem(&air.source.case, "case"), air.figures.files());
+    let name = stem(&air.source.case, "case");
+    let figures = air.figures.files();
     let folder = format!("{name}_air");
     let delivery =
         Delivery::open::<AirFolder<'_>>(invocation, [&air.source.case], folder, &air.output, figures)?;

@@ -30,7 +30,8 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
     Sources::fault(case).map_or(Ok(()), |fault| Err(refuse(fault)))?;
     let curtain = curtain.ok_or_else(|| refuse(no_filaments()))?;
     notes.iter().for_each(say::note);
-    let (name, figures) = (stem(path, "case"), air.figures.files());
+    let name = stem(path, "case");
+    let figures = air.figures.files();
     let delivery = Delivery::open::<SourcesFolder<'_>>(
         invocation,
         [path],

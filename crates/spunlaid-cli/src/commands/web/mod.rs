@@ -29,7 +29,8 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     let web = settled(threads, output.quiet, read)?;
     web.notes.iter().for_each(say::note);
     let judged_by = arguments.judged_by.as_deref().map(|text| judged_by(&web.spec, text)).transpose()?;
-    let (name, figures) = (stem(file, "web"), arguments.figures.files());
+    let name = stem(file, "web");
+    let figures = arguments.figures.files();
     let beside = output.folder(&name).display().to_string();
     let mut delivery = Delivery::open::<WebFolder>(invocation, [file], &name, output, figures)?;
     arguments.sheet.as_deref().map_or(Ok(()), |sheet| check_file(sheet, "--sheet", output.force))?;

@@ -45,7 +45,8 @@ pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String>
         )
     });
     let open = not_converged(measure, checks);
-    open.map(|off| format!("not converged: {}", compared_with_finest(off.0, &off.1))).or(silent)
+    open.map(|(length, change)| format!("not converged: {}", compared_with_finest(length, &change)))
+        .or(silent)
 }
 
 /// Length of the finest elements [m], and what they change.

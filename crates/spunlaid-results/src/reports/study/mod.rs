@@ -190,10 +190,11 @@ impl Contents for FoundStudy<'_> {
         let StudyFile { study, text, base_text, notes, .. } = self.file;
         let refusal = self.refusal();
         let figures = study_figures(study, &self.results, &self.rankings.of_measures);
-        let (rankings, claims) = (&self.rankings.of_measures[..], &self.claims[..]);
         let report = || {
+            let rankings = &self.rankings.of_measures;
             let refusal = refusal.as_deref();
-            Ok(study_report(study, &self.results, rankings, refusal, claims, &figures, [text, base_text]))
+            let texts: [&str; 2] = [text, base_text];
+            Ok(study_report(study, &self.results, rankings, refusal, &self.claims, &figures, texts))
         };
         maker.finish(&self.name, &StudyNote::notes_of_results(notes), &figures, |_| Ok(()), report)
     }

@@ -102,8 +102,12 @@ impl WebFolder {
 
     /// What was tried with it.
     fn advised(&self) -> Advised<'_> {
-        let (advice, assumed_values) = (self.advice.as_ref(), self.assumed_values.as_ref());
-        Advised { advice, assumed_values, awaited: self.awaited, beside: &self.beside }
+        Advised {
+            advice: self.advice.as_ref(),
+            assumed_values: self.assumed_values.as_ref(),
+            awaited: self.awaited,
+            beside: &self.beside,
+        }
     }
 
     /// The specification sheet, one page of PDF.

@@ -54,7 +54,8 @@ pub fn web_report<'a>(
     figures: &'a [Figure],
 ) -> Result<Report<'a>, Failure> {
     let WebFolder { file: WebFile { spec, .. }, simulated, findings, fabric, .. } = folder;
-    let (web, tried) = (&simulated.web, folder.advised());
+    let web = &simulated.web;
+    let tried = folder.advised();
     let diameter = spec.layers.first().map_or(0.0, |layer| layer.diameter);
     let strands = Strands { window: spec.window(), strands, diameter };
     let marks = Some(MarkedPlaces::new(fabric));
