@@ -10,9 +10,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use cpu_time::ThreadTime;
-use spunlaid::fibre::{Flight, Job};
-use spunlaid::ground::{Isa, WIDTH};
-use spunlaid::input::read_case;
+use spunlaid_fibre::{Flight, Job};
+use spunlaid_ground::{Isa, WIDTH};
+use spunlaid_input::read_case;
 use std::hint::black_box;
 use std::path::PathBuf;
 use std::process::Command;

@@ -12,7 +12,7 @@
 #![allow(clippy::print_stdout, clippy::expect_used)]
 
 use cpu_time::ThreadTime;
-use spunlaid::ground::threads::{Shared, share_by};
+use spunlaid_ground::threads::{Shared, share_by};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;

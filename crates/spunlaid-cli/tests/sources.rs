@@ -4,8 +4,8 @@
 mod desk;
 
 use desk::{Desk, success};
-use spunlaid::fibre::case::keys;
-use spunlaid::input::{WEB_KEYS, WEB_TABLES};
+use spunlaid_fibre::case::keys;
+use spunlaid_input::{WEB_KEYS, WEB_TABLES};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

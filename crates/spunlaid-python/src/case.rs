@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PyIterator, PyList, PyMapping, PyTuple, PyType};
 use spunlaid::air::PlaceAxes;
-use spunlaid::fibre::case;
+use spunlaid::fibre;
 use spunlaid::fibre::case::keys::{self, Key, Value};
 use spunlaid::ground::{Diagnostic, FileKind, Vec3};
 use spunlaid::input::{
@@ -32,7 +32,7 @@ const NAME: &str = "Case";
 #[pyclass(frozen, mapping, module = "spunlaid", name = "Case")]
 #[derive(Debug)]
 pub(crate) struct Case {
-    pub(crate) case: Arc<case::Case>,
+    pub(crate) case: Arc<fibre::Case>,
     pub(crate) notes: Vec<Diagnostic>,
     /// The text of the case file, what messages call it, and what is changed in it.
     text: Arc<str>,
@@ -67,7 +67,7 @@ impl Case {
         &self,
         py: Python<'_>,
         threads: Option<usize>,
-    ) -> PyResult<(Arc<case::Case>, Vec<Diagnostic>)> {
+    ) -> PyResult<(Arc<fibre::Case>, Vec<Diagnostic>)> {
         if !self.case.waits_for_flights() {
             return Ok((Arc::clone(&self.case), self.notes.clone()));
         }

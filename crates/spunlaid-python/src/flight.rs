@@ -9,7 +9,7 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
-use spunlaid::fibre::{Job, LaidPoint, Snapshot, flight};
+use spunlaid::fibre::{self, Job, LaidPoint, Snapshot};
 use spunlaid::ground::threads::lock;
 use spunlaid::ground::{Isa, Vec3, WIDTH};
 use spunlaid_results::Failure;
@@ -32,7 +32,7 @@ const MOST_STEPS: f64 = 9e15;
 #[derive(Debug)]
 pub(crate) struct Flight {
     /// Up to eight fibres each.
-    packs: Mutex<Vec<flight::Flight>>,
+    packs: Mutex<Vec<fibre::Flight>>,
     fibres: u64,
 }
 
@@ -53,7 +53,7 @@ impl Flight {
                 let last = fibres.min(first + WIDTH as u64);
                 let jobs: Vec<Job<'_>> =
                     (first..last).map(|replicate| Job::new(&description, replicate)).collect();
-                flight::Flight::new(&jobs, Isa::detect())
+                fibre::Flight::new(&jobs, Isa::detect())
             };
             starts.map(pack).collect::<Result<Vec<_>, Failure>>()
         })?;
@@ -87,13 +87,13 @@ impl Flight {
     /// Time of the positions [s].
     #[getter]
     fn time(&self, py: Python<'_>) -> PyResult<f64> {
-        guarded(py, || Ok(self.lock().first().map_or(0.0, flight::Flight::time)))
+        guarded(py, || Ok(self.lock().first().map_or(0.0, fibre::Flight::time)))
     }
 
     /// The time step [s].
     #[getter]
     fn time_step(&self, py: Python<'_>) -> PyResult<f64> {
-        guarded(py, || Ok(self.lock().first().map_or(0.0, flight::Flight::time_step)))
+        guarded(py, || Ok(self.lock().first().map_or(0.0, fibre::Flight::time_step)))
     }
 
     /// Number of fibres.
@@ -147,7 +147,7 @@ impl Flight {
     fn take_laid<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let laid = guarded(py, || {
             let mut packs = self.lock();
-            let curves = |pack: &mut flight::Flight| -> Vec<Vec<LaidPoint>> {
+            let curves = |pack: &mut fibre::Flight| -> Vec<Vec<LaidPoint>> {
                 (0..pack.fibres()).map(|lane| pack.take_laid(lane)).collect()
             };
             Ok(packs.iter_mut().flat_map(curves).collect::<Vec<_>>())
@@ -167,7 +167,7 @@ impl Flight {
 }
 
 impl Flight {
-    fn lock(&self) -> MutexGuard<'_, Vec<flight::Flight>> {
+    fn lock(&self) -> MutexGuard<'_, Vec<fibre::Flight>> {
         lock(&self.packs)
     }
 
@@ -196,7 +196,7 @@ impl Flight {
     }
 
     fn snapshots(&self, py: Python<'_>) -> PyResult<Vec<Snapshot>> {
-        guarded(py, || Ok(self.lock().iter().map(flight::Flight::snapshot).collect()))
+        guarded(py, || Ok(self.lock().iter().map(fibre::Flight::snapshot).collect()))
     }
 
     /// Numbers of all fibres now: fibres x places x `N`, NaN where a fibre has fewer places than another one.

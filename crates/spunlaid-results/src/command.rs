@@ -1,6 +1,6 @@
 //! Commands that a reader can paste into a shell.
 
-use spunlaid::experiment::Change;
+use spunlaid_experiment::Change;
 
 /// A word of a command line, in quotes if the shell would not take it as one word. It stays in its line.
 pub fn quoted(word: &str) -> String {

@@ -1,11 +1,11 @@
 //! What changes do, in the words that files, figures and reports share.
 
 use crate::numbers::{HARD, THIN, in_sentence, plus_minus, rounded, significant};
-use spunlaid::experiment::{Change, setting};
-use spunlaid::fibre::case::keys;
-use spunlaid::ground::{ChangedKey, Difference};
-use spunlaid::simulation::WebSpec;
-use spunlaid::simulation::layers::web_key;
+use spunlaid_experiment::{Change, setting};
+use spunlaid_fibre::case::keys;
+use spunlaid_ground::{ChangedKey, Difference};
+use spunlaid_simulation::WebSpec;
+use spunlaid_simulation::layers::web_key;
 
 pub(crate) const PER_CENT: f64 = 100.0;
 

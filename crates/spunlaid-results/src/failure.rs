@@ -1,7 +1,7 @@
 //! Folders that cannot take results, and results that cannot be written.
 
 use parquet::errors::ParquetError;
-use spunlaid::ground::{Diagnostic, Error, Fault};
+use spunlaid_ground::{Diagnostic, Error, Fault};
 use std::io;
 use std::path::Path;
 

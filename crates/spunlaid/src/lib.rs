@@ -6,7 +6,7 @@
 //! |---|---|
 //! | [`ground`] | numbers in lanes, units, errors, tables, statistics, measures |
 //! | [`air`] | CFD fields (the crate [`spunlaid-field`](spunlaid_field)), hot-wire records, turbulence |
-//! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::case::Case), its flight |
+//! | [`fibre`] | one fibre: spinline, chain, forces, the checked [`Case`](fibre::Case), its flight |
 //! | [`web`] | curves on the belt, the map of a web, the fabric, scans |
 //! | [`simulation`] | ensembles, filaments in shared turbulence, and what is measured |
 //! | [`experiment`] | studies, advice, the fit of settings to a scan |
@@ -19,8 +19,9 @@
 //! short, the program does this:
 //!
 //! ```
-//! use spunlaid::simulation::ensemble::{Recorded, Results, fly};
-//! use spunlaid::ground::error::Error;
+//! use spunlaid::simulation::ensemble::fly;
+//! use spunlaid::simulation::{Recorded, Results};
+//! use spunlaid::ground::Error;
 //! use spunlaid::input::{read_case, starter_case};
 //! use spunlaid::ground::{RunContext, Isa};
 //! use std::sync::atomic::{AtomicBool, AtomicU64};
@@ -50,11 +51,11 @@
 //! A program of its own may advance a flight of up to eight fibres and look at it whenever it likes:
 //!
 //! ```
-//! use spunlaid::fibre::flight::{Flight, Job};
+//! use spunlaid::fibre::{Flight, Job};
 //! use spunlaid::input::{read_case, starter_case};
-//! use spunlaid::ground::lanes::Isa;
+//! use spunlaid::ground::Isa;
 //!
-//! # fn main() -> Result<(), spunlaid::ground::error::Error> {
+//! # fn main() -> Result<(), spunlaid::ground::Error> {
 //! let (case, _notes) = read_case((starter_case(), "starter.toml"), &[])?;
 //! let jobs = [0, 1, 2].map(|replicate| Job::new(&case, replicate));
 //! let mut flight = Flight::new(&jobs, Isa::detect())?;
@@ -65,8 +66,8 @@
 //! # }
 //! ```
 //!
-//! [`input::read_case`] reads a file. A [`Case`](fibre::case::Case) can also be built in code;
-//! [`Case::check`](fibre::case::Case::check) then says whether it can be run. Every quantity is in SI units, and its
+//! [`input::read_case`] reads a file. A [`Case`](fibre::Case) can also be built in code;
+//! [`Case::check`](fibre::Case::check) then says whether it can be run. Every quantity is in SI units, and its
 //! documentation gives the unit.
 //!
 //! Equations are cited as `theory.md (n)`. They are in `docs/theory.md` of the repository; `docs/validation.md`
@@ -78,11 +79,174 @@
 // Units are written in brackets, [m/s], which rustdoc would take for broken links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-pub extern crate spunlaid_ground as ground;
+/// Vector lanes, units, errors, statistics, measures.
+pub mod ground {
+    pub use spunlaid_ground::{
+        ChangedKey, Diagnostic, Difference, Dimension, Effect, Error, Estimate, Fault, FileError, FileKind,
+        Isa, Lanes, Log, Measure, OnDrop, Position, RunContext, Setting, Severity, Spectrum, Turned, Value,
+        Vec3, WIDTH, Welch, Window,
+    };
 
-pub use spunlaid_air as air;
-pub use spunlaid_experiment as experiment;
-pub use spunlaid_fibre as fibre;
-pub use spunlaid_input as input;
-pub use spunlaid_simulation as simulation;
-pub use spunlaid_web as web;
+    /// See [`spunlaid_ground::error`].
+    pub mod error {
+        pub use spunlaid_ground::error::{Place, by_count, counted, listed};
+    }
+
+    /// See [`spunlaid_ground::measure`].
+    pub mod measure {
+        pub use spunlaid_ground::measure::with_errors;
+    }
+
+    /// See [`spunlaid_ground::statistics`].
+    pub mod statistics {
+        pub use spunlaid_ground::statistics::{interval_of_deviation, median};
+    }
+
+    /// See [`spunlaid_ground::threads`].
+    pub mod threads {
+        pub use spunlaid_ground::threads::{lock, look_while, par_map, unlock};
+    }
+
+    /// See [`spunlaid_ground::units`].
+    pub mod units {
+        pub use spunlaid_ground::units::{rounded, udunits, with_decimal_point};
+    }
+}
+
+/// Air: mean flow, turbulence, velocity records.
+pub mod air {
+    pub use spunlaid_air::{
+        Air, AirAtPlaces, Cabin, Component, Eddies, Field, Hint, IntegralRule, LONGEST_GAP, Lateral, Layout,
+        PlaceAxes, Reading, Record, Samples, Settings, SpectrumSettings, Stream, StreamKey, Wind,
+    };
+
+    /// See [`spunlaid_air::record`].
+    pub mod record {
+        pub use spunlaid_air::record::{Settings, analyse, parse_record, read_record};
+    }
+}
+
+/// One fibre: its case, drag, spinline, flight.
+pub mod fibre {
+    pub use spunlaid_fibre::{
+        Case, Checks, EndNodeMotion, Energy, Fibre, FibreParameters, Flight, FrictionLaw, Job, LaidPoint,
+        Polymer, Root, Snapshot, Solution,
+    };
+
+    /// See [`spunlaid_fibre::body`].
+    pub mod body {
+        pub use spunlaid_fibre::body::{diameter_of, linear_density};
+    }
+
+    /// See [`spunlaid_fibre::case`].
+    pub mod case {
+
+        /// See [`spunlaid_fibre::case::keys`].
+        pub mod keys {
+            pub use spunlaid_fibre::case::keys::{
+                CASE, DataFile, Key, KeyTable, Kind, Omission, Value, all, find, named,
+            };
+        }
+    }
+
+    /// See [`spunlaid_fibre::chain`].
+    pub mod chain {
+        pub use spunlaid_fibre::chain::Scheme;
+    }
+}
+
+/// Webs: curves on the belt, basis weight map, fabric, scans.
+pub mod web {
+    pub use spunlaid_web::{
+        Clouds, Edges, Fibres, Footprint, Layer, Light, LightKind, Map, PATCH_MEASURES, Picture, Row,
+        SCANNED_PATCH_MEASURES, ScanRequest, Settings, Sheet, Surrogate, Trace, TraceSettings, Web,
+    };
+
+    /// See [`spunlaid_web::laydown`].
+    pub mod laydown {
+        pub use spunlaid_web::laydown::LaidCurve;
+    }
+
+    /// See [`spunlaid_web::map`].
+    pub mod map {
+        pub use spunlaid_web::map::{Filaments, Findings, PatchFindings, find, lay, nearest_to_seen};
+
+        /// See [`spunlaid_web::map::uniformity`].
+        pub mod uniformity {
+            pub use spunlaid_web::map::uniformity::{PatchCv, patch_cv, unevenness_at};
+        }
+    }
+
+    /// See [`spunlaid_web::scan`].
+    pub mod scan {
+        pub use spunlaid_web::scan::{Findings, Settings, analyse, columns_of_map, is_picture_file, parse};
+    }
+
+    /// See [`spunlaid_web::surrogate`].
+    pub mod surrogate {
+        pub use spunlaid_web::surrogate::identify;
+    }
+}
+
+/// Ensembles of fibres, filaments in shared turbulence, what is measured.
+pub mod simulation {
+    pub use spunlaid_simulation::{
+        Curve, CurveValue, DECLARED, FibreMeasure, FinerPlans, Flights, FlownWeb, Flyer, KEPT_SIMULATIONS,
+        LaydownSource, LineFilaments, MEASURES, Number, Observation, Observer, Recorded, Results, Sources,
+        Trajectory, Unchecked, WEB, WantedError, WebSpec,
+    };
+
+    /// See [`spunlaid_simulation::ensemble`].
+    pub mod ensemble {
+        pub use spunlaid_simulation::ensemble::fly;
+    }
+
+    /// See [`spunlaid_simulation::layers`].
+    pub mod layers {
+        pub use spunlaid_simulation::layers::web_key;
+    }
+
+    /// See [`spunlaid_simulation::observe`].
+    pub mod observe {
+        pub use spunlaid_simulation::observe::Sample;
+    }
+}
+
+/// Studies, advice, fits of settings to a scan.
+pub mod experiment {
+    pub use spunlaid_experiment::{
+        Advice, Batch, Bundles, Change, Experiment, FEWEST_WEBS, Fit, Journal, JournalState, MOST_STEPS,
+        PlantNumber, Point, Progress, Record, ReplicateOutcome, Rounds, SensitivityRun, Study, USUAL_WEBS,
+        WebInProgress, plant_numbers,
+    };
+
+    /// See [`spunlaid_experiment::advice`].
+    pub mod advice {
+        pub use spunlaid_experiment::advice::{
+            LOOKS, LaidStretch, Look, PinnedWeb, Seen, advise, are_tried, judged_by, steps,
+        };
+    }
+
+    /// See [`spunlaid_experiment::study`].
+    pub mod study {
+        pub use spunlaid_experiment::study::{
+            fly_bundle, foreign, in_use, rankings, results_of_point, run, unsynced,
+        };
+    }
+}
+
+/// Files of cases, webs and studies.
+pub mod input {
+    pub use spunlaid_input::{
+        CaseWithNotes, Changes, Knob, LARGEST_FILE, LineFile, Overrides, Resources, StudyChanges, StudyFile,
+        StudyNote, Turn, TurnedLine, WEB_KEYS, WebFile, WebSpec, kind_of, parse_study, read_case,
+        read_changes, read_fit, read_line, read_points, read_spinline, read_study, read_text, read_web,
+        starter_case, starter_case_of_fed, starter_study, text_of, write_case, write_changed_case,
+        write_experiment, write_spinline,
+    };
+
+    /// See [`spunlaid_input::paper`].
+    pub mod paper {
+        pub use spunlaid_input::paper::{TABLE1, table1};
+    }
+}

@@ -11,13 +11,13 @@ mod common;
 mod vtk;
 
 use common::*;
-use spunlaid::air::{Air, Eddies, EddyField, EddyModel, Extent, Field, Lateral, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, FibreParameters, Flight};
-use spunlaid::ground::{Isa, RunContext, WIDTH};
-use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, MEASURES, Recorded, Results, Trajectory};
+use spunlaid_air::{Air, Eddies, EddyField, EddyModel, Extent, Field, Lateral, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, FibreParameters, Flight};
+use spunlaid_ground::{Isa, RunContext, WIDTH};
+use spunlaid_input::read_case;
+use spunlaid_simulation::ensemble::fly_together;
+use spunlaid_simulation::{Job, MEASURES, Recorded, Results, Trajectory};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -147,7 +147,7 @@ fn frozen_memory_of_a_flight() {
         [(Scheme::SemiImplicitEuler, 964), (Scheme::Leapfrog, 964), (Scheme::ImplicitTension, 2180)]
     {
         let kept = |elements: usize| {
-            let fibre = spunlaid::fibre::Fibre { elements, ..table1_fibre() };
+            let fibre = spunlaid_fibre::Fibre { elements, ..table1_fibre() };
             let (eddies, turbulence) = steady_air(10.0, elements, 1e-3);
             let strand = in_vacuum(fibre, 9.81);
             let new = || {

@@ -2,10 +2,10 @@
 //! new in the table is drawn from the day it is there.
 
 use super::lines::Lines;
-use spunlaid::fibre::case::keys::{self, Kind, Omission, Sign};
-use spunlaid::ground::Dimension;
-use spunlaid::ground::random::{stream, uniform};
-use spunlaid::input::WEB_KEYS;
+use spunlaid_fibre::case::keys::{self, Kind, Omission, Sign};
+use spunlaid_ground::Dimension;
+use spunlaid_ground::random::{stream, uniform};
+use spunlaid_input::WEB_KEYS;
 use std::collections::BTreeSet;
 
 /// Keeps the random numbers of this program apart from all others.

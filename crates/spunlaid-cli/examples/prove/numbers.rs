@@ -1,7 +1,7 @@
 //! The numbers of a summary that have an error.
 
 use serde_json::{Map, Value as Json};
-use spunlaid::ground::NORMAL_95;
+use spunlaid_ground::NORMAL_95;
 use std::collections::BTreeMap;
 
 /// A number with its error.

@@ -1,9 +1,9 @@
 //! Lines drawn at random within the ranges that spunbond lines have, as files of small webs.
 
-use spunlaid::experiment::plausible::implausible;
-use spunlaid::fibre::case::keys::{self, Key, Kind, Value};
-use spunlaid::ground::random::{stream, uniform};
-use spunlaid::input::{WEB_KEYS, WebFile, WebSpec, read_web};
+use spunlaid_experiment::plausible::implausible;
+use spunlaid_fibre::case::keys::{self, Key, Kind, Value};
+use spunlaid_ground::random::{stream, uniform};
+use spunlaid_input::{WEB_KEYS, WebFile, WebSpec, read_web};
 
 /// Whether the numbers of the laydown are known, or filaments are simulated in shared air.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -19,7 +19,7 @@ mod webs;
 use draw::{Family, line};
 use numbers::Numbers;
 use scatter::{BOUNDS, Scatter, differences, scatter, table};
-use spunlaid::ground::threads::par_map;
+use spunlaid_ground::threads::par_map;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 

@@ -1,8 +1,8 @@
 //! The errors of numbers against the scatter of several webs.
 
 use super::numbers::{Name, Numbers, Reported};
-use spunlaid::ground::NORMAL_95;
-use spunlaid::ground::statistics::median;
+use spunlaid_ground::NORMAL_95;
+use spunlaid_ground::statistics::median;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The ratios of scatter to error that hold.

@@ -1,11 +1,11 @@
 //! The numbers of a web as its `summary.json` has them.
 
 use super::numbers::{Numbers, numbers};
-use spunlaid::ground::{Error, Isa, RunContext};
-use spunlaid::input::{WebFile, read_web};
-use spunlaid::simulation::Flyer;
+use spunlaid_ground::{Error, Isa, RunContext};
+use spunlaid_input::{WebFile, read_web};
 use spunlaid_results::folders::Contents;
 use spunlaid_results::reports::web::WebFolder;
+use spunlaid_simulation::Flyer;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 use std::time::Instant;
 

@@ -15,8 +15,8 @@ mod webs;
 use draw::{Family, line};
 use numbers::Numbers;
 use scatter::{BOUNDS, scatter};
-use spunlaid::ground::threads::par_map;
-use spunlaid::input::read_web;
+use spunlaid_ground::threads::par_map;
+use spunlaid_input::read_web;
 
 /// All numbers of `summary.json` that have an error. Sampling moves the scatter of twelve webs by as much as a
 /// chi-square distribution says: three and a half standard deviations of it are allowed beyond the bounds of the bench.

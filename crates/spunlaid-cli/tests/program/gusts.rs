@@ -1,9 +1,9 @@
 //! `spunlaid air`: the turbulent air of a case, looked at.
 
 use crate::desk::{Desk, entries, names, success};
-use spunlaid::air::AirAtPlaces;
-use spunlaid::ground::Vec3;
-use spunlaid::input::read_case;
+use spunlaid_air::AirAtPlaces;
+use spunlaid_ground::Vec3;
+use spunlaid_input::read_case;
 
 /// Small and quick to make.
 const SMALL: [&str; 3] = ["air.lateral=von-karman", "air.lateral_cutoff=5", "run.duration=20 ms"];

@@ -1,7 +1,7 @@
 //! `new`: the files that it writes, from nothing and from the numbers of a line.
 
 use crate::desk::{Desk, refusal, success};
-use spunlaid::input::{Resources, Turn, read_line, read_web};
+use spunlaid_input::{Resources, Turn, read_line, read_web};
 
 #[test]
 fn new_writes_a_fed_fibre_that_can_be_run() {

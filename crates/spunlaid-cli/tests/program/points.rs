@@ -1,7 +1,7 @@
 //! `spunlaid air --at`: the air at given places, against the formulas and the files that it comes from.
 
 use crate::desk::{BRIEF, Desk};
-use spunlaid::input::read_case;
+use spunlaid_input::read_case;
 use std::fs;
 use std::path::{Path, PathBuf};
 

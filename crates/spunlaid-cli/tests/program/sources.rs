@@ -1,7 +1,7 @@
 //! `spunlaid air --sources`: what filaments do to the cells of their field, as a CFD program reads it.
 
 use crate::desk::{Desk, refusal, success};
-use spunlaid::air::{Field, FieldLayout};
+use spunlaid_air::{Field, FieldLayout};
 use std::fmt::Write;
 use std::fs;
 

@@ -4,7 +4,7 @@
 use crate::common::{StudyFolder, assert_same, case, results, said};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
-use spunlaid::simulation::{LAYDOWN, MEASURES, SURROGATE};
+use spunlaid_simulation::{LAYDOWN, MEASURES, SURROGATE};
 use std::fs;
 
 pub(super) const STUDY: &str = "case = 'case.toml'

@@ -20,7 +20,7 @@ impl Moments {
 
 /// Number of records in a journal.
 fn records(place: &StudyFolder, out: &str) -> u64 {
-    let record = 8 * (6 + spunlaid::simulation::MEASURES.len() as u64);
+    let record = 8 * (6 + spunlaid_simulation::MEASURES.len() as u64);
     fs::metadata(place.path(out).join("journal")).map_or(0, |about| about.len() / record)
 }
 

@@ -1,8 +1,8 @@
 //! The drag laws with names, with measurements beside, and the law of a file among them.
 
-use spunlaid::fibre::{Drag, FrictionLaw, NormalLaw, TableLaw};
 use spunlaid_charts::palette::{BLUE, GREEN, GREY, INK, ORANGE, PURPLE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_fibre::{Drag, FrictionLaw, NormalLaw, TableLaw};
 
 const CYLINDERS: &str = include_str!("../../assets/published/cylinders.csv");
 const COTTON: &str = include_str!("../../assets/published/cotton_fibres.csv");
@@ -106,8 +106,8 @@ fn along(diameter: f64) -> Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::air::FileContent;
-    use spunlaid::fibre::DragTable;
+    use spunlaid_air::FileContent;
+    use spunlaid_fibre::DragTable;
     use std::{fs, sync::Arc};
 
     /// The pictures in `docs/theory.md`. `BLESS=1 cargo test` draws them again.

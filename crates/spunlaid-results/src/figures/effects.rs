@@ -2,11 +2,11 @@
 //! with its 95 % confidence interval. Keys of a study, settings and assumed values of a web, and the numbers of a
 //! spinline are drawn by it.
 
-use spunlaid::ground::Difference;
 use spunlaid_charts::label::{lines, width as width_of};
 use spunlaid_charts::palette::{BLUE, Colour, GREY, GRID, INK, VERMILION};
 use spunlaid_charts::picture::{Anchor, Picture, Stroke, Text};
 use spunlaid_charts::{Axis, Drawing, Figure, Marker, Scale, Table, signed};
+use spunlaid_ground::Difference;
 
 const WIDTH: f64 = 720.0;
 /// Height of a row, and of one of bars alone, with that of a bar.

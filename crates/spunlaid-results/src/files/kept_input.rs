@@ -3,8 +3,8 @@
 
 use super::folder::{CASE_FILES, Staging};
 use crate::Failure;
-use spunlaid::fibre::{Case, SpinSpec};
-use spunlaid::input::{WebSpec, write_case, write_spinline, write_web};
+use spunlaid_fibre::{Case, SpinSpec};
+use spunlaid_input::{WebSpec, write_case, write_spinline, write_web};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs;

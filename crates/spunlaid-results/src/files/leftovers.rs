@@ -55,7 +55,7 @@ pub(super) fn remove(folder: &Path) -> Result<(), Failure> {
 /// The same in a folder that only this process uses, where no other run can be about to lock anything.
 ///
 /// # Errors
-/// As [`remove`].
+/// As `remove`.
 pub fn remove_unclaimed(folder: &Path) -> Result<(), Failure> {
     remove_if(folder, |found| !found.join(LOCK).exists() || is_abandoned(found))
 }

@@ -3,7 +3,7 @@
 use crate::numbers::{number_to, plus_minus};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::{ErrorRole, Estimate, Measure, Measured, measure};
+use spunlaid_ground::{ErrorRole, Estimate, Measure, Measured, measure};
 
 /// The values of some measures by their names, in their order, those of a group together; null where there is none.
 pub fn values<T>(measures: &'static [Measure<T>], found: &T) -> Json {

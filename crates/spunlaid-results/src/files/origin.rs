@@ -1,9 +1,9 @@
 //! What results were made from, as it stands in their folder, and what the computation took.
 
 use serde::Serialize;
-use spunlaid::ground::Isa;
-use spunlaid::web::TimeSpent;
-use spunlaid::web::map::Findings;
+use spunlaid_ground::Isa;
+use spunlaid_web::TimeSpent;
+use spunlaid_web::map::Findings;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 use std::time::{Duration, Instant};

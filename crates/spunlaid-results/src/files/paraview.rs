@@ -3,10 +3,10 @@
 
 use super::folder::Staging;
 use crate::Failure;
-use spunlaid::fibre::Case;
-use spunlaid::ground::Vec3;
-use spunlaid::simulation::{Shape, Trajectory};
-use spunlaid::web::WindowCurve;
+use spunlaid_fibre::Case;
+use spunlaid_ground::Vec3;
+use spunlaid_simulation::{Shape, Trajectory};
+use spunlaid_web::WindowCurve;
 use std::fmt;
 use std::fmt::Write;
 

@@ -3,8 +3,8 @@
 use super::table::TableFormat;
 use crate::Failure;
 use crate::failure::undrawable;
-use spunlaid::ground::Dimension;
 use spunlaid_charts::{Figure, Picture, PictureError, pdf, png, svg};
+use spunlaid_ground::Dimension;
 
 /// A format of figures; `spunlaid-charts` has a file for each, which says how a picture is written.
 #[derive(Debug)]

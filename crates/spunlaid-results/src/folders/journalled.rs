@@ -16,7 +16,7 @@ use crate::files::leftovers;
 use crate::files::origin::{ORIGIN, Origin};
 use crate::files::pictures::FigureFiles;
 use crate::files::swap::{self, LIST, MARKS};
-use spunlaid::experiment::{Header, Journal, JournalState};
+use spunlaid_experiment::{Header, Journal, JournalState};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;

@@ -2,7 +2,7 @@
 
 use super::document::Section;
 use super::table::{Cell, Row, Table, Tone};
-use spunlaid::experiment::{Claim, Verdict};
+use spunlaid_experiment::{Claim, Verdict};
 
 /// The claims for a page and for a terminal; nothing if there are none.
 ///

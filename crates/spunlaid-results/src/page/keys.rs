@@ -1,10 +1,10 @@
 //! The keys of cases, webs and studies, explained: on a terminal, and as the pages of the documentation.
 
-use spunlaid::experiment::STUDY;
-use spunlaid::fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
-use spunlaid::ground::{Dimension, Fault, FileKind, UnitAdvice};
-use spunlaid::simulation::{WEB, WEB_KEYS};
-use spunlaid::web::fabric::about;
+use spunlaid_experiment::STUDY;
+use spunlaid_fibre::case::keys::{self, CASE, Key, KeyTable, Kind, Sign};
+use spunlaid_ground::{Dimension, Fault, FileKind, UnitAdvice};
+use spunlaid_simulation::{WEB, WEB_KEYS};
+use spunlaid_web::fabric::about;
 use std::fmt::Write;
 
 /// Largest number of suggestions if no key is found.

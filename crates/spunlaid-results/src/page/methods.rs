@@ -2,8 +2,8 @@
 //! cited.
 
 use super::document::{Part, Section};
-use spunlaid::fibre::Case;
-use spunlaid::simulation::WebSpec;
+use spunlaid_fibre::Case;
+use spunlaid_simulation::WebSpec;
 
 /// A paragraph to copy, and below it the works that it cites, each once, the program first.
 ///
@@ -36,7 +36,7 @@ pub(crate) fn methods(command: &str, cited: Vec<Reference>, input: &str) -> Sect
 }
 
 /// A work that is cited. A law of the drag names its own.
-pub(crate) use spunlaid::fibre::Source as Reference;
+pub(crate) use spunlaid_fibre::Source as Reference;
 
 /// The program itself.
 pub(crate) const PROGRAM: Reference = Reference {
@@ -89,7 +89,7 @@ pub(crate) fn of_web(spec: &WebSpec) -> Vec<Reference> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::fibre::{FrictionLaw, NormalLaw};
+    use spunlaid_fibre::{FrictionLaw, NormalLaw};
 
     fn file(name: &str) -> String {
         std::fs::read_to_string(format!("{}/../../{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()

@@ -2,7 +2,7 @@
 
 use crate::files::measured::text;
 use askama::Template;
-use spunlaid::ground::{Measure, Measured, measure};
+use spunlaid_ground::{Measure, Measured, measure};
 
 /// Rows under heads. The first column holds their names.
 #[derive(Debug, Default, Template)]

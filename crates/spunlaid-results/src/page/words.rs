@@ -2,7 +2,7 @@
 
 use crate::files::origin::Performance;
 use crate::numbers::{HARD, THIN, number, plus_minus, significant};
-use spunlaid::ground::{Dimension, Estimate};
+use spunlaid_ground::{Dimension, Estimate};
 
 /// A result with its standard error, `factor` converts the unit.
 pub(crate) fn estimate_text(estimate: &Estimate, factor: f64) -> String {

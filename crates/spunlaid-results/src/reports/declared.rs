@@ -13,14 +13,14 @@ use crate::files::origin::Performance;
 use crate::folders::{Contents, Making};
 use crate::reports::spinline::SpinFolder;
 use serde_json::Value as Json;
-use spunlaid::air::{COMPONENT_MEASURES, RECORD_MEASURES};
-use spunlaid::fibre::SPINLINE_MEASURES;
-use spunlaid::ground::{Isa, Measure, RunContext, Value, measure};
-use spunlaid::input::{read_spinline, read_web};
-use spunlaid::simulation::Flyer;
-use spunlaid::web::fabric::of_scan;
-use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{
+use spunlaid_air::{COMPONENT_MEASURES, RECORD_MEASURES};
+use spunlaid_fibre::SPINLINE_MEASURES;
+use spunlaid_ground::{Isa, Measure, RunContext, Value, measure};
+use spunlaid_input::{read_spinline, read_web};
+use spunlaid_simulation::Flyer;
+use spunlaid_web::fabric::of_scan;
+use spunlaid_web::map::{Evidence, Findings, PatchFindings};
+use spunlaid_web::{
     FABRIC_MEASURES, Format, Light, PATCH_MEASURES, Picture, SCAN_MEASURES, SCANNED_PATCH_MEASURES,
     STREAK_LIMIT_MEASURES, SubsampleCv, SubsampleWarning, WEB_MEASURES, scan,
 };

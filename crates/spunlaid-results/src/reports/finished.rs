@@ -3,9 +3,9 @@
 use super::web::files::pieces::MapFile;
 use crate::Failure;
 use serde_json::Value as Json;
-use spunlaid::experiment::{MeasuredPatch, MeasuredWeb};
-use spunlaid::ground::{Error, Fault};
-use spunlaid::web::scan::ScanWarning;
+use spunlaid_experiment::{MeasuredPatch, MeasuredWeb};
+use spunlaid_ground::{Error, Fault};
+use spunlaid_web::scan::ScanWarning;
 use std::fs;
 use std::path::Path;
 

@@ -6,8 +6,8 @@ use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::document::Section;
 use crate::page::table::{Row, Table};
 use serde_json::Value as Json;
-use spunlaid::fibre::{Case, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
-use spunlaid::ground::{Measured, measure};
+use spunlaid_fibre::{Case, LOAD_MEASURES, LOAD_POSITION_MEASURES, Load, LoadPlace, WayPlace};
+use spunlaid_ground::{Measured, measure};
 
 const TITLE: &str = "Force of the filaments on the air";
 

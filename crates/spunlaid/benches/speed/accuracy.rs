@@ -3,10 +3,10 @@
 use crate::common::table1;
 use crate::flights::{compare, trajectories_of};
 use crate::title;
-use spunlaid::fibre::Case;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::ground::WIDTH;
-use spunlaid::simulation::Trajectory;
+use spunlaid_fibre::Case;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_ground::WIDTH;
+use spunlaid_simulation::Trajectory;
 
 /// Table 1, and a fibre of 18 µm in elements of a millimetre.
 pub fn of_steps() {

@@ -2,8 +2,8 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::ground::{Isa, Vec3, WIDTH};
-use spunlaid::input::read_case;
+use spunlaid_ground::{Isa, Vec3, WIDTH};
+use spunlaid_input::read_case;
 use std::hint::black_box;
 use std::path::Path;
 
@@ -44,7 +44,7 @@ pub fn looks() {
             }),
             // The mean flow, which is looked up by itself.
             Trial::new((INSTANTS * places.len()) as f64, || {
-                let mut hint = spunlaid::air::Hint::default();
+                let mut hint = spunlaid_air::Hint::default();
                 processor_time(|| {
                     for _ in 0..INSTANTS {
                         for place in &places {

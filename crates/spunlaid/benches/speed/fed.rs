@@ -2,9 +2,9 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::fibre::{Case, Flight, Job};
-use spunlaid::ground::{Isa, WIDTH};
-use spunlaid::input::read_case;
+use spunlaid_fibre::{Case, Flight, Job};
+use spunlaid_ground::{Isa, WIDTH};
+use spunlaid_input::read_case;
 use std::path::Path;
 
 /// Time after which the fibre has come down [s], and time that is simulated for a figure [s].

@@ -6,8 +6,8 @@ mod meshes;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
 use meshes::{Block, Made, at_points, field, noise};
-use spunlaid::air::{Field, Hint};
-use spunlaid::ground::Vec3;
+use spunlaid_air::{Field, Hint};
+use spunlaid_ground::Vec3;
 use std::hint::black_box;
 
 /// Cells to each side of a cube, and as many points as their corners.

@@ -1,10 +1,10 @@
 //! Whole flights for the tables of speed and accuracy: Table 1 by any scheme and step, and how far its
 //! paths are off.
 
-use spunlaid::fibre::Case;
-use spunlaid::ground::{Isa, RunContext, WIDTH};
-use spunlaid::simulation::ensemble::{Sample, fly_together};
-use spunlaid::simulation::{Job, Recorded, Trajectory};
+use spunlaid_fibre::Case;
+use spunlaid_ground::{Isa, RunContext, WIDTH};
+use spunlaid_simulation::ensemble::{Sample, fly_together};
+use spunlaid_simulation::{Job, Recorded, Trajectory};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The first eight flights of a case, on this thread.

@@ -3,10 +3,10 @@
 use crate::common::*;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, FibreParameters, Flight};
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid_air::{Air, Eddies, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Fibre, FibreParameters, Flight};
+use spunlaid_ground::{Isa, WIDTH};
 
 /// The step each scheme is simulated with: the paper's, and those with a like error or better.
 pub const STEPS: [(Scheme, f64); 5] = [

@@ -2,7 +2,7 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::input::{SpinFile, read_spinline};
+use spunlaid_input::{SpinFile, read_spinline};
 use std::hint::black_box;
 use std::path::Path;
 

@@ -2,9 +2,9 @@
 
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::ground::{Isa, Lanes, RunContext, WIDTH};
-use spunlaid::web::map::{Filaments, lay};
-use spunlaid::web::{Fibres, Layer, PathKey, Paths, Sheet, Surrogate, Web};
+use spunlaid_ground::{Isa, Lanes, RunContext, WIDTH};
+use spunlaid_web::map::{Filaments, lay};
+use spunlaid_web::{Fibres, Layer, PathKey, Paths, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SURROGATE: Surrogate = Surrogate { sigma_md: 18.4e-3, sigma_cd: 18.3e-3, noise: 12.4 };

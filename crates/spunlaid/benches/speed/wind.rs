@@ -4,9 +4,9 @@ use crate::common::*;
 use crate::kernel::Setup;
 use crate::measure::{Trial, in_rounds, processor_time};
 use crate::title;
-use spunlaid::air::{Air, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::ground::{Isa, WIDTH};
+use spunlaid_air::{Air, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_ground::{Isa, WIDTH};
 use std::hint::black_box;
 
 /// Synthesis per second of a fibre, and what the wind adds to a step.

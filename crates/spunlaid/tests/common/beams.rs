@@ -1,9 +1,9 @@
 //! Cantilevers at rest, under a load at the tip and their weight.
 
 use super::*;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, FibreParameters, Flight, Root};
-use spunlaid::ground::{Isa, Lanes, Vec3, WIDTH};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Fibre, FibreParameters, Flight, Root};
+use spunlaid_ground::{Isa, Lanes, Vec3, WIDTH};
 
 /// A beam along y, so slender that it bends and hardly stretches: `(d/L)² α/16` is a strain of 1e-5 at most.
 pub fn slender_beam(elements: usize) -> Fibre {

@@ -1,8 +1,8 @@
 //! Cases that are read and written, and what is remarked on them.
 #![allow(dead_code, clippy::unwrap_used, clippy::panic)]
 
-use spunlaid::fibre::Case;
-use spunlaid::input::{read_case, starter_case, write_case};
+use spunlaid_fibre::Case;
+use spunlaid_input::{read_case, starter_case, write_case};
 use std::sync::LazyLock;
 
 /// Equal texts mean equal bits: numbers are shown by their shortest text that reads back, `-0.0` apart from `0.0`.

@@ -1,13 +1,13 @@
 //! Closed loops: webs of known values are laid, scanned, and fitted.
 #![allow(dead_code)]
 
-use spunlaid::experiment::fit::{errors_of_model, fit};
-use spunlaid::experiment::{Fit, Journal, MeasuredWeb, Question, Target};
-use spunlaid::ground::{Error, Isa, RunContext};
-use spunlaid::input::{FitFile, Overrides, Resources, read_fit};
-use spunlaid::simulation::{Flights, Flyer};
-use spunlaid::web::scan::analyse;
-use spunlaid::web::{Format, Light, Map, Picture, Settings};
+use spunlaid_experiment::fit::{errors_of_model, fit};
+use spunlaid_experiment::{Fit, Journal, MeasuredWeb, Question, Target};
+use spunlaid_ground::{Error, Isa, RunContext};
+use spunlaid_input::{FitFile, Overrides, Resources, read_fit};
+use spunlaid_simulation::{Flights, Flyer};
+use spunlaid_web::scan::analyse;
+use spunlaid_web::{Format, Light, Map, Picture, Settings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// A small web that is laid in a tenth of a second.

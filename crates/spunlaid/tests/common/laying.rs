@@ -1,11 +1,11 @@
 //! Fed fibres for the tests: a spunbond line from its case file, and a heavy thread that coils on a plane.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use spunlaid::air::Air;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Contact, Fibre, Flight, Job, LaidPoint, Line, Root, Run};
-use spunlaid::ground::Isa;
-use spunlaid::input::read_case;
+use spunlaid_air::Air;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Contact, Fibre, Flight, Job, LaidPoint, Line, Root, Run};
+use spunlaid_ground::Isa;
+use spunlaid_input::read_case;
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::path::Path;

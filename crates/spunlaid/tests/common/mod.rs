@@ -7,12 +7,12 @@ pub mod laying;
 pub mod modes;
 pub mod reference;
 
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{
+use spunlaid_air::{Air, Eddies, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{
     Case, Drag, ElementDrag, Fibre, FibreParameters, Flight, FrictionLaw, Growth, NormalLaw, Root, Run, Share,
 };
-use spunlaid::ground::{Isa, Lanes, Vec3};
+use spunlaid_ground::{Isa, Lanes, Vec3};
 
 pub type V = Vec3<f64>;
 

@@ -2,7 +2,7 @@
 //! arctangent, forces by unit normals, drag by Reynolds numbers. The yardstick of the kernel.
 
 use super::V;
-use spunlaid::fibre::{FibreParameters, Root};
+use spunlaid_fibre::{FibreParameters, Root};
 use std::f64::consts::PI;
 
 pub struct ReferenceDrag {

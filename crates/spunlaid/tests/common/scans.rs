@@ -3,9 +3,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::ground::{Isa, RunContext};
-use spunlaid::web::map::{Filaments, lay};
-use spunlaid::web::{Fibres, Layer, Map, Row, Sheet, Surrogate, Web};
+use spunlaid_ground::{Isa, RunContext};
+use spunlaid_web::map::{Filaments, lay};
+use spunlaid_web::{Fibres, Layer, Map, Row, Sheet, Surrogate, Web};
 use std::f64::consts::PI;
 use std::io::Cursor;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -1,9 +1,9 @@
 //! A short case, and studies of it.
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::experiment::Point;
-use spunlaid::fibre::Case;
-use spunlaid::input::{StudyFile, parse_study};
+use spunlaid_experiment::Point;
+use spunlaid_fibre::Case;
+use spunlaid_input::{StudyFile, parse_study};
 
 /// Table 1 of the paper, 10 ms of it in steps of 20 µs.
 pub const SHORT: &str = "version = 1

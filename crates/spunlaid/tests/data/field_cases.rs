@@ -1,7 +1,7 @@
 //! Cases whose air is a field: what may be a slip is reported with the key that is to blame, and the way out.
 
-use spunlaid::fibre::Case;
-use spunlaid::input::{read_case, starter_case, write_case};
+use spunlaid_fibre::Case;
+use spunlaid_input::{read_case, starter_case, write_case};
 use std::fs;
 use tempfile::TempDir;
 

@@ -3,9 +3,9 @@
 use crate::air::{mesh, samples, values};
 use crate::meshes::Made;
 use crate::vtk::{ASCII, Data, Legacy, Mesh, legacy, vti, vtu};
-use spunlaid::air::Flow;
-use spunlaid::fibre::Case;
-use spunlaid::input::{read_case, starter_case, write_case};
+use spunlaid_air::Flow;
+use spunlaid_fibre::Case;
+use spunlaid_input::{read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -37,7 +37,7 @@ fn read_bytes(folder: &TempDir, name: &str, bytes: &[u8], keys: &[(&str, &str)])
     read(&path, keys)
 }
 
-fn air(case: &Case) -> Vec<spunlaid::air::Local> {
+fn air(case: &Case) -> Vec<spunlaid_air::Local> {
     let Flow::Field(placed) = &case.air.flow else { panic!("the air is a field") };
     samples(&placed.field)
 }
@@ -197,7 +197,7 @@ fn a_named_omega_comes_before_an_epsilon_of_the_usual_name() {
     assert_eq!(sources(&case)[2], ("ω", "Frequenz".to_owned()));
     // k and ω grow with the number of the point, the first of which is 1.
     let Flow::Field(placed) = &case.air.flow else { panic!("the air is a field") };
-    let origin = spunlaid::ground::Vec3::new(0.0, 0.0, 0.0);
+    let origin = spunlaid_ground::Vec3::new(0.0, 0.0, 0.0);
     let epsilon = placed.field.sample(origin, &mut Default::default()).epsilon;
     assert!((epsilon - 0.09 * 1.5 * 500.0).abs() < 1e-12, "{epsilon}");
     let both = [("air.field_omega", "Frequenz"), ("air.field_epsilon", "epsilon")];

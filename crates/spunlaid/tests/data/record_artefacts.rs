@@ -1,9 +1,9 @@
 //! What is no velocity in a record is named, and what is velocity is not blamed.
 
 use crate::normal::normal;
-use spunlaid::air::record::{analyse, parse_csv};
-use spunlaid::air::{Analysis, Layout, Record, Samples, Settings};
-use spunlaid::ground::Dimension;
+use spunlaid_air::record::{analyse, parse_csv};
+use spunlaid_air::{Analysis, Layout, Record, Samples, Settings};
+use spunlaid_ground::Dimension;
 
 /// Words of the warnings about samples that are no velocities.
 const WORDS: [&str; 6] =

@@ -4,8 +4,8 @@ use parquet::basic::{LogicalType, Repetition, TimeUnit, Type as Physical};
 use parquet::data_type::{Int32Type, Int64Type};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
-use spunlaid::air::record::{parse_csv, parse_parquet, read_record};
-use spunlaid::air::{Layout, Record};
+use spunlaid_air::record::{parse_csv, parse_parquet, read_record};
+use spunlaid_air::{Layout, Record};
 use std::sync::Arc;
 
 fn read(text: &str) -> Result<Record, String> {

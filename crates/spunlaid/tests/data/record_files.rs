@@ -6,9 +6,9 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use proptest::prelude::*;
-use spunlaid::air::record::{parse_csv, parse_parquet, read_record};
-use spunlaid::air::{Layout, Record};
-use spunlaid::ground::Error;
+use spunlaid_air::record::{parse_csv, parse_parquet, read_record};
+use spunlaid_air::{Layout, Record};
+use spunlaid_ground::Error;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
 //! How often the 95 % intervals of short records hold the known value.
 
 use crate::normal::normal;
-use spunlaid::air::record::analyse;
-use spunlaid::air::{Analysis, Record, Samples, Settings};
+use spunlaid_air::record::analyse;
+use spunlaid_air::{Analysis, Record, Samples, Settings};
 
 /// Records of each kind and length: the share of them that holds a value scatters by 0.6 to 0.9 %.
 const SEEDS: u64 = 800;
@@ -73,7 +73,7 @@ fn analysed(components: Vec<Vec<f64>>) -> Analysis {
 /// Share of the records whose interval holds the value [%], and the median of the estimates over the value.
 fn coverage(
     records: &[Analysis],
-    result: impl Fn(&Analysis) -> spunlaid::ground::Interval,
+    result: impl Fn(&Analysis) -> spunlaid_ground::Interval,
     known: f64,
 ) -> (f64, f64) {
     let held = records.iter().filter(|record| result(record).holds(known)).count();

@@ -1,11 +1,11 @@
 //! What a record is said to hold, against records that are known to hold it.
 
 use crate::normal::normal;
-use spunlaid::air::record::analyse;
-use spunlaid::air::{
+use spunlaid_air::record::analyse;
+use spunlaid_air::{
     Air, Analysis, IntegralRule, Record, Samples, Settings, SpectrumSettings, StreamKey, Wind,
 };
-use spunlaid::ground::{Interval, Isa, Window};
+use spunlaid_ground::{Interval, Isa, Window};
 use std::f64::consts::PI;
 
 fn record(interval: f64, components: Vec<Vec<f64>>) -> Record {

@@ -4,9 +4,9 @@ use crate::scans;
 use crate::scans::{DENSITY, Lamp, PIXEL, beside, exposed, file, lens, light, piece, spoiled, spotted, web};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::map::uniformity::patch_cv;
-use spunlaid::web::scan::{Findings, ScanWarning, analyse, parse};
-use spunlaid::web::{Light, Map, Picture, Settings};
+use spunlaid_web::map::uniformity::patch_cv;
+use spunlaid_web::scan::{Findings, ScanWarning, analyse, parse};
+use spunlaid_web::{Light, Map, Picture, Settings};
 
 /// A spunbond web of 300 by 400 mm and about 19 g/m².
 fn laid(seed: u64) -> Map {
@@ -231,7 +231,7 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
         // rows, 0.66 and 2.95 at random places: a factor of 2.1 and 4.5 (docs/validation.md), and a third
         // more is allowed here.
         let most = if in_rows { 2.8 } else { 6.0 };
-        let middle = widths.map(|widths| spunlaid::ground::statistics::median(&widths));
+        let middle = widths.map(|widths| spunlaid_ground::statistics::median(&widths));
         assert!(middle.iter().all(|width| *width < most), "{middle:?}, in rows: {in_rows}");
     }
 }

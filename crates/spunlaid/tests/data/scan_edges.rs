@@ -3,8 +3,8 @@
 use crate::scans::{light, npy_f64, piece, tiff_f32, waves, web};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::scan::{Findings, analyse, parse};
-use spunlaid::web::{Light, Picture, Settings};
+use spunlaid_web::scan::{Findings, analyse, parse};
+use spunlaid_web::{Light, Picture, Settings};
 
 const COLUMNS: usize = 160;
 const ROWS: usize = 180;

@@ -6,9 +6,9 @@ use crate::scans::{
 };
 use png::Unit;
 use proptest::prelude::*;
-use spunlaid::ground::{Dimension, FileError};
-use spunlaid::web::scan::{analyse, parse, read};
-use spunlaid::web::{Light, Picture, Settings};
+use spunlaid_ground::{Dimension, FileError};
+use spunlaid_web::scan::{analyse, parse, read};
+use spunlaid_web::{Light, Picture, Settings};
 use std::path::Path;
 use tiff::encoder::colortype::{Gray32, GrayI16, RGB8};
 use tiff::tags::{ResolutionUnit, Tag};

@@ -2,8 +2,8 @@
 
 use crate::scans::{lens, npy, npy_f64, png, png8, png16, spotted, tiff_f32, waves};
 use png::{BitDepth, ColorType};
-use spunlaid::web::scan::{Findings, ScanWarning, analyse, parse};
-use spunlaid::web::{Light, Picture, Settings};
+use spunlaid_web::scan::{Findings, ScanWarning, analyse, parse};
+use spunlaid_web::{Light, Picture, Settings};
 
 const COLUMNS: usize = 150;
 const ROWS: usize = 180;

@@ -1,7 +1,7 @@
 //! Maps with the numbers of their rows and columns beside them, as pandas and others write them.
 
-use spunlaid::web::scan::{analyse, parse};
-use spunlaid::web::{Light, Settings};
+use spunlaid_web::scan::{analyse, parse};
+use spunlaid_web::{Light, Settings};
 
 /// A measured map of 60 × 50 pixels; its CV over patches of 4 mm is 0.09412.
 const MAP: &str = include_str!("../scan_fixtures/map.csv");

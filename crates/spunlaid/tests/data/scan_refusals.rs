@@ -2,7 +2,7 @@
 
 use crate::scan_files::{SIDE, levels};
 use crate::scans::{Page, png8, tiff_of_pages, tiff8};
-use spunlaid::web::scan::parse;
+use spunlaid_web::scan::parse;
 use tiff::tags::Tag;
 
 #[test]

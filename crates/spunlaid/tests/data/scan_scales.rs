@@ -3,7 +3,7 @@
 use crate::scan_files::{SIDE, levels};
 use crate::scans::{png_of_resolution, tiff_of_program, tiff_of_resolution};
 use png::Unit;
-use spunlaid::web::scan::parse;
+use spunlaid_web::scan::parse;
 use tiff::tags::ResolutionUnit;
 
 fn side(text: &[u8], unit: Option<u16>, resolution: [u32; 2]) -> Result<f64, String> {

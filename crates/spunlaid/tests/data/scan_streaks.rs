@@ -1,10 +1,10 @@
 //! Streaks of scans: webs of known numbers with a blocked hole, with a thick pack, and without any defect.
 
 use crate::scans::{exposed, lens, light, npy_f64, png16, spotted};
-use spunlaid::ground::{Isa, RunContext};
-use spunlaid::web::map::{Filaments, lay};
-use spunlaid::web::scan::{StreakSearch, analyse, parse};
-use spunlaid::web::{Defect, Fibres, Layer, Light, Map, Row, Settings, Sheet, Surrogate, Web};
+use spunlaid_ground::{Isa, RunContext};
+use spunlaid_web::map::{Filaments, lay};
+use spunlaid_web::scan::{StreakSearch, analyse, parse};
+use spunlaid_web::{Defect, Fibres, Layer, Light, Map, Row, Settings, Sheet, Surrogate, Web};
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

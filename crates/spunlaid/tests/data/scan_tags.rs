@@ -4,8 +4,8 @@
 //! CV 0.15381 over patches of 0.5 mm, and a share of the texture along the machine of 0.841, turned 0.168.
 
 use crate::scans::{Page, png_of_resolution, png16, tiff_of_pages, with_chunk};
-use spunlaid::web::scan::{Findings, analyse, parse};
-use spunlaid::web::{Light, Settings};
+use spunlaid_web::scan::{Findings, analyse, parse};
+use spunlaid_web::{Light, Settings};
 use tiff::tags::Tag;
 
 const COLUMNS: usize = 180;

@@ -2,8 +2,8 @@
 
 use crate::scans::{npy_f64, png, png8, tiff_of_channels, waves, with_chunk};
 use png::{BitDepth, ColorType};
-use spunlaid::web::scan::{Findings, analyse, parse};
-use spunlaid::web::{Light, Settings};
+use spunlaid_web::scan::{Findings, analyse, parse};
+use spunlaid_web::{Light, Settings};
 use tiff::encoder::colortype::{RGBA8, RGBA16};
 
 const COLUMNS: usize = 120;

@@ -3,7 +3,7 @@
 //! the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::input::read_spinline;
+use spunlaid_input::read_spinline;
 
 #[test]
 fn rejects_every_bad_spinline_with_its_message() {

@@ -2,8 +2,8 @@
 //! `bad_studies/NAME.txt`. With `BLESS=1` in the environment the test writes the messages, to be reviewed.
 
 use crate::messages;
-use spunlaid::ground::Error;
-use spunlaid::input::read_study;
+use spunlaid_ground::Error;
+use spunlaid_input::read_study;
 use std::fs;
 use std::path::Path;
 

@@ -2,12 +2,12 @@
 
 use crate::cases;
 use crate::cases::{bits, changed, read_again};
-use spunlaid::air::record::{analyse, read_record};
-use spunlaid::air::{Air, Flow, Layout, Settings};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
-use spunlaid::ground::Severity;
-use spunlaid::input::{read_case, starter_case, write_case};
+use spunlaid_air::record::{analyse, read_record};
+use spunlaid_air::{Air, Flow, Layout, Settings};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Drag, Fibre, FrictionLaw, NormalLaw, Root, Run};
+use spunlaid_ground::Severity;
+use spunlaid_input::{read_case, starter_case, write_case};
 use std::fs;
 use std::path::Path;
 
@@ -95,7 +95,7 @@ fn table_1_is_read_in_si_units() {
             gravity: 9.81,
             damping: 0.0,
             shapes: None,
-            checks: spunlaid::fibre::Checks::default(),
+            checks: spunlaid_fibre::Checks::default(),
             ..Run::UNKNOWN
         },
     };

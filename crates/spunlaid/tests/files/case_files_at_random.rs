@@ -2,13 +2,13 @@
 
 use crate::cases::{bits, read_again, remarks};
 use proptest::prelude::*;
-use spunlaid::air::{Air, EddyModel, Lateral};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{
+use spunlaid_air::{Air, EddyModel, Lateral};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{
     Case, Checks, Contact, Drag, FLIGHT_MEMORY_LIMIT, Fibre, FrictionLaw, Line, NormalLaw, Root, Run,
 };
-use spunlaid::ground::Vec3;
-use spunlaid::input::{read_case, starter_case, write_case};
+use spunlaid_ground::Vec3;
+use spunlaid_input::{read_case, starter_case, write_case};
 
 /// A number between powers of ten, with all its digits.
 fn between(low: i32, high: i32) -> impl Strategy<Value = f64> {

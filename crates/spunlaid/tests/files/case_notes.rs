@@ -1,7 +1,7 @@
 //! What a reader of a case remarks: values that were rounded or chosen, laws beyond their range, likely slips.
 
 use crate::cases::{bits, changed, papers_starter, read_again, remarks};
-use spunlaid::input::read_case;
+use spunlaid_input::read_case;
 use std::path::Path;
 
 #[test]

@@ -1,8 +1,8 @@
 //! The table of keys: what is said of each holds, and a case can be read and set through it.
 
-use spunlaid::fibre::case::keys::{self, Kind, Omission, Value};
-use spunlaid::fibre::{Case, ERROR_TOLERANCE, Melt, Polymer};
-use spunlaid::input::{read_case, starter_case};
+use spunlaid_fibre::case::keys::{self, Kind, Omission, Value};
+use spunlaid_fibre::{Case, ERROR_TOLERANCE, Melt, Polymer};
+use spunlaid_input::{read_case, starter_case};
 use std::fs;
 
 fn starter() -> Case {
@@ -31,7 +31,7 @@ fn every_row_is_whole() {
             // Both ends are allowed.
             let mut case = read_case("../../cases/profile.toml", &[]).unwrap().0;
             let set = [least, greatest].map(|end| key.set(&mut case, end));
-            let is_reported = |problem: &spunlaid::ground::Diagnostic| {
+            let is_reported = |problem: &spunlaid_ground::Diagnostic| {
                 let text = problem.to_string();
                 text.contains("has no effect") || text.contains("is read from a file")
             };

@@ -1,8 +1,8 @@
 //! The knobs of a line: what they set, what follows, and what is refused.
 
-use spunlaid::experiment::{Change, plant_numbers};
-use spunlaid::ground::Dimension;
-use spunlaid::input::{
+use spunlaid_experiment::{Change, plant_numbers};
+use spunlaid_ground::Dimension;
+use spunlaid_input::{
     Changes, Knob, LineFile, Overrides, Resources, Turn, TurnedLine, WebSpec, read_changes, read_line,
     read_web,
 };

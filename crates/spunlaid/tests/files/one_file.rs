@@ -1,9 +1,9 @@
 //! A web and the case of its filament in one file, against the same in two.
 
 use crate::web_files::bits;
-use spunlaid::air::Lateral;
-use spunlaid::fibre::Case;
-use spunlaid::input::{WebFile, read_case, read_spinline, read_web};
+use spunlaid_air::Lateral;
+use spunlaid_fibre::Case;
+use spunlaid_input::{WebFile, read_case, read_spinline, read_web};
 
 const WHOLE: &str = "../../cases/whole_line.toml";
 const FIBRE: &str = "../../cases/whole_line_fibre.toml";

@@ -2,8 +2,8 @@
 //! `bad_cases/NAME.txt`. With `BLESS=1` in the environment the messages are written, to be read over.
 
 use crate::messages;
-use spunlaid::ground::Error;
-use spunlaid::input::{LARGEST_FILE, read_case, starter_case};
+use spunlaid_ground::Error;
+use spunlaid_input::{LARGEST_FILE, read_case, starter_case};
 use std::fs;
 use std::path::Path;
 

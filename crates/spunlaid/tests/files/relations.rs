@@ -1,9 +1,9 @@
 //! What a key says of other keys, over every table of keys.
 
-use spunlaid::experiment::STUDY;
-use spunlaid::fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, Relations};
-use spunlaid::simulation::WEB;
-use spunlaid::simulation::layers::keys::{OF_FILAMENT, WEB_FILE};
+use spunlaid_experiment::STUDY;
+use spunlaid_fibre::case::keys::{CASE, Key, KeyTable, Kind, Omission, Relations};
+use spunlaid_simulation::WEB;
+use spunlaid_simulation::layers::keys::{OF_FILAMENT, WEB_FILE};
 
 /// Whether a value is one of a key, as text.
 fn takes<T>(key: &Key<T>, value: &str) -> bool {
@@ -48,7 +48,7 @@ fn relations_name_keys_that_are_there_and_values_that_they_take() {
 
 #[test]
 fn each_table_of_a_case_is_one_of_a_filament() {
-    let top = spunlaid::fibre::case::keys::TABLES.into_iter().filter(|table| !table.contains('.'));
+    let top = spunlaid_fibre::case::keys::TABLES.into_iter().filter(|table| !table.contains('.'));
     assert!(top.eq(OF_FILAMENT.iter().copied()));
     assert_eq!(WEB.replaced_by(&["line.rows"]), ["line.filaments_per_metre"]);
 }

@@ -1,9 +1,9 @@
 //! Values that are most likely slips, of a unit above all: what is said of them, and that something is said of each.
 
-use spunlaid::air::Field;
-use spunlaid::fibre::case::keys::{self, Kind};
-use spunlaid::ground::Error;
-use spunlaid::input::{WEB_KEYS, read_case, read_web, starter_case, starter_case_of_fed};
+use spunlaid_air::Field;
+use spunlaid_fibre::case::keys::{self, Kind};
+use spunlaid_ground::Error;
+use spunlaid_input::{WEB_KEYS, read_case, read_web, starter_case, starter_case_of_fed};
 use std::fmt::Display;
 use std::fs;
 use std::path::Path;
@@ -270,8 +270,8 @@ fn a_field_in_other_units_is_reported_and_can_be_read() {
     assert_eq!(in_field(&millimetres), "");
     let sample = |table: &str| {
         let (field, _) = Field::parse(table.as_bytes(), "duct.csv").unwrap();
-        let at = spunlaid::ground::Vec3::new(0.3, 0.11, 0.07);
-        let air = field.sample(at, &mut spunlaid::air::Hint::default());
+        let at = spunlaid_ground::Vec3::new(0.3, 0.11, 0.07);
+        let air = field.sample(at, &mut spunlaid_air::Hint::default());
         [air.velocity.x, air.k, air.epsilon]
     };
     let (a, b) = (sample(&millimetres), sample(&duct(HEADS, |_, values| values)));

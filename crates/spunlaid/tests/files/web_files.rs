@@ -2,11 +2,11 @@
 //! another way than by saying what is wrong.
 
 use proptest::prelude::*;
-use spunlaid::fibre::case::keys::Value;
-use spunlaid::input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, read_web};
-use spunlaid::simulation::Flown;
-use spunlaid::web::map::Filaments;
-use spunlaid::web::{Defect, Edges, Fibres, Row, Surrogate};
+use spunlaid_fibre::case::keys::Value;
+use spunlaid_input::{LaydownSource, WEB_KEYS, WEB_TABLES, WebFile, WebSpec, read_web};
+use spunlaid_simulation::Flown;
+use spunlaid_web::map::Filaments;
+use spunlaid_web::{Defect, Edges, Fibres, Row, Surrogate};
 use std::fs;
 
 pub(super) const KNOWN: &str = "../../cases/web_known.toml";

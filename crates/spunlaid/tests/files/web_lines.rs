@@ -1,11 +1,11 @@
 //! Webs in the words of a line: throughput, titre, holes and basis weight, and the speeds that follow.
 
 use crate::web_files::{KNOWN, assert_reads_back, bits, set};
-use spunlaid::air::Lateral;
-use spunlaid::ground::{Dimension, Severity};
-use spunlaid::input::{LaydownSource, Overrides, WebFile, WebSpec, read_case, read_fit, read_web};
-use spunlaid::web::Fibres;
-use spunlaid::web::map::Filaments;
+use spunlaid_air::Lateral;
+use spunlaid_ground::{Dimension, Severity};
+use spunlaid_input::{LaydownSource, Overrides, WebFile, WebSpec, read_case, read_fit, read_web};
+use spunlaid_web::Fibres;
+use spunlaid_web::map::Filaments;
 use std::fs;
 use std::path::Path;
 

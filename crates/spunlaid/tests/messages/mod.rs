@@ -2,7 +2,7 @@
 //! With `BLESS=1` in the environment the messages are written, to be reviewed.
 #![allow(clippy::unwrap_used)]
 
-use spunlaid::ground::Error;
+use spunlaid_ground::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 

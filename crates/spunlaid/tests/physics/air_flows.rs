@@ -1,16 +1,16 @@
 //! Air that varies in space, compared with flows in closed form.
 
 use crate::{cases, meshes};
-use spunlaid::air::{
+use spunlaid_air::{
     Air, Atmosphere, Axis, Eddies, Field, FileContent, Flow, FlowNumbers, Hint, PlacedField, Profile,
     StreamKey, Surroundings, Values, Wind,
 };
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Flight};
-use spunlaid::ground::{Error, Isa, RunContext, Vec3};
-use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{KeepShapes, Recorded, Trajectory};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Flight};
+use spunlaid_ground::{Error, Isa, RunContext, Vec3};
+use spunlaid_input::read_case;
+use spunlaid_simulation::ensemble::fly;
+use spunlaid_simulation::{KeepShapes, Recorded, Trajectory};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64};

@@ -1,11 +1,11 @@
 //! Turbulence beyond the paper's: spectra by name and from tables, convected eddies, and fluctuations from a record.
 
 use crate::common::*;
-use spunlaid::air::{
+use spunlaid_air::{
     APART, Air, Eddies, EddyModel, FileContent, Measured, RecordNumbers, SpectrumShape, SpectrumTable,
     Stream, StreamKey, Wind,
 };
-use spunlaid::ground::{Isa, Vec3, WIDTH, Welch, Window};
+use spunlaid_ground::{Isa, Vec3, WIDTH, Welch, Window};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ fn along(air: &Air, elements: usize, times: &[f64]) -> Vec<Vec<[Vec3<f64>; WIDTH
     let made = if air.records.is_empty() { Wind::repeating } else { Wind::along };
     let mut wind = made(Isa::detect(), streams, longest).expect("fibres that agree");
     let mean = Vec3::new(air.velocity, 0.0, 0.0);
-    let at_elements = |eddies: &Eddies, now: &[Vec3<spunlaid::ground::Lanes>]| {
+    let at_elements = |eddies: &Eddies, now: &[Vec3<spunlaid_ground::Lanes>]| {
         eddies
             .index_of_element()
             .iter()

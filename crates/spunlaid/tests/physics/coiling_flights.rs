@@ -2,8 +2,8 @@
 
 use crate::common::coiling::coil;
 use crate::common::laying::{Circle, Thread, circle_through, flight, turning};
-use spunlaid::fibre::{Flight, Job, LaidPoint};
-use spunlaid::ground::Isa;
+use spunlaid_fibre::{Flight, Job, LaidPoint};
+use spunlaid_ground::Isa;
 use std::f64::consts::PI;
 
 const FROUDE: f64 = Thread::SPEED * Thread::SPEED;

@@ -2,13 +2,13 @@
 //! has them.
 
 use crate::common::*;
-use spunlaid::air::FileContent;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{
+use spunlaid_air::FileContent;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{
     BoundaryLayer, Drag, DragTable, Fibre, FibreParameters, Flight, FrictionLaw, Job, NormalLaw, Root,
     TableLaw,
 };
-use spunlaid::ground::Isa;
+use spunlaid_ground::Isa;
 use std::f64::consts::PI;
 use std::sync::Arc;
 

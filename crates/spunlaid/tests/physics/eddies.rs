@@ -2,10 +2,10 @@
 
 use crate::common::reference::{ReferenceDrag, forces};
 use crate::common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, FibreParameters, Flight, Root};
-use spunlaid::ground::Isa;
+use spunlaid_air::{Air, Eddies, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Fibre, FibreParameters, Flight, Root};
+use spunlaid_ground::Isa;
 
 #[test]
 fn analytic_every_element_feels_its_own_eddy() {

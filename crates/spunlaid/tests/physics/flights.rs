@@ -1,9 +1,9 @@
 //! Flights that others step: owned, changed in flight, endless.
 
 use crate::common;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Flight, Job};
-use spunlaid::ground::{Error, Isa};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Flight, Job};
+use spunlaid_ground::{Error, Isa};
 
 /// In steps of 20 µs.
 fn table1() -> Case {

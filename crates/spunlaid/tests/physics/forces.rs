@@ -4,7 +4,7 @@
 use crate::common::reference::{ReferenceDrag, elastic_energy, forces};
 use crate::common::*;
 use proptest::prelude::*;
-use spunlaid::fibre::{Fibre, FibreParameters, Root};
+use spunlaid_fibre::{Fibre, FibreParameters, Root};
 
 const AIR: ReferenceDrag = ReferenceDrag { air_density: 1.204, viscosity: 1.51e-5, beta: 0.9 };
 
@@ -162,9 +162,9 @@ fn analytic_terminal_velocity_along_and_across() {
 
 #[test]
 fn analytic_terminal_velocity_is_reached_by_falling() {
-    use spunlaid::fibre::Flight;
-    use spunlaid::fibre::chain::Scheme;
-    use spunlaid::ground::Isa;
+    use spunlaid_fibre::Flight;
+    use spunlaid_fibre::chain::Scheme;
+    use spunlaid_ground::Isa;
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);
         strand.fibre.direction = heading;

@@ -1,7 +1,7 @@
 //! Friction on the belt, against the mechanics of a straight fibre on a plane.
 
 use crate::common::laying::{GRAVITY, flight, laid_until, spunbond};
-use spunlaid::fibre::{Case, Contact, Flight, Snapshot};
+use spunlaid_fibre::{Case, Contact, Flight, Snapshot};
 
 /// So much stays on the chain that nothing is held by the belt but by friction.
 const ALL: (&str, &str) = ("belt.kept_length", "50 m");
@@ -115,7 +115,7 @@ fn what_slides_on_a_fast_belt_is_not_stretched() {
         let seen = flight.snapshot();
         (0..8)
             .map(|lane| {
-                let lies = |at: &&[spunlaid::ground::Vec3<spunlaid::ground::Lanes>]| {
+                let lies = |at: &&[spunlaid_ground::Vec3<spunlaid_ground::Lanes>]| {
                     at.iter().all(|at| at.x.0[lane] == line.distance)
                 };
                 let elements = seen.position[seen.in_air[lane]..seen.nodes[lane]].windows(2).filter(lies);

@@ -2,11 +2,11 @@
 
 use crate::common::laying::{GRAVITY, Thread, flight, laid_until, spunbond};
 use crate::common::{X, in_all_lanes, steady_air};
-use spunlaid::air::Air;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Fibre, FibreParameters, Flight};
-use spunlaid::ground::{Isa, Lanes, RunContext, Vec3};
-use spunlaid::simulation::ensemble::turbulence_spectrum;
+use spunlaid_air::Air;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Fibre, FibreParameters, Flight};
+use spunlaid_ground::{Isa, Lanes, RunContext, Vec3};
+use spunlaid_simulation::ensemble::turbulence_spectrum;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Elements of a fed fibre at its start.

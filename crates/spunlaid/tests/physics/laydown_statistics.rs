@@ -1,11 +1,11 @@
 //! The statistics of a spunbond line's laydown: what must not move them, and what must not move a bit.
 
 use crate::common::laying::{flight, laid_until, spunbond};
-use spunlaid::fibre::{Case, Flight, Job, LaidPoint};
-use spunlaid::ground::{Error, Isa, RunContext};
-use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{LaidCurves, Recorded};
-use spunlaid::web::{Trace, TraceSettings};
+use spunlaid_fibre::{Case, Flight, Job, LaidPoint};
+use spunlaid_ground::{Error, Isa, RunContext};
+use spunlaid_simulation::ensemble::fly;
+use spunlaid_simulation::{LaidCurves, Recorded};
+use spunlaid_web::{Trace, TraceSettings};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Mean and standard error over replicates.

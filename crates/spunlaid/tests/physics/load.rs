@@ -1,7 +1,7 @@
 //! The load of filaments on their air, against numbers by hand.
 
-use spunlaid::fibre::{Case, Load, Station, WayPlace, ZERO_CELSIUS};
-use spunlaid::input::read_case;
+use spunlaid_fibre::{Case, Load, Station, WayPlace, ZERO_CELSIUS};
+use spunlaid_input::read_case;
 use std::path::Path;
 
 fn case(name: &str) -> Case {

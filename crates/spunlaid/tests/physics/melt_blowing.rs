@@ -1,9 +1,9 @@
 //! The amplitude of a melt-blowing fibre along its way beside a measured one, as a trend.
 
-use spunlaid::air::{FileContent, Flow};
-use spunlaid::fibre::{Case, Flight, Job};
-use spunlaid::ground::{Isa, WIDTH};
-use spunlaid::input::read_case;
+use spunlaid_air::{FileContent, Flow};
+use spunlaid_fibre::{Case, Flight, Job};
+use spunlaid_ground::{Isa, WIDTH};
+use spunlaid_input::read_case;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,12 +1,12 @@
 //! Order of convergence of the schemes, energy ledgers, and bits that never change.
 
 use crate::common::*;
-use spunlaid::air::{Air, Eddies, StreamKey, Wind};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, FibreParameters, Flight, Run, Snapshot};
-use spunlaid::ground::{Isa, RunContext, WIDTH};
-use spunlaid::simulation::ensemble::fly_together;
-use spunlaid::simulation::{Job, Recorded};
+use spunlaid_air::{Air, Eddies, StreamKey, Wind};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, FibreParameters, Flight, Run, Snapshot};
+use spunlaid_ground::{Isa, RunContext, WIDTH};
+use spunlaid_simulation::ensemble::fly_together;
+use spunlaid_simulation::{Job, Recorded};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const SCHEMES: [Scheme; 3] = Scheme::ALL;

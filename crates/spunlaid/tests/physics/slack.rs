@@ -2,9 +2,9 @@
 //! finds the fibres whose computation has diverged.
 
 use crate::common::laying::{flight, spunbond};
-use spunlaid::fibre::{Case, Contact};
-use spunlaid::ground::{Error, Lanes, Vec3};
-use spunlaid::input::read_case;
+use spunlaid_fibre::{Case, Contact};
+use spunlaid_ground::{Error, Lanes, Vec3};
+use spunlaid_input::read_case;
 
 /// The line of `spunbond.toml` in air whose velocity changes evenly on the way [m/s], with this intensity [-]
 /// and other values.

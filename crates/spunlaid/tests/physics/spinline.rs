@@ -1,8 +1,8 @@
 //! Spinlines, from the case file to the filament, against values from outside the code.
 
-use spunlaid::fibre::spinline::HoleRows;
-use spunlaid::fibre::{AirChange, Solution, Station, Surroundings};
-use spunlaid::input::{SpinFile, read_spinline, write_spinline};
+use spunlaid_fibre::spinline::HoleRows;
+use spunlaid_fibre::{AirChange, Solution, Station, Surroundings};
+use spunlaid_input::{SpinFile, read_spinline, write_spinline};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! A steady state that is followed from a line nearby is the one that a search finds.
 
-use spunlaid::fibre::{Failure, Law, Solution, Spinline};
-use spunlaid::input::{SpinFile, read_spinline};
+use spunlaid_fibre::{Failure, Law, Solution, Spinline};
+use spunlaid_input::{SpinFile, read_spinline};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

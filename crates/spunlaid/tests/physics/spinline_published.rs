@@ -1,7 +1,7 @@
 //! Spinlines that others have computed and published: `cases/published`.
 
-use spunlaid::fibre::{Solution, Station};
-use spunlaid::input::read_spinline;
+use spunlaid_fibre::{Solution, Station};
+use spunlaid_input::read_spinline;
 use std::path::Path;
 
 /// The steady state of a file under other settings, or the message.

@@ -1,8 +1,8 @@
 //! Which way a spinline goes when something is changed, where measurements say which way. Their numbers are
 //! not compared.
 
-use spunlaid::fibre::{SolidificationCause, Solution};
-use spunlaid::input::read_spinline;
+use spunlaid_fibre::{SolidificationCause, Solution};
+use spunlaid_input::read_spinline;
 use std::path::Path;
 
 /// A spinline of a file under other settings.

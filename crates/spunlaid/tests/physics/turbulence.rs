@@ -2,8 +2,8 @@
 //! have.
 
 use crate::common::*;
-use spunlaid::air::{Air, Stream, StreamKey, Wind};
-use spunlaid::ground::{Isa, WIDTH, Welch, Window};
+use spunlaid_air::{Air, Stream, StreamKey, Wind};
+use spunlaid_ground::{Isa, WIDTH, Welch, Window};
 use std::f64::consts::PI;
 use std::ops::Range;
 

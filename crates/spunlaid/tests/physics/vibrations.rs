@@ -3,9 +3,9 @@
 
 use crate::common::modes::{frequency_of, vibrations};
 use crate::common::*;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Fibre, Flight, Root};
-use spunlaid::ground::{Isa, Vec3, WIDTH};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Fibre, Flight, Root};
+use spunlaid_ground::{Isa, Vec3, WIDTH};
 use std::f64::consts::PI;
 
 /// Time step and duration of a flight [s].

@@ -1,12 +1,12 @@
 //! A mean flow that widens as it slows (`air.widening = "md"`), against the continuity equation and its streamlines.
 
-use spunlaid::air::{
+use spunlaid_air::{
     Air, AirAtPlaces, Extent, FileContent, Flow, Hint, Lateral, Profile, StreamKey, Widening,
 };
-use spunlaid::fibre::{Case, Flight, Job, Snapshot};
-use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Isa, Vec3};
-use spunlaid::input::read_case;
+use spunlaid_fibre::{Case, Flight, Job, Snapshot};
+use spunlaid_ground::place::Inlet;
+use spunlaid_ground::{Isa, Vec3};
+use spunlaid_input::read_case;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -3,16 +3,16 @@
 
 use crate::company_cases::{CASES, FIXED, with_files};
 use crate::short::case_of;
-use spunlaid::air::{Air, EddyModel, Flow, FlowNumbers};
-use spunlaid::experiment::study::fly_batches;
-use spunlaid::experiment::{Batch, Bundles, Point};
-use spunlaid::fibre::Case;
-use spunlaid::fibre::case::keys::{self, Key, Kind, Omission, Value};
-use spunlaid::ground::threads::par_map;
-use spunlaid::ground::{Error, Isa, RunContext, Value as Measured};
-use spunlaid::input::{parse_study, read_case, write_case};
-use spunlaid::simulation::ensemble::{fly, fly_together};
-use spunlaid::simulation::{Job, Recorded, Trajectory};
+use spunlaid_air::{Air, EddyModel, Flow, FlowNumbers};
+use spunlaid_experiment::study::fly_batches;
+use spunlaid_experiment::{Batch, Bundles, Point};
+use spunlaid_fibre::Case;
+use spunlaid_fibre::case::keys::{self, Key, Kind, Omission, Value};
+use spunlaid_ground::threads::par_map;
+use spunlaid_ground::{Error, Isa, RunContext, Value as Measured};
+use spunlaid_input::{parse_study, read_case, write_case};
+use spunlaid_simulation::ensemble::{fly, fly_together};
+use spunlaid_simulation::{Job, Recorded, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

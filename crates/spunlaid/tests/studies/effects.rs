@@ -3,10 +3,10 @@
 use crate::short;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::experiment::Verdict::{Fails, Holds, Open};
-use spunlaid::experiment::study::{judge, rankings, results_of_point};
-use spunlaid::experiment::{Journal, PointResults, Record, ReplicateOutcome, Study, Verdict};
-use spunlaid::simulation::MEASURES;
+use spunlaid_experiment::Verdict::{Fails, Holds, Open};
+use spunlaid_experiment::study::{judge, rankings, results_of_point};
+use spunlaid_experiment::{Journal, PointResults, Record, ReplicateOutcome, Study, Verdict};
+use spunlaid_simulation::MEASURES;
 
 /// The case is never simulated; its intensity is in the middle of the range that the studies vary.
 fn study(text: &str) -> Study {
@@ -418,7 +418,7 @@ fn rejects_claims_that_cannot_be_judged() {
              [claims]\n'It grows.' = '{claim}'\n"
         );
         let base = |_: &str, _| Ok((short::SHORT.to_owned(), "case.toml".to_owned()));
-        spunlaid::input::parse_study(&text, "study.toml", None, base).unwrap_err().to_string()
+        spunlaid_input::parse_study(&text, "study.toml", None, base).unwrap_err().to_string()
     };
     for (claim, said) in [
         ("grows", "names no result"),

@@ -2,12 +2,12 @@
 
 use crate::common;
 use crate::common::*;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Job, LaidPoint};
-use spunlaid::ground::{Error, Estimate, Isa, RunContext};
-use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerPlans, Number, Recorded, Recorder, Results, Trajectory, Unchecked};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Job, LaidPoint};
+use spunlaid_ground::{Error, Estimate, Isa, RunContext};
+use spunlaid_input::read_case;
+use spunlaid_simulation::ensemble::{Sample, fly, fly_for_checks, fly_together};
+use spunlaid_simulation::{FinerPlans, Number, Recorded, Recorder, Results, Trajectory, Unchecked};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -3,12 +3,12 @@
 use crate::common;
 use crate::common::*;
 use crate::ensembles::{assert_same, flights, table1};
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Checks, Job, NormalLaw, Run};
-use spunlaid::ground::{Error, Estimate, Isa, RunContext};
-use spunlaid::input::read_case;
-use spunlaid::simulation::ensemble::{fly_for_checks, fly_together};
-use spunlaid::simulation::{FinerCheck, FinerPlans, Recorded, Refinement, Trajectory, Unchecked};
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Checks, Job, NormalLaw, Run};
+use spunlaid_ground::{Error, Estimate, Isa, RunContext};
+use spunlaid_input::read_case;
+use spunlaid_simulation::ensemble::{fly_for_checks, fly_together};
+use spunlaid_simulation::{FinerCheck, FinerPlans, Recorded, Refinement, Trajectory, Unchecked};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

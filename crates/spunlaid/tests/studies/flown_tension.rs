@@ -1,15 +1,15 @@
 //! The tension at the end of a spinline that flights find: a reader says what has to be simulated, and whoever
 //! settles the file flies it.
 
-use spunlaid::air::Lateral;
-use spunlaid::fibre::Case;
-use spunlaid::fibre::case::keys;
-use spunlaid::ground::{Diagnostic, Dimension, Error, Isa, RunContext};
-use spunlaid::input::{
+use spunlaid_air::Lateral;
+use spunlaid_fibre::Case;
+use spunlaid_fibre::case::keys;
+use spunlaid_ground::{Diagnostic, Dimension, Error, Isa, RunContext};
+use spunlaid_input::{
     CaseWithNotes, Overrides, Resources, StudyFile, parse_study, read_case, read_spinline, read_web,
 };
-use spunlaid::simulation::Recorded;
-use spunlaid::simulation::ensemble::fly;
+use spunlaid_simulation::Recorded;
+use spunlaid_simulation::ensemble::fly;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// The filament of the whole line, coarse and short.

@@ -1,8 +1,8 @@
 //! The studies of the paper, which are compiled in.
 
-use spunlaid::fibre::Root;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::input::paper::{Parameter, choices, table1, time_steps};
+use spunlaid_fibre::Root;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_input::paper::{Parameter, choices, table1, time_steps};
 use std::fs;
 use std::path::{Path, PathBuf};
 

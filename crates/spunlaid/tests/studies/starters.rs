@@ -1,7 +1,7 @@
 //! The study to start from, beside every file of the repository that can be varied.
 
-use spunlaid::ground::FileKind;
-use spunlaid::input::{kind_of, parse_study, read_text, starter_study};
+use spunlaid_ground::FileKind;
+use spunlaid_input::{kind_of, parse_study, read_text, starter_study};
 use std::path::{Path, PathBuf};
 
 #[test]

@@ -2,16 +2,16 @@
 
 use crate::short;
 use crate::short::{SHORT, case_of};
-use spunlaid::experiment::study::{fly_batches, measured, results_of_point, run};
-use spunlaid::experiment::{
+use spunlaid_experiment::study::{fly_batches, measured, results_of_point, run};
+use spunlaid_experiment::{
     Batch, Journal, PointResults, Progress, Record, ReplicateOutcome, Replicates, Study,
 };
-use spunlaid::fibre::Case;
-use spunlaid::fibre::case::keys::{self, Value};
-use spunlaid::ground::{Error, Estimate, Isa, RunContext};
-use spunlaid::input::{StudyFile, parse_study, read_case, starter_case, write_case};
-use spunlaid::simulation::ensemble::fly;
-use spunlaid::simulation::{Recorded, Results, Trajectory};
+use spunlaid_fibre::Case;
+use spunlaid_fibre::case::keys::{self, Value};
+use spunlaid_ground::{Error, Estimate, Isa, RunContext};
+use spunlaid_input::{StudyFile, parse_study, read_case, starter_case, write_case};
+use spunlaid_simulation::ensemble::fly;
+use spunlaid_simulation::{Recorded, Results, Trajectory};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -239,7 +239,7 @@ fn published_students_t() {
         (63, 1.99834),
         (100_000, 1.95999),
     ] {
-        assert!((spunlaid::ground::statistics::student_t_95(degrees) / t - 1.0).abs() < 4e-6, "{degrees}");
+        assert!((spunlaid_ground::statistics::student_t_95(degrees) / t - 1.0).abs() < 4e-6, "{degrees}");
     }
     let estimate = Estimate::new(vec![1.0, 2.0]);
     assert_eq!(estimate.standard_error, Some(0.5));

@@ -2,13 +2,13 @@
 
 use crate::company::{FAR, pairs};
 use crate::company_cases::{CASES, with_files};
-use spunlaid::air::{Hint, Lateral, Wind};
-use spunlaid::fibre::Case;
-use spunlaid::fibre::case::keys;
-use spunlaid::ground::threads::par_map;
-use spunlaid::ground::{Isa, Vec3};
-use spunlaid::input::read_case;
-use spunlaid::simulation::Job;
+use spunlaid_air::{Hint, Lateral, Wind};
+use spunlaid_fibre::Case;
+use spunlaid_fibre::case::keys;
+use spunlaid_ground::threads::par_map;
+use spunlaid_ground::{Isa, Vec3};
+use spunlaid_input::read_case;
+use spunlaid_simulation::Job;
 use std::collections::BTreeSet;
 
 /// Times of looks [s], within all runs.

@@ -1,14 +1,14 @@
 //! Every key of a web that can vary, varied in a study, gives what single webs give, in every measure.
 
 use crate::web_studies::{study_beside_cases, web_beside_cases};
-use spunlaid::experiment::Batch;
-use spunlaid::experiment::study::fly_bundle;
-use spunlaid::ground::{Dimension, Isa, Known, Measure, RunContext, Value, measure};
-use spunlaid::input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
-use spunlaid::simulation::layers::web_key;
-use spunlaid::simulation::{Flights, Flyer};
-use spunlaid::web::map::PatchFindings;
-use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
+use spunlaid_experiment::Batch;
+use spunlaid_experiment::study::fly_bundle;
+use spunlaid_ground::{Dimension, Isa, Known, Measure, RunContext, Value, measure};
+use spunlaid_input::{LaydownSource, WEB_KEYS, WebFile, WebKey, WebSpec};
+use spunlaid_simulation::layers::web_key;
+use spunlaid_simulation::{Flights, Flyer};
+use spunlaid_web::map::PatchFindings;
+use spunlaid_web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -1,11 +1,9 @@
 //! Studies of webs: what they vary, and what they refuse.
 
-use spunlaid::experiment::Point;
-use spunlaid::ground::Error;
-use spunlaid::input::{
-    LaydownSource, Overrides, StudyFile, WebFile, parse_study, read_web, write_experiment,
-};
-use spunlaid::web::map::Filaments;
+use spunlaid_experiment::Point;
+use spunlaid_ground::Error;
+use spunlaid_input::{LaydownSource, Overrides, StudyFile, WebFile, parse_study, read_web, write_experiment};
+use spunlaid_web::map::Filaments;
 use std::path::Path;
 
 const WEB: &str = r#"
@@ -48,7 +46,7 @@ pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, 
 const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");
 
 /// The only layer of a point's web.
-fn layer(point: &Point) -> &spunlaid::input::LayerSpec {
+fn layer(point: &Point) -> &spunlaid_input::LayerSpec {
     &point.experiment.web().unwrap().layers[0]
 }
 

@@ -1,10 +1,10 @@
 //! Advice: what settings of a line do to the CV of its web at the same basis weight.
 
-use spunlaid::experiment::advice::{advise, judged_by};
-use spunlaid::experiment::{Advice, Change, SensitivityRun, setting};
-use spunlaid::ground::{Error, Isa, RunContext, Setting, Turned};
-use spunlaid::input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, read_changes, read_web};
-use spunlaid::simulation::{Flights, Flyer};
+use spunlaid_experiment::advice::{advise, judged_by};
+use spunlaid_experiment::{Advice, Change, SensitivityRun, setting};
+use spunlaid_ground::{Error, Isa, RunContext, Setting, Turned};
+use spunlaid_input::{Changes, LaydownSource, Overrides, WebFile, WebSpec, read_changes, read_web};
+use spunlaid_simulation::{Flights, Flyer};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -162,7 +162,7 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
                 if let LaydownSource::Case { case, .. } = &after.source {
                     assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
                 }
-                let throughput = |of: &spunlaid::input::LayerSpec| of.linear_density() * of.feed_speed;
+                let throughput = |of: &spunlaid_input::LayerSpec| of.linear_density() * of.feed_speed;
                 if change.setting != setting::THROUGHPUT {
                     // Five digits, where the file does not give it.
                     let tolerance = if before.throughput.is_some() { 1e-9 } else { 5e-5 };
@@ -233,7 +233,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
             let pasted =
                 read_web((text, &cases()), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
             for (found, wanted) in pasted.layers.iter().zip(&change.experiment.spec.layers) {
-                let numbers = |of: &spunlaid::input::LayerSpec| {
+                let numbers = |of: &spunlaid_input::LayerSpec| {
                     let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
                     let filaments = of.filaments.count(&change.experiment.spec.sheet) as f64;
                     [of.linear_density(), of.feed_speed, of.belt_speed, distance, filaments]
@@ -242,8 +242,8 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
                     assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");
                 }
                 if let (Some(found), Some(wanted)) = (found.source.case(), wanted.source.case()) {
-                    let air = |case: &spunlaid::fibre::Case| {
-                        let key = |name| spunlaid::fibre::case::keys::find(name).unwrap().get(case);
+                    let air = |case: &spunlaid_fibre::Case| {
+                        let key = |name| spunlaid_fibre::case::keys::find(name).unwrap().get(case);
                         let number = |name| key(name).and_then(|value| value.number());
                         [
                             "air.speed_factor",

@@ -1,11 +1,11 @@
 //! AssumedValues: what half and twice of a number that nobody has measured does to the CV.
 
 use crate::advice::cases;
-use spunlaid::experiment::Change;
-use spunlaid::experiment::advice::{advise, are_tried};
-use spunlaid::ground::{Isa, RunContext};
-use spunlaid::input::{Changes, Overrides, read_changes, read_web};
-use spunlaid::simulation::Flyer;
+use spunlaid_experiment::Change;
+use spunlaid_experiment::advice::{advise, are_tried};
+use spunlaid_ground::{Isa, RunContext};
+use spunlaid_input::{Changes, Overrides, read_changes, read_web};
+use spunlaid_simulation::Flyer;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {

@@ -1,12 +1,12 @@
 //! Charged filaments of a web in shared turbulence: nothing without charge, and the square of the charge with it.
 
 use super::one_air::{case_in, sheet};
-use spunlaid::fibre::{Case, Charge};
-use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Isa, RunContext};
-use spunlaid::input::read_case;
-use spunlaid::simulation::{Beam, BeamCharge, BeamFindings};
-use spunlaid::web::{LaidWeb, Window};
+use spunlaid_fibre::{Case, Charge};
+use spunlaid_ground::place::Inlet;
+use spunlaid_ground::{Isa, RunContext};
+use spunlaid_input::read_case;
+use spunlaid_simulation::{Beam, BeamCharge, BeamFindings};
+use spunlaid_web::{LaidWeb, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
@@ -85,7 +85,7 @@ fn analytic_the_curtain_opens_with_the_square_of_the_charge() {
         let charge = charge(per_mass, &places);
         let (_, simulated) = lay(&case, &places, Some(&charge), Isa::detect(), 2);
         let belt = case.line.unwrap().belt_speed;
-        let of_filament = |(filament, points): &(usize, Vec<spunlaid::fibre::LaidPoint>)| {
+        let of_filament = |(filament, points): &(usize, Vec<spunlaid_fibre::LaidPoint>)| {
             let points: Vec<f64> = points.iter().map(|point| point.md + belt * point.time).collect();
             let mean = points.iter().sum::<f64>() / points.len() as f64;
             mean * places[*filament].y.signum()

@@ -1,9 +1,9 @@
 //! Filaments that are filled in between simulated ones, against the same filaments as they are simulated.
 
 use super::one_air::{case_in, cv, lay_by, row, sheet as sheet_of};
-use spunlaid::ground::{Isa, Workers};
-use spunlaid::web::curtain::lay;
-use spunlaid::web::{Belt, Curtain, FlownCurves, Map, Window};
+use spunlaid_ground::{Isa, Workers};
+use spunlaid_web::curtain::lay;
+use spunlaid_web::{Belt, Curtain, FlownCurves, Map, Window};
 use std::sync::atomic::AtomicBool;
 
 /// Correlation of the basis weights of two maps, in cells of a size.

@@ -1,11 +1,11 @@
 //! Holes that are blocked or feed less, on the web.
 
 use super::same_air::{read, unwatched};
-use spunlaid::ground::{Estimate, Isa, RunContext};
-use spunlaid::input::read_web;
-use spunlaid::simulation::{Flyer, WebSpec};
-use spunlaid::web::map::{lay, strands};
-use spunlaid::web::{Defect, LaidWeb, Map};
+use spunlaid_ground::{Estimate, Isa, RunContext};
+use spunlaid_input::read_web;
+use spunlaid_simulation::{Flyer, WebSpec};
+use spunlaid_web::map::{lay, strands};
+use spunlaid_web::{Defect, LaidWeb, Map};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const KNOWN: &str = "

@@ -1,11 +1,11 @@
 //! How many filaments of a web in shared turbulence are simulated for all of them.
 
-use spunlaid::ground::threads::look_while;
-use spunlaid::ground::{Error, Isa, Log, RunContext};
-use spunlaid::input::read_web;
-use spunlaid::simulation::{Flights, Flyer, WebSpec};
-use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{SubsampleEstimate, SubsampleWarning};
+use spunlaid_ground::threads::look_while;
+use spunlaid_ground::{Error, Isa, Log, RunContext};
+use spunlaid_input::read_web;
+use spunlaid_simulation::{Flights, Flyer, WebSpec};
+use spunlaid_web::map::{Findings, PatchFindings};
+use spunlaid_web::{SubsampleEstimate, SubsampleWarning};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 

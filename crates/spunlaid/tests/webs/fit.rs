@@ -4,12 +4,12 @@
 mod closed_loops;
 
 use closed_loops::{SMALL, closed_loops, coverage, fitted, laid, model_errors, read, scanned};
-use spunlaid::experiment::study::seed_of_point;
-use spunlaid::experiment::{Journal, KeyWarning, MeasuredPatch, MeasuredWeb, Target};
-use spunlaid::ground::statistics::student_t_95;
-use spunlaid::input::{Overrides, read_fit};
-use spunlaid::web::Map;
-use spunlaid::web::map::uniformity::cv_of_piece;
+use spunlaid_experiment::study::seed_of_point;
+use spunlaid_experiment::{Journal, KeyWarning, MeasuredPatch, MeasuredWeb, Target};
+use spunlaid_ground::statistics::student_t_95;
+use spunlaid_input::{Overrides, read_fit};
+use spunlaid_web::Map;
+use spunlaid_web::map::uniformity::cv_of_piece;
 
 /// How often intervals hold the truth is measured with a thousand loops of drawn numbers, beside the code;
 /// here, that laid and scanned webs give what their fit needs.

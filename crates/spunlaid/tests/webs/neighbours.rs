@@ -1,10 +1,10 @@
 //! The correlation of neighbours in a web whose filaments fly together.
 
 use super::one_air::{case_in, lay_by, row, sheet};
-use spunlaid::ground::Isa;
-use spunlaid::ground::place::Inlet;
-use spunlaid::simulation::BeamFindings;
-use spunlaid::web::{Correlation, NeighbourCorrelation, Row, Sheet};
+use spunlaid_ground::Isa;
+use spunlaid_ground::place::Inlet;
+use spunlaid_simulation::BeamFindings;
+use spunlaid_web::{Correlation, NeighbourCorrelation, Row, Sheet};
 
 fn simulated(lateral: &str, sheet: &Sheet, places: &[Inlet], threads: usize) -> BeamFindings {
     lay_by(&case_in(lateral), sheet, places, Isa::detect(), threads).1

@@ -1,13 +1,13 @@
 //! All filaments of a beam, simulated together: limits that hold exactly, and nothing that depends on the threads.
 
-use spunlaid::air::Lateral;
-use spunlaid::fibre::Case;
-use spunlaid::ground::place::Inlet;
-use spunlaid::ground::{Error, Isa, RunContext};
-use spunlaid::input::read_case;
-use spunlaid::simulation::{Beam, BeamFindings};
-use spunlaid::web::map::uniformity::patch_cv;
-use spunlaid::web::{LaidWeb, Map, Sheet, Window};
+use spunlaid_air::Lateral;
+use spunlaid_fibre::Case;
+use spunlaid_ground::place::Inlet;
+use spunlaid_ground::{Error, Isa, RunContext};
+use spunlaid_input::read_case;
+use spunlaid_simulation::{Beam, BeamFindings};
+use spunlaid_web::map::uniformity::patch_cv;
+use spunlaid_web::{LaidWeb, Map, Sheet, Window};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

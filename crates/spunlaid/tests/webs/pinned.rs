@@ -1,9 +1,9 @@
 //! A web that others are compared with in the same turbulence, one after another.
 
 use crate::same_air::read;
-use spunlaid::experiment::advice::{LOOKS, Look, PinnedWeb, Seen};
-use spunlaid::ground::{Error, Isa, RunContext};
-use spunlaid::input::WebFile;
+use spunlaid_experiment::advice::{LOOKS, Look, PinnedWeb, Seen};
+use spunlaid_ground::{Error, Isa, RunContext};
+use spunlaid_input::WebFile;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Enough filaments that half of them stand for all.

@@ -1,8 +1,8 @@
 //! Webs of a few filaments each in the same air.
 
-use spunlaid::input::{Overrides, WebFile, read_web};
-use spunlaid::simulation::{Compared, Flights, Flyer};
-use spunlaid::web::SubsampleEstimate;
+use spunlaid_input::{Overrides, WebFile, read_web};
+use spunlaid_simulation::{Compared, Flights, Flyer};
+use spunlaid_web::SubsampleEstimate;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 

@@ -1,9 +1,9 @@
 //! The surrogate: its autocorrelation against series and simulation, its paths, and the way back from a laid
 //! curve to it.
 
-use spunlaid::ground::{Isa, Lanes};
-use spunlaid::web::surrogate::identify;
-use spunlaid::web::{LaidCurve, PathKey, Paths, Surrogate, Trace, TraceSettings};
+use spunlaid_ground::{Isa, Lanes};
+use spunlaid_web::surrogate::identify;
+use spunlaid_web::{LaidCurve, PathKey, Paths, Surrogate, Trace, TraceSettings};
 
 const SIGMA: f64 = 0.018;
 

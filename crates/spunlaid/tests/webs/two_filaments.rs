@@ -1,10 +1,10 @@
 //! The CV of a web in shared turbulence from what two of its filaments have in common.
 
 use crate::one_air::{case_in, cv, lay_by, row, sheet};
-use spunlaid::air::Lateral;
-use spunlaid::fibre::LaidPoint;
-use spunlaid::ground::Isa;
-use spunlaid::web::Sheet;
+use spunlaid_air::Lateral;
+use spunlaid_fibre::LaidPoint;
+use spunlaid_ground::Isa;
+use spunlaid_web::Sheet;
 
 /// Lags along the filament, in elements.
 const LAGS: usize = 60;

@@ -1,10 +1,10 @@
 //! The web: nothing is lost, and its CV is that of the laws.
 
 use proptest::prelude::*;
-use spunlaid::ground::{Isa, RunContext};
-use spunlaid::web::map::uniformity::patch_cv;
-use spunlaid::web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
-use spunlaid::web::{
+use spunlaid_ground::{Isa, RunContext};
+use spunlaid_web::map::uniformity::patch_cv;
+use spunlaid_web::map::{Filaments, find, lay, one_fibre, orientation, pieces, straight_fibres, strands};
+use spunlaid_web::{
     Edges, Fibres, LaidWeb, Layer, Map, OneFibre, Row, Sheet, Surrogate, Web, Window, WindowCurve,
 };
 use std::f64::consts::PI;

@@ -1,10 +1,10 @@
 //! The errors of webs, against the scatter of many webs of each kind.
 
-use spunlaid::ground::statistics::difference_of_logarithms;
-use spunlaid::ground::{Error, Isa, NORMAL_95, RunContext};
-use spunlaid::web::map::uniformity::{PatchCv, unevenness_at};
-use spunlaid::web::map::{Filaments, Findings, find, lay};
-use spunlaid::web::{Clouds, Edges, Fibres, Layer, Row, Sheet, Surrogate, Web};
+use spunlaid_ground::statistics::difference_of_logarithms;
+use spunlaid_ground::{Error, Isa, NORMAL_95, RunContext};
+use spunlaid_web::map::uniformity::{PatchCv, unevenness_at};
+use spunlaid_web::map::{Filaments, Findings, find, lay};
+use spunlaid_web::{Clouds, Edges, Fibres, Layer, Row, Sheet, Surrogate, Web};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 const WEBS: u64 = 80;

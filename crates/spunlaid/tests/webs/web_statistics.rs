@@ -2,9 +2,9 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use spunlaid::web::map::autocorrelation;
-use spunlaid::web::map::uniformity::patch_cv;
-use spunlaid::web::{Clouds, Map};
+use spunlaid_web::map::autocorrelation;
+use spunlaid_web::map::uniformity::patch_cv;
+use spunlaid_web::{Clouds, Map};
 use std::f64::consts::TAU;
 
 const MEAN: f64 = 1e6;

@@ -7,7 +7,7 @@ use crate::lines::Lines;
 use crate::numbers::{Name, Numbers, Reported, numbers};
 use crate::program::{Program, Said};
 use serde_json::Value as Json;
-use spunlaid::ground::Dimension;
+use spunlaid_ground::Dimension;
 use std::collections::BTreeMap;
 
 /// Shares are between 0 and 1, errors are not negative, an interval holds its value, quantiles are in order.

@@ -7,8 +7,8 @@ use crate::lines::Lines;
 use crate::numbers::{Name, numbers};
 use crate::program::{Program, Said};
 use serde_json::Value as Json;
-use spunlaid::fibre::case::keys::{self, Kind};
-use spunlaid::ground::{Dimension, Powers};
+use spunlaid_fibre::case::keys::{self, Kind};
+use spunlaid_ground::{Dimension, Powers};
 
 /// A change that is nothing, relative.
 const NOTHING: f64 = 1e-12;

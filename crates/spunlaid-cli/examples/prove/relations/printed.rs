@@ -4,10 +4,10 @@ use super::{Outcome, leaves};
 use crate::draw::Drawn;
 use crate::program::Program;
 use serde_json::{Map, Value as Json};
-use spunlaid::fibre::{LOAD_MEASURES, LOAD_POSITION_MEASURES, SPINLINE_MEASURES};
-use spunlaid::ground::{Dimension, Measure, measure};
-use spunlaid::simulation::DECLARED;
-use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
+use spunlaid_fibre::{LOAD_MEASURES, LOAD_POSITION_MEASURES, SPINLINE_MEASURES};
+use spunlaid_ground::{Dimension, Measure, measure};
+use spunlaid_simulation::DECLARED;
+use spunlaid_web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, PATCH_MEASURES, STRIP_MEASURES, WEB_MEASURES};
 use std::collections::BTreeMap;
 
 /// Dimensions of what is printed with a unit that is no product of plain SI units.

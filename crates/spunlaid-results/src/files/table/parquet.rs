@@ -10,7 +10,7 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
 use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
 use parquet::schema::types::{ColumnDescPtr, Type};
-use spunlaid::ground::threads::par_map;
+use spunlaid_ground::threads::par_map;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;

@@ -2,9 +2,9 @@
 
 use super::files::{PLANES, Slices};
 use crate::numbers::significant;
-use spunlaid::fibre::Case;
-use spunlaid::ground::Vec3;
 use spunlaid_charts::{Axis, Chart, Figure, Map, Shades};
+use spunlaid_fibre::Case;
+use spunlaid_ground::Vec3;
 
 /// The colours reach so many standard deviations.
 const DEVIATIONS: f64 = 2.5;

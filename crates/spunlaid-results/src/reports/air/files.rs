@@ -6,10 +6,10 @@ use crate::files::paraview::{AppendedArrays, collection};
 use crate::files::versioned_json;
 use crate::reports::run::summary::resolved;
 use serde_json::{Value as Json, json};
-use spunlaid::air::{AirAtPlaces, LocalAir};
-use spunlaid::fibre::Case;
-use spunlaid::ground::Vec3;
+use spunlaid_air::{AirAtPlaces, LocalAir};
 use spunlaid_charts::shortest;
+use spunlaid_fibre::Case;
+use spunlaid_ground::Vec3;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// Names of the planes, and of the pictures of them.
@@ -82,7 +82,7 @@ impl Slices {
         let mut velocities = [Vec::new(), Vec::new()];
         for time in &times {
             if stop.load(Ordering::Relaxed) {
-                return Err(spunlaid::ground::Error::Interrupted);
+                return Err(spunlaid_ground::Error::Interrupted);
             }
             for (velocities, places) in velocities.iter_mut().zip(&places) {
                 velocities.push(air.velocities(*time, places)?);
@@ -153,7 +153,7 @@ impl PlaneFindings {
         let (plane, velocities): (&Plane, &[Vec<Vec3<f64>>]) =
             (&slices.planes[plane], &slices.velocities[plane]);
         let places = plane.places();
-        let mut hint = spunlaid::air::Hint::default();
+        let mut hint = spunlaid_air::Hint::default();
         let flow: Vec<_> = places.iter().map(|place| case.air.local(*place, &mut hint)).collect();
         let count = (velocities.len() * places.len()).max(1) as f64;
         let axes: [fn(&Vec3<f64>) -> f64; 3] = [|v| v.x, |v| v.y, |v| v.z];

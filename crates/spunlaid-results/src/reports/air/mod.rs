@@ -16,8 +16,8 @@ use crate::reports::run::figures::air::field_figure;
 use figures::pictures;
 use files::PlaneFindings;
 use report::air_report;
-use spunlaid::fibre::Case;
 use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
 
 /// Everything of a look at the air that goes into the files.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use crate::numbers::{THIN, significant};
 use crate::page::document::{Report, Section};
 use crate::page::methods::{methods, of_case};
 use crate::page::words::length;
-use spunlaid::fibre::Case;
 use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
 
 /// The air of a case, in pictures.
 ///

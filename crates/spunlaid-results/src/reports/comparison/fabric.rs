@@ -4,8 +4,8 @@ use super::files::ComparedMeasure;
 use super::web::{Web, WebNumber, are_alike, measure};
 use crate::numbers::significant;
 use serde_json::Value as Json;
-use spunlaid::ground::Measure;
-use spunlaid::web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, STRIP_MEASURES};
+use spunlaid_ground::Measure;
+use spunlaid_web::{FABRIC_MEASURES, FABRIC_PATCH_MEASURES, STRIP_MEASURES};
 
 /// Side of the patches that are compared in all words [m].
 const PATCH: f64 = 5e-3;

@@ -6,11 +6,11 @@ use crate::reports::run::figures::measured::axes;
 use crate::reports::web::figures::clouds::{density, empty_spectrum};
 use crate::reports::web::figures::patch_cv::empty_chart;
 use crate::reports::web::figures::{MM, PER_CENT};
-use spunlaid::ground::MeasureKind;
-use spunlaid::simulation::{DECLARED, FibreMeasure};
-use spunlaid::web::Clouds;
 use spunlaid_charts::palette::GREY;
 use spunlaid_charts::{Chart, Figure, Series};
+use spunlaid_ground::MeasureKind;
+use spunlaid_simulation::{DECLARED, FibreMeasure};
+use spunlaid_web::Clouds;
 use std::collections::BTreeMap;
 
 /// Dashes of the series of one run.

@@ -4,7 +4,7 @@ use crate::effects::difference_text;
 use crate::files::measured::{known, mean};
 use crate::numbers::plus_minus;
 use serde_json::{Value as Json, json};
-use spunlaid::ground::{Difference, Estimate, Unit};
+use spunlaid_ground::{Difference, Estimate, Unit};
 
 /// Two runs, measure by measure.
 #[derive(Clone, Debug)]

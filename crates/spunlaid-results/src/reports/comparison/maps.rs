@@ -8,9 +8,9 @@ use crate::reports::web::files::pieces::{MapFile, Pictures};
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use spunlaid::web::Clouds;
-use spunlaid::web::scan::shortest_sharp_wave;
 use spunlaid_charts::Figure;
+use spunlaid_web::Clouds;
+use spunlaid_web::scan::shortest_sharp_wave;
 
 /// What the maps show, and why one shows nothing.
 #[derive(Debug, Default)]

@@ -18,8 +18,8 @@ use crate::folders::{Contents, Maker, Page};
 use files::Comparison;
 use maps::ComparedPictures;
 use report::comparison_report;
-use spunlaid::ground::Fault;
 use spunlaid_charts::Figure;
+use spunlaid_ground::Fault;
 use std::path::{Path, PathBuf};
 
 /// Most results in one picture.

@@ -6,8 +6,8 @@ use super::maps::{Beside, ComparedPictures, caption};
 use crate::page::document::{Report, Section, View};
 use crate::page::methods::methods;
 use crate::page::table::{Cell, Row, Table, Tone};
-use spunlaid::ground::Difference;
 use spunlaid_charts::Figure;
+use spunlaid_ground::Difference;
 
 /// Results beside each other.
 ///

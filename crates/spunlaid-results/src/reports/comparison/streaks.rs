@@ -4,8 +4,8 @@ use super::files::Cause;
 use super::web::Web;
 use crate::numbers::{HARD, THIN, plus_minus, significant};
 use serde_json::{Value as Json, json};
-use spunlaid::ground::NORMAL_95;
-use spunlaid::web::scan::WIDTH;
+use spunlaid_ground::NORMAL_95;
+use spunlaid_web::scan::WIDTH;
 use std::f64::consts::{PI, SQRT_2};
 
 /// A period and a pitch that differ by less are the same.

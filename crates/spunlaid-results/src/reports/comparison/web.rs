@@ -4,10 +4,10 @@ use super::files::ComparedMeasure;
 use crate::numbers::significant;
 use crate::reports::web::files::pieces::MapFile;
 use serde_json::Value as Json;
-use spunlaid::ground::statistics::difference_of_logarithms;
-use spunlaid::ground::{Difference, Estimate, NORMAL_95, Unit};
-use spunlaid::web::FEWEST;
-use spunlaid::web::scan::ScanWarning;
+use spunlaid_ground::statistics::difference_of_logarithms;
+use spunlaid_ground::{Difference, Estimate, NORMAL_95, Unit};
+use spunlaid_web::FEWEST;
+use spunlaid_web::scan::ScanWarning;
 use std::path::{Path, PathBuf};
 
 /// The results of a web.

@@ -11,8 +11,8 @@ use crate::Failure;
 use crate::numbers::significant;
 use crate::reports::finished::read_summary;
 use crate::reports::web::figures::clouds::SEEN;
-use spunlaid::ground::{Error, Fault, PERCENT, RATIO};
-use spunlaid::web::scan::shortest_sharp_wave;
+use spunlaid_ground::{Error, Fault, PERCENT, RATIO};
+use spunlaid_web::scan::shortest_sharp_wave;
 use std::path::PathBuf;
 
 /// Reads the folders if the first holds a web.

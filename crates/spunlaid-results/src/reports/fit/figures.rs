@@ -2,10 +2,10 @@
 //! the values are.
 
 use crate::numbers::significant;
-use spunlaid::experiment::{Fit, FittedKey, FittedNumber, Texture};
-use spunlaid::ground::{Dimension, NORMAL_95};
 use spunlaid_charts::palette::{BLUE, GREY, INK, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_experiment::{Fit, FittedKey, FittedNumber, Texture};
+use spunlaid_ground::{Dimension, NORMAL_95};
 
 const MM: f64 = 1e3;
 const PER_CENT: f64 = 100.0;

@@ -6,7 +6,7 @@ use crate::files::table::{Value, number, whole};
 use crate::files::versioned_json;
 use crate::numbers::significant;
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::{
+use spunlaid_experiment::{
     Fit, FittedKey, FittedNumber, IntervalEnd, KeyWarning, Parameter, Target, Texture, USUAL_WEBS,
 };
 

@@ -16,13 +16,11 @@ use crate::reports::finished::read_measured_web;
 use figures::fit_figures;
 use files::{fit_json, write_trials};
 use report::fit_report;
-use spunlaid::experiment::fit::{fit, identity};
-use spunlaid::experiment::{
-    Fit, Header, Journal, JournalState, MOST_TRIALS, Question, Target, WebInProgress,
-};
-use spunlaid::ground::{Diagnostic, Error, Fault, RunContext};
-use spunlaid::input::{FitFile, WebFile, WebSpec};
-use spunlaid::simulation::{Flights, Flyer};
+use spunlaid_experiment::fit::{fit, identity};
+use spunlaid_experiment::{Fit, Header, Journal, JournalState, MOST_TRIALS, Question, Target, WebInProgress};
+use spunlaid_ground::{Diagnostic, Error, Fault, RunContext};
+use spunlaid_input::{FitFile, WebFile, WebSpec};
+use spunlaid_simulation::{Flights, Flyer};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

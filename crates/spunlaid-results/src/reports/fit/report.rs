@@ -5,10 +5,10 @@ use crate::numbers::{plus_minus, significant};
 use crate::page::document::{Report, Section};
 use crate::page::methods::{MOMENTS, methods, of_web};
 use crate::page::table::{Row, Table};
-use spunlaid::experiment::{Fit, FittedKey, FittedNumber, KeyWarning, Target, Texture};
-use spunlaid::ground::Dimension;
-use spunlaid::simulation::WebSpec;
 use spunlaid_charts::Figure;
+use spunlaid_experiment::{Fit, FittedKey, FittedNumber, KeyWarning, Target, Texture};
+use spunlaid_ground::Dimension;
+use spunlaid_simulation::WebSpec;
 
 /// Values of a web that make it like a scan.
 ///

@@ -1,11 +1,11 @@
 //! The figures of the paper, drawn again: circles for y, triangles for z, with the error bars it lacks.
 
 use crate::numbers::capitalised;
-use spunlaid::ground::Vec3;
-use spunlaid::input::paper::{LateralEstimates, Parameter, TrendPoint};
-use spunlaid::simulation::{CurveValue, SpectrumPoint};
 use spunlaid_charts::palette::{BLUE, GREEN, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_ground::Vec3;
+use spunlaid_input::paper::{LateralEstimates, Parameter, TrendPoint};
+use spunlaid_simulation::{CurveValue, SpectrumPoint};
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;

@@ -3,19 +3,19 @@
 use super::figures as draw;
 use crate::Failure;
 use crate::reports::study::shown;
-use spunlaid::experiment::study::{results_of_point, run};
-use spunlaid::experiment::{Claim, Journal, PointResults, Progress, Replicates, Study};
-use spunlaid::fibre::Case;
-use spunlaid::ground::RunContext;
-use spunlaid::ground::error::counted;
-use spunlaid::ground::threads::unlock;
-use spunlaid::input::paper::{
+use spunlaid_charts::Figure;
+use spunlaid_experiment::study::{results_of_point, run};
+use spunlaid_experiment::{Claim, Journal, PointResults, Progress, Replicates, Study};
+use spunlaid_fibre::Case;
+use spunlaid_ground::RunContext;
+use spunlaid_ground::error::counted;
+use spunlaid_ground::threads::unlock;
+use spunlaid_input::paper::{
     Parameter, TrendPoint, choices as choices_of_the_paper, claims_of_step_errors, claims_of_trend,
     in_scheme, time_steps,
 };
-use spunlaid::simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
-use spunlaid::simulation::{CurveValue, KeepShapes, Number, Recorded, Results, SpectrumPoint};
-use spunlaid_charts::Figure;
+use spunlaid_simulation::ensemble::{fly, turbulence_spectrum, velocity_record};
+use spunlaid_simulation::{CurveValue, KeepShapes, Number, Recorded, Results, SpectrumPoint};
 use std::sync::Mutex;
 
 /// The figures that can be chosen.

@@ -15,9 +15,9 @@ use crate::page::document::{Report, Section};
 use crate::page::methods::{methods, of_case};
 use crate::page::table::{Row, Table};
 use serde_json::json;
-use spunlaid::experiment::{Claim, Verdict};
-use spunlaid::fibre::Case;
 use spunlaid_charts::Figure;
+use spunlaid_experiment::{Claim, Verdict};
+use spunlaid_fibre::Case;
 
 /// Everything of the paper that goes into the files.
 #[derive(Clone, Copy, Debug)]

@@ -15,7 +15,7 @@ use crate::folders::{Contents, Maker, Page};
 use figures::record_figures;
 use files::write_curves;
 use report::analysis_report;
-use spunlaid::air::{Analysis, Record};
+use spunlaid_air::{Analysis, Record};
 
 /// Everything of an analysis that goes into the files.
 #[derive(Clone, Copy, Debug)]

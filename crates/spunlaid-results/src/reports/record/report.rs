@@ -6,9 +6,9 @@ use crate::page::document::{Report, Section};
 use crate::page::methods::methods;
 use crate::page::table::{Content, Layout, Row, Table};
 use crate::page::words::{count, time};
-use spunlaid::air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
-use spunlaid::ground::{Dimension, Interval, Measure, Measured, measure};
+use spunlaid_air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
 use spunlaid_charts::Figure;
+use spunlaid_ground::{Dimension, Interval, Measure, Measured, measure};
 
 /// What was found in a velocity record.
 ///

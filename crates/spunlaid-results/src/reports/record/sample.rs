@@ -1,7 +1,7 @@
 //! A synthetic record for tests.
 
-use spunlaid::air::record::analyse;
-use spunlaid::air::{Analysis, Record, Samples, Settings};
+use spunlaid_air::record::analyse;
+use spunlaid_air::{Analysis, Record, Samples, Settings};
 
 /// 10 m/s along the flow, rms 1 m/s, ten samples to an integral time of 10 ms.
 pub fn autoregression(components: usize, samples: usize) -> (Record, Analysis) {

@@ -5,12 +5,12 @@ use super::report::frames::POSITIONS as POSITIONS_OF_PAGE;
 use super::simulated::ROOM;
 use crate::numbers::significant;
 use crate::reports::spinline::files as spinline;
-use spunlaid::air::{Air, Axis, Flow, PlacedField, Spread};
-use spunlaid::fibre::{Case, Line};
-use spunlaid::ground::error::counted;
-use spunlaid::ground::{Dimension, Error, Isa, WIDTH};
-use spunlaid::simulation::ensemble::pace;
-use spunlaid::simulation::{FinerPlans, KeepShapes};
+use spunlaid_air::{Air, Axis, Flow, PlacedField, Spread};
+use spunlaid_fibre::{Case, Line};
+use spunlaid_ground::error::counted;
+use spunlaid_ground::{Dimension, Error, Isa, WIDTH};
+use spunlaid_simulation::ensemble::pace;
+use spunlaid_simulation::{FinerPlans, KeepShapes};
 use std::fs;
 use std::path::{Path, PathBuf};
 

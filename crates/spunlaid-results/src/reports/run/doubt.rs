@@ -2,9 +2,9 @@
 //! the headline states.
 
 use crate::numbers::{capitalised, plus_minus, significant};
-use spunlaid::fibre::{Case, Checks};
-use spunlaid::ground::{Dimension, Estimate};
-use spunlaid::simulation::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
+use spunlaid_fibre::{Case, Checks};
+use spunlaid_ground::{Dimension, Estimate};
+use spunlaid_simulation::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
 
 /// Error of step or mesh that is small enough [-].
 pub(super) const FINE_ENOUGH: f64 = 0.03;
@@ -251,8 +251,8 @@ pub fn sentences(checks: &FinerChecks, case: &Case) -> String {
 mod tests {
     use super::super::sample;
     use super::*;
-    use spunlaid::fibre::chain::Scheme;
-    use spunlaid::simulation::Statistic;
+    use spunlaid_fibre::chain::Scheme;
+    use spunlaid_simulation::Statistic;
 
     fn checks(mean: f64, standard_error: f64, duration: f64) -> FinerChecks {
         let statistic = Statistic::all().find(|statistic| statistic.name == "spread").unwrap();

@@ -4,10 +4,10 @@ use super::doubt::{
     FINE_ENOUGH, SURE, compared_with, counted, describe_change, errors, finer_elements, percent, unchecked,
 };
 use crate::numbers::{capitalised, significant};
-use spunlaid::air::EddyModel;
-use spunlaid::fibre::Case;
-use spunlaid::ground::{Dimension, Estimate};
-use spunlaid::simulation::{FinerCheck, FinerChecks, Refinement, Results};
+use spunlaid_air::EddyModel;
+use spunlaid_fibre::Case;
+use spunlaid_ground::{Dimension, Estimate};
+use spunlaid_simulation::{FinerCheck, FinerChecks, Refinement, Results};
 
 /// A check: what is compared, and what it says, in sentences.
 pub type CheckWords = (String, Vec<String>);
@@ -154,8 +154,8 @@ fn mesh_advice(check: &FinerCheck) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use spunlaid::fibre::chain::Scheme;
-    use spunlaid::simulation::{Change, Statistic};
+    use spunlaid_fibre::chain::Scheme;
+    use spunlaid_simulation::{Change, Statistic};
 
     fn check(refined: Refinement, name: &str, mean: f64, standard_error: f64) -> FinerCheck {
         let estimate = Estimate { mean, standard_error: Some(standard_error), values: vec![mean; 8] };

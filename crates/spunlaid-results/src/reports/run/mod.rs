@@ -28,13 +28,13 @@ use crate::reports::spinline::files::{SpinResults, write_stations};
 use figures::run_figures;
 use report::run_report;
 use simulated::Tables;
-use spunlaid::fibre::Case;
-use spunlaid::ground::{Diagnostic, Isa, RunContext, WIDTH};
-use spunlaid::simulation::ensemble::{fly_for_checks, turbulence_spectrum};
-use spunlaid::simulation::{
+use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
+use spunlaid_ground::{Diagnostic, Isa, RunContext, WIDTH};
+use spunlaid_simulation::ensemble::{fly_for_checks, turbulence_spectrum};
+use spunlaid_simulation::{
     FinerChecks, FinerPlans, KeepShapes, LostFibre, Recorded, Recorder, Results, RunPaths,
 };
-use spunlaid_charts::Figure;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;

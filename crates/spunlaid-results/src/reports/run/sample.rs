@@ -1,11 +1,11 @@
 //! Made-up results for the tests.
 
-use spunlaid::air::Air;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Contact, Drag, Fibre, FrictionLaw, LaidPoint, Line, NormalLaw, Root, Run};
-use spunlaid::ground::{MeasureKind, Value, Vec3};
-use spunlaid::simulation::ensemble::Sample;
-use spunlaid::simulation::{DECLARED, FibreMeasure, Results, Shape, SpectrumPoint, Trajectory};
+use spunlaid_air::Air;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Contact, Drag, Fibre, FrictionLaw, LaidPoint, Line, NormalLaw, Root, Run};
+use spunlaid_ground::{MeasureKind, Value, Vec3};
+use spunlaid_simulation::ensemble::Sample;
+use spunlaid_simulation::{DECLARED, FibreMeasure, Results, Shape, SpectrumPoint, Trajectory};
 
 /// The case of the paper's Table 1 with another mesh and so many recorded instants, 1 ms apart.
 pub fn case(elements: usize, instants: usize, replicates: u64) -> Case {

@@ -7,11 +7,11 @@ use crate::files::versioned_json;
 use crate::reports::load;
 use crate::reports::spinline::files as spinline;
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::Case;
-use spunlaid::fibre::case::keys;
-use spunlaid::fibre::case::keys::{Content, Value};
-use spunlaid::ground::{Aggregate, Dimension, Estimate};
-use spunlaid::simulation::{FinerCheck, FinerChecks, LostFibre, Number, Results};
+use spunlaid_fibre::Case;
+use spunlaid_fibre::case::keys;
+use spunlaid_fibre::case::keys::{Content, Value};
+use spunlaid_ground::{Aggregate, Dimension, Estimate};
+use spunlaid_simulation::{FinerCheck, FinerChecks, LostFibre, Number, Results};
 use std::path::Path;
 
 /// The text of the file.

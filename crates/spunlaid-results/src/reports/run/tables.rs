@@ -1,7 +1,7 @@
 //! The tables of a run: their files and columns.
 
-use spunlaid::fibre::LaidPoint;
-use spunlaid::simulation::ensemble::Sample;
+use spunlaid_fibre::LaidPoint;
+use spunlaid_simulation::ensemble::Sample;
 
 /// A column of doubles: its name with the unit, and its value at an instant.
 pub type Column = (&'static str, fn(&Sample) -> f64);

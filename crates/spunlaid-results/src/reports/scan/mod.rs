@@ -10,10 +10,10 @@ use crate::reports::web::figures::scan_figures;
 use crate::reports::web::files::map::write_array as write_scan;
 use crate::reports::web::files::summary::summary_of_scan;
 use report::scan_report;
-use spunlaid::ground::Isa;
-use spunlaid::web::Fabric;
-use spunlaid::web::fabric::of_scan;
-use spunlaid::web::scan::Findings;
+use spunlaid_ground::Isa;
+use spunlaid_web::Fabric;
+use spunlaid_web::fabric::of_scan;
+use spunlaid_web::scan::Findings;
 use std::time::Instant;
 
 /// Everything of a scan that goes into the files.

@@ -17,15 +17,15 @@ use crate::reports::web::report::fabric::{compare, fabric_section, shown as of_f
 use crate::reports::web::report::light_table::{MarkedPlaces, marks_note, picture_note, sheet};
 use crate::reports::web::report::patch_cv::{CV_OF_PATCHES, headline, largest_clouds, per_cent};
 use crate::reports::web::report::scale::Judged;
-use spunlaid::ground::{Measure, Measured, measure};
-use spunlaid::web::map::nearest_to_seen;
-use spunlaid::web::map::uniformity::PatchCv;
-use spunlaid::web::scan::{Findings, PatchFindings, ScanWarning, StreakLimit};
-use spunlaid::web::{
+use spunlaid_charts::Figure;
+use spunlaid_ground::{Measure, Measured, measure};
+use spunlaid_web::map::nearest_to_seen;
+use spunlaid_web::map::uniformity::PatchCv;
+use spunlaid_web::scan::{Findings, PatchFindings, ScanWarning, StreakLimit};
+use spunlaid_web::{
     Fabric, Map, SCAN_MEASURES, SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES,
     STREAK_LIMIT_MEASURES,
 };
-use spunlaid_charts::Figure;
 use std::borrow::Cow;
 
 /// A scanned web.

@@ -14,10 +14,10 @@ use files::openfoam::{OPENFOAM, write_openfoam};
 use files::vtk::VTK;
 use files::{outside_of_cells, unsteady};
 use report::sources_report;
-use spunlaid::fibre::Case;
-use spunlaid::ground::Diagnostic;
-use spunlaid::simulation::Sources;
 use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
+use spunlaid_ground::Diagnostic;
+use spunlaid_simulation::Sources;
 
 /// Everything of the sources that goes into the files.
 #[derive(Debug)]

@@ -6,9 +6,9 @@ use crate::page::document::{Report, Section};
 use crate::page::methods::{methods, of_case};
 use crate::page::table::Table;
 use crate::page::words::{estimate_text, quantity};
-use spunlaid::fibre::{Case, ZERO_CELSIUS};
-use spunlaid::ground::Estimate;
-use spunlaid::simulation::Sources;
+use spunlaid_fibre::{Case, ZERO_CELSIUS};
+use spunlaid_ground::Estimate;
+use spunlaid_simulation::Sources;
 
 /// What filaments do to the cells of their field.
 ///

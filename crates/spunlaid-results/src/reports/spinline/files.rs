@@ -7,12 +7,12 @@ use crate::files::table::{Column, Value, number, whole};
 use crate::files::versioned_json;
 use crate::numbers::{number_to, significant, to_decimals};
 use serde_json::{Value as Json, json};
-use spunlaid::fibre::{
+use spunlaid_charts::label::plain;
+use spunlaid_fibre::{
     Case, FrictionLaw, SPINLINE_MEASURES, SolidificationCause, Solution, Station, ZERO_CELSIUS,
 };
-use spunlaid::ground::{Dimension, Error};
-use spunlaid::input::{Influence, OfFilament, SpinFile};
-use spunlaid_charts::label::plain;
+use spunlaid_ground::{Dimension, Error};
+use spunlaid_input::{Influence, OfFilament, SpinFile};
 
 /// A solved spinline, and what decides its diameter.
 #[derive(Clone, Debug)]

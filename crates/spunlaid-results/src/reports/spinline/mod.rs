@@ -20,9 +20,9 @@ use figures::{SPINLINE, spinline_figures};
 use files as spinline;
 use files::{STATIONS, remarks, write_stations};
 use report::spinline_report;
-use spunlaid::fibre::{Drag, NormalLaw};
-use spunlaid::ground::{Diagnostic, Error};
-use spunlaid::input::SpinFile;
+use spunlaid_fibre::{Drag, NormalLaw};
+use spunlaid_ground::{Diagnostic, Error};
+use spunlaid_input::SpinFile;
 
 /// Everything of a spinline that goes into the files.
 #[derive(Debug)]

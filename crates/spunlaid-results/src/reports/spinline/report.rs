@@ -6,10 +6,10 @@ use crate::page::document::{Part, Report, Section};
 use crate::page::methods::methods;
 use crate::page::table::Table;
 use crate::page::words::length;
-use spunlaid::fibre::{
+use spunlaid_charts::Figure;
+use spunlaid_fibre::{
     Case, End, Law, PolymerSource, SPINLINE_MEASURES, Solution, SpinSpec, Surroundings, ZERO_CELSIUS,
 };
-use spunlaid_charts::Figure;
 
 /// Figures on the first screen: speed and temperature.
 const MAIN: usize = 2;

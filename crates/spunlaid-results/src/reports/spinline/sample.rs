@@ -1,9 +1,9 @@
 //! Spinlines for tests, as a user would write them.
 
-use spunlaid::fibre::spinline::HoleRows;
-use spunlaid::fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
-use spunlaid::ground::{Change, ChangedKey, Difference, Dimension, Effect, SensitivityRun, Setting, Turned};
-use spunlaid::input::{Influence, OfFilament};
+use spunlaid_fibre::spinline::HoleRows;
+use spunlaid_fibre::{AirTable, FrictionLaw, Melt, Polymer, Solution, Spinline, Surroundings};
+use spunlaid_ground::{Change, ChangedKey, Difference, Dimension, Effect, SensitivityRun, Setting, Turned};
+use spunlaid_input::{Influence, OfFilament};
 
 /// Friction between thread and air.
 pub const FRICTION: FrictionLaw = FrictionLaw::Matsui { factor: 0.37 };

@@ -15,14 +15,14 @@ use crate::numbers::lost_fibres_text;
 use figures::study_figures;
 use files::json::write_json;
 use report::study_report;
-use spunlaid::experiment::study::{judge, rankings};
-use spunlaid::experiment::{
+use spunlaid_experiment::study::{judge, rankings};
+use spunlaid_experiment::{
     Claim, Experiment, Header, Journal, JournalState, PointResults, Rankings, ReplicateOutcome, Study,
 };
-use spunlaid::fibre::case::keys;
-use spunlaid::fibre::{MOST_REPLICATES, SpinSpec, spinline};
-use spunlaid::ground::Fault;
-use spunlaid::input::{StudyFile, StudyNote, differences};
+use spunlaid_fibre::case::keys;
+use spunlaid_fibre::{MOST_REPLICATES, SpinSpec, spinline};
+use spunlaid_ground::Fault;
+use spunlaid_input::{StudyFile, StudyNote, differences};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};

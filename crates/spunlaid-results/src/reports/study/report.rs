@@ -9,9 +9,9 @@ use crate::page::methods::{Reference, methods, of_case, of_web};
 use crate::page::table::{Cell, Layout, Row, Table};
 use crate::page::words::count;
 use crate::reports::web::report::effects::effect_cell;
-use spunlaid::experiment::{Claim, Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
-use spunlaid::ground::{Difference, Effect};
 use spunlaid_charts::Figure;
+use spunlaid_experiment::{Claim, Contrast, Design, Experiment, PointResults, Quantity, Ranking, Study};
+use spunlaid_ground::{Difference, Effect};
 
 /// Largest number of points that are listed.
 const LISTED: usize = 500;

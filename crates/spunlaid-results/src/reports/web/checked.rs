@@ -4,18 +4,18 @@ use crate::numbers::{THIN, in_sentence, signed, significant};
 use crate::reports::load::{load_of, load_words};
 use crate::reports::run::checked::duration;
 use crate::reports::spinline::files::SpinResults;
-use spunlaid::air::{Air, Axis, Cabin, Lateral, PlacedField};
-use spunlaid::experiment::Change;
-use spunlaid::experiment::advice::{are_short, steps};
-use spunlaid::fibre::{BREAKDOWN, ChargeEstimate, Load};
-use spunlaid::ground::error::counted;
-use spunlaid::ground::threads::try_par_map;
-use spunlaid::ground::{Dimension, Error, Isa, WIDTH};
-use spunlaid::input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
-use spunlaid::simulation::PlannedFlight;
-use spunlaid::simulation::ensemble::pace;
-use spunlaid::web::map::Filaments;
+use spunlaid_air::{Air, Axis, Cabin, Lateral, PlacedField};
 use spunlaid_charts::label::plain;
+use spunlaid_experiment::Change;
+use spunlaid_experiment::advice::{are_short, steps};
+use spunlaid_fibre::{BREAKDOWN, ChargeEstimate, Load};
+use spunlaid_ground::error::counted;
+use spunlaid_ground::threads::try_par_map;
+use spunlaid_ground::{Dimension, Error, Isa, WIDTH};
+use spunlaid_input::{Influence, LaydownSource, LayerSpec, OfFilament, WebSpec};
+use spunlaid_simulation::PlannedFlight;
+use spunlaid_simulation::ensemble::pace;
+use spunlaid_web::map::Filaments;
 
 /// What a web means, in lines.
 pub fn about_web(spec: &WebSpec) -> Vec<String> {

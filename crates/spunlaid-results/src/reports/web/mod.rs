@@ -26,14 +26,14 @@ use files::picture::Pictures;
 use files::summary::LayerSummary;
 use report::spinlines::LayerSpinline;
 use report::web_report;
-use spunlaid::experiment::Advice;
-use spunlaid::fibre::{Case, Load, Solution};
-use spunlaid::ground::{Diagnostic, Isa, RunContext};
-use spunlaid::input::{LayerSpec, WebFile, WebSpec};
-use spunlaid::simulation::FlownWeb;
-use spunlaid::web::map::{Filaments, Findings, strands};
-use spunlaid::web::{Fabric, FlownFibres, Web};
 use spunlaid_charts::Figure;
+use spunlaid_experiment::Advice;
+use spunlaid_fibre::{Case, Load, Solution};
+use spunlaid_ground::{Diagnostic, Isa, RunContext};
+use spunlaid_input::{LayerSpec, WebFile, WebSpec};
+use spunlaid_simulation::FlownWeb;
+use spunlaid_web::map::{Filaments, Findings, strands};
+use spunlaid_web::{Fabric, FlownFibres, Web};
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
@@ -194,7 +194,7 @@ impl Contents for WebFolder {
 
 /// What layers were laid from, for the files.
 fn rows(spec: &WebSpec, web: &Web) -> Vec<LayerSummary> {
-    let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid::web::Layer))| {
+    let row = |(i, (layer, drawn)): (usize, (&LayerSpec, &spunlaid_web::Layer))| {
         let fit = drawn.fibres.simulated().and_then(|simulated| simulated.residual);
         let surrogate = drawn.fibres.surrogate();
         LayerSummary {

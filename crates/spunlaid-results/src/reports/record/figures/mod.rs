@@ -1,10 +1,10 @@
 //! Draws the figures of a velocity record.
 
 use crate::numbers::significant;
-use spunlaid::air::{Analysis, Record};
-use spunlaid::ground::Spectrum;
+use spunlaid_air::{Analysis, Record};
 use spunlaid_charts::palette::{BLUE, GREEN, GREY, INK, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_ground::Spectrum;
 
 /// The figures of a record in the order of the report.
 pub fn record_figures(record: &Record, analysis: &Analysis) -> Vec<Figure> {

@@ -2,8 +2,8 @@
 
 use super::half_width;
 use crate::numbers::decimals;
-use spunlaid::air::Analysis;
-use spunlaid::ground::{Dimension, Interval};
+use spunlaid_air::Analysis;
+use spunlaid_ground::{Dimension, Interval};
 
 /// The block; a comment after each value gives its interval and its origin.
 pub fn air_block(file: &str, analysis: &Analysis) -> String {
@@ -89,7 +89,7 @@ fn one_line(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::reports::record::sample as record_sample;
-    use spunlaid::input::read_case;
+    use spunlaid_input::read_case;
 
     #[test]
     fn the_block_is_the_air_of_a_case() {
@@ -118,7 +118,7 @@ mod tests {
         for pair in sets.split(" --set ").skip(1) {
             let (key, value) = pair.split_once('=').expect("a key and a value");
             let set = [(key.to_owned(), value.trim_matches('"').to_owned())];
-            read_case((spunlaid::input::starter_case(), "starter.toml"), &set)
+            read_case((spunlaid_input::starter_case(), "starter.toml"), &set)
                 .unwrap_or_else(|e| panic!("{pair}: {e}"));
         }
     }

@@ -9,8 +9,8 @@ use crate::files::table::number;
 use crate::files::{table, versioned_json};
 use crate::numbers::{decimals, rounded, to_decimals};
 use serde_json::{Value as Json, json};
-use spunlaid::air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
-use spunlaid::ground::{Interval, Measured, Value};
+use spunlaid_air::{Analysis, COMPONENT_MEASURES, Component, RECORD_MEASURES, Record};
+use spunlaid_ground::{Interval, Measured, Value};
 
 /// Half the width of an interval: the error of the value.
 pub fn half_width(interval: &Interval) -> f64 {

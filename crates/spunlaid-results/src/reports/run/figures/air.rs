@@ -2,12 +2,12 @@
 
 use super::MM;
 use crate::numbers::range;
-use spunlaid::air::{Hint, LocalAir, PlacedField};
-use spunlaid::fibre::Case;
-use spunlaid::ground::Vec3;
-use spunlaid::simulation::Results;
+use spunlaid_air::{Hint, LocalAir, PlacedField};
 use spunlaid_charts::palette::{GREEN, INK, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Map, Series, Shades};
+use spunlaid_fibre::Case;
+use spunlaid_ground::Vec3;
+use spunlaid_simulation::Results;
 
 /// Places that are asked along the fibre.
 const PLACES: usize = 201;

@@ -3,11 +3,11 @@
 use super::MM;
 use super::measured::one_of;
 use crate::numbers::significant;
-use spunlaid::fibre::{Case, LaidPoint};
-use spunlaid::simulation::{Results, Trajectory};
 use spunlaid_charts::palette::{Colour, GREY, INK, VERMILION};
 use spunlaid_charts::picture::{Anchor, Picture, Stroke, Text};
 use spunlaid_charts::{Axis, Chart, Drawing, Figure, Map, Series, Shades, Table};
+use spunlaid_fibre::{Case, LaidPoint};
+use spunlaid_simulation::{Results, Trajectory};
 use std::f64::consts::TAU;
 
 /// The figures, without those of the measured curves.

@@ -2,10 +2,10 @@
 
 use crate::figures::with_unit;
 use crate::numbers::significant;
-use spunlaid::ground::{MeasureKind, measure};
-use spunlaid::simulation::{Curve, CurveValue, FibreMeasure, Results};
 use spunlaid_charts::palette::{BLUE, GREEN, PURPLE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Rose, Series, even};
+use spunlaid_ground::{MeasureKind, measure};
+use spunlaid_simulation::{Curve, CurveValue, FibreMeasure, Results};
 
 /// Most places along the fibre that get markers of their own, and that a line is drawn through.
 const MARKED: usize = 41;

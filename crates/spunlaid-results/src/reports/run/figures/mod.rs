@@ -7,9 +7,9 @@ mod motion;
 mod spectra;
 
 use crate::figures::drag_laws;
-use spunlaid::fibre::Case;
-use spunlaid::simulation::{Results, SpectrumPoint};
 use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
+use spunlaid_simulation::{Results, SpectrumPoint};
 
 /// Millimetres per metre.
 const MM: f64 = 1e3;

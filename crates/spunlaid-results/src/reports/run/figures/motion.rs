@@ -2,10 +2,10 @@
 
 use super::{MM, swings};
 use crate::numbers::significant;
-use spunlaid::fibre::Case;
-use spunlaid::simulation::{EndPath, EndPoint, Results};
 use spunlaid_charts::palette::{GREEN, GREY, INK, ORANGE};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_fibre::Case;
+use spunlaid_simulation::{EndPath, EndPoint, Results};
 
 /// Most swings that can be distinguished in a history.
 const SWINGS: f64 = 60.0;

@@ -1,11 +1,11 @@
 //! What happens at which frequency: the motion of the free end, the turbulence.
 
 use crate::numbers::significant;
-use spunlaid::air::SpectrumShape;
-use spunlaid::fibre::Case;
-use spunlaid::simulation::SpectrumPoint;
+use spunlaid_air::SpectrumShape;
 use spunlaid_charts::palette::GREEN;
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_fibre::Case;
+use spunlaid_simulation::SpectrumPoint;
 
 /// The spectrum of the turbulence, as made and as asked for.
 pub(super) fn turbulence(case: &Case, turbulence: &[SpectrumPoint]) -> Figure {

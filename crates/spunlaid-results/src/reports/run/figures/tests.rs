@@ -2,8 +2,8 @@
 
 use super::run_figures;
 use crate::reports::run::sample;
-use spunlaid::ground::MeasureKind;
-use spunlaid::simulation::SpectrumPoint;
+use spunlaid_ground::MeasureKind;
+use spunlaid_simulation::SpectrumPoint;
 use spunlaid_charts::Figure;
 use spunlaid_charts::pdf;
 use spunlaid_charts::png;

@@ -17,10 +17,10 @@ use crate::page::words::{cost, count};
 use crate::reports::load::{load_of_spinline, section_of_loads};
 use crate::reports::spinline::files::SpinResults;
 use crate::reports::spinline::report::section_of_fibre;
-use spunlaid::fibre::Case;
-use spunlaid::ground::MeasureKind;
-use spunlaid::simulation::{DECLARED, FinerChecks, Number, Results};
 use spunlaid_charts::Figure;
+use spunlaid_fibre::Case;
+use spunlaid_ground::MeasureKind;
+use spunlaid_simulation::{DECLARED, FinerChecks, Number, Results};
 use table::{Whole, replicate_table, result_table};
 use words::{case as words_of_case, headline, mesh};
 

@@ -3,8 +3,8 @@
 use crate::numbers::{capitalised, number, signed};
 use crate::page::table::{Content, Layout, Row, Table};
 use crate::page::words::{estimate_text, unbroken};
-use spunlaid::ground::{Aggregate, Estimate};
-use spunlaid::simulation::{Number, Results};
+use spunlaid_ground::{Aggregate, Estimate};
+use spunlaid_simulation::{Number, Results};
 
 /// Most replicates whose own values are listed.
 const LISTED: usize = 1000;

@@ -9,9 +9,9 @@ use crate::reports::spinline::files::SpinResults;
 use crate::reports::spinline::report::spinline_report;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use spunlaid::fibre::{Case, FrictionLaw};
-use spunlaid::input::read_spinline;
-use spunlaid::simulation::{FinerChecks, Results, Unchecked};
+use spunlaid_fibre::{Case, FrictionLaw};
+use spunlaid_input::read_spinline;
+use spunlaid_simulation::{FinerChecks, Results, Unchecked};
 
 /// What a run cost.
 const PERFORMANCE: Performance = Performance {

@@ -3,11 +3,11 @@
 use crate::numbers::THIN;
 use crate::page::words::{count, estimate_text, length, quantity, time};
 use crate::reports::run::doubt;
-use spunlaid::air::EddyModel;
-use spunlaid::fibre::chain::Scheme;
-use spunlaid::fibre::{Case, Root};
-use spunlaid::ground::Estimate;
-use spunlaid::simulation::{FinerChecks, Results};
+use spunlaid_air::EddyModel;
+use spunlaid_fibre::chain::Scheme;
+use spunlaid_fibre::{Case, Root};
+use spunlaid_ground::Estimate;
+use spunlaid_simulation::{FinerChecks, Results};
 
 /// The result in a sentence, and what its checks say against it.
 pub(super) fn headline(case: &Case, results: &Results, checks: &FinerChecks) -> String {

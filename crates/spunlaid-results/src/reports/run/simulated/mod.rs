@@ -13,12 +13,12 @@ use crate::files::folder::Staging;
 use crate::files::paraview::SHAPE;
 use crate::files::table::parquet::Parquet;
 use crate::files::table::{number, whole};
-use spunlaid::experiment::Experiment;
-use spunlaid::fibre::{Case, LaidPoint};
-use spunlaid::ground::threads::lock;
-use spunlaid::ground::{Error, Log, Value, Vec3};
-use spunlaid::simulation::ensemble::Sample;
-use spunlaid::simulation::{DECLARED, FibreMeasure, Recorded, Recorder, Shapes, Trajectory};
+use spunlaid_experiment::Experiment;
+use spunlaid_fibre::{Case, LaidPoint};
+use spunlaid_ground::threads::lock;
+use spunlaid_ground::{Error, Log, Value, Vec3};
+use spunlaid_simulation::ensemble::Sample;
+use spunlaid_simulation::{DECLARED, FibreMeasure, Recorded, Recorder, Shapes, Trajectory};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::fs::File;
@@ -48,7 +48,7 @@ const KEPT_POINTS: u64 = 3;
 /// these and the values there; or 0 and a number.
 const LANDED: u64 = 4;
 
-/// What is recorded of the fibres in flight, for [`Tables`]. Their shapes are in files of their own.
+/// What is recorded of the fibres in flight, for `Tables`. Their shapes are in files of their own.
 #[derive(Debug)]
 pub struct FlightRecords {
     log: Log,

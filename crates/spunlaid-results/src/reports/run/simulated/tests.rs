@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::files::folder::ENTRIES;
-use spunlaid::ground::{Isa, RunContext, WIDTH};
-use spunlaid::input::read_case;
-use spunlaid::simulation::KeepShapes;
-use spunlaid::simulation::ensemble::fly;
+use spunlaid_ground::{Isa, RunContext, WIDTH};
+use spunlaid_input::read_case;
+use spunlaid_simulation::KeepShapes;
+use spunlaid_simulation::ensemble::fly;
 use std::path::Path;
 
 const FIXED: &str = "version = 1

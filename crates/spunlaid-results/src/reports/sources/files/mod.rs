@@ -16,9 +16,9 @@ use crate::numbers::{plus_minus, significant};
 use crate::reports::run::summary::{lost_fibres, resolved};
 
 use serde_json::json;
-use spunlaid::fibre::{Case, ZERO_CELSIUS};
-use spunlaid::ground::{Dimension, Estimate};
-use spunlaid::simulation::Sources;
+use spunlaid_fibre::{Case, ZERO_CELSIUS};
+use spunlaid_ground::{Dimension, Estimate};
+use spunlaid_simulation::Sources;
 
 /// What is said of flights that are not steady: no field is written for a CFD program, which would read it without a
 /// word of doubt. None if they are.

@@ -2,9 +2,9 @@
 
 use crate::Failure;
 use crate::files::folder::Staging;
-use spunlaid::air::Description;
-use spunlaid::fibre::Case;
-use spunlaid::simulation::{CellSource, Sources};
+use spunlaid_air::Description;
+use spunlaid_fibre::Case;
+use spunlaid_simulation::{CellSource, Sources};
 use std::fmt::Write;
 
 /// Folder of the fields.

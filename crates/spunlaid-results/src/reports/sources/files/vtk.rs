@@ -3,9 +3,9 @@
 use crate::Failure;
 use crate::files::folder::Staging;
 use crate::files::paraview::AppendedArrays;
-use spunlaid::air::BlockKind;
-use spunlaid::fibre::Case;
-use spunlaid::simulation::{CellSource, Sources};
+use spunlaid_air::BlockKind;
+use spunlaid_fibre::Case;
+use spunlaid_simulation::{CellSource, Sources};
 
 /// Name of the file.
 pub const VTK: &str = "sources.vtu";

@@ -1,11 +1,11 @@
 //! The figures of a spinline.
 
 use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
-use spunlaid::fibre::{Solution, Station, ZERO_CELSIUS};
-use spunlaid::input::{Influence, OfFilament};
 use spunlaid_charts::label::plain;
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series, Table};
+use spunlaid_fibre::{Solution, Station, ZERO_CELSIUS};
+use spunlaid_input::{Influence, OfFilament};
 
 /// Beginning of the names of the figures where there is one spinline.
 pub const SPINLINE: &str = "spinline";

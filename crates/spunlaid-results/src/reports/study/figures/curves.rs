@@ -3,9 +3,9 @@
 use super::quantity::{FactorAxis, QuantityGroup, name_of_key};
 use super::{FAMILY, file_name};
 use crate::figures::{COLOURS, joined};
-use spunlaid::experiment::{PointResults, Study};
 use spunlaid_charts::palette::GREEN;
 use spunlaid_charts::{Chart, Figure, Marker, Series};
+use spunlaid_experiment::{PointResults, Study};
 
 /// Dashes of the lines, so that curves can be distinguished without their colours.
 const DASHES: [&[f32]; FAMILY] =

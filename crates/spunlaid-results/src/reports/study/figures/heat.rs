@@ -2,10 +2,10 @@
 
 use super::quantity::{FactorAxis, QuantityGroup, label_of_key, name_of_key};
 use crate::numbers::significant;
-use spunlaid::experiment::{PointResults, Study};
 use spunlaid_charts::palette::{Colour, INK, PAPER};
 use spunlaid_charts::picture::{Anchor, Picture, Stroke, Text};
 use spunlaid_charts::{Drawing, Figure, Table};
+use spunlaid_experiment::{PointResults, Study};
 
 /// Width on the screen, and room around the map [px].
 const WIDTH: f64 = 640.0;

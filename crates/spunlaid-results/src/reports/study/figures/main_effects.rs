@@ -3,8 +3,8 @@
 use super::curves::BARS;
 use super::file_name;
 use super::quantity::{FactorAxis, QuantityGroup, name_of_key};
-use spunlaid::experiment::{Factor, PointResults, Ranking, Study};
 use spunlaid_charts::{Chart, Figure, Series, even};
+use spunlaid_experiment::{Factor, PointResults, Ranking, Study};
 
 /// Most points of a study that are drawn; the file of numbers has them all.
 const DRAWN: usize = 300;

@@ -9,8 +9,8 @@ mod ranking;
 mod tests;
 
 use quantity::QuantityGroup;
-use spunlaid::experiment::{Design, PointResults, Ranking, Study};
 use spunlaid_charts::Figure;
+use spunlaid_experiment::{Design, PointResults, Ranking, Study};
 
 /// Largest number of values of a factor that are drawn as curves; more are drawn as a map.
 const FAMILY: usize = 6;

@@ -3,12 +3,12 @@
 use crate::effects::label;
 use crate::figures::with_unit;
 use crate::reports::run::figures::measured::axes;
-use spunlaid::experiment::{Design, Factor, PointResults, Study, study};
-use spunlaid::fibre::ZERO_CELSIUS;
-use spunlaid::ground::{Dimension, Unit, measure};
-use spunlaid::simulation::FibreMeasure;
-use spunlaid::simulation::layers::place_in_web;
 use spunlaid_charts::{Axis, Spacing};
+use spunlaid_experiment::{Design, Factor, PointResults, Study, study};
+use spunlaid_fibre::ZERO_CELSIUS;
+use spunlaid_ground::{Dimension, Unit, measure};
+use spunlaid_simulation::FibreMeasure;
+use spunlaid_simulation::layers::place_in_web;
 
 /// The results of one figure, as they are declared: one result, one in y and one in z, or one for each size of patches.
 #[derive(Clone, Debug)]

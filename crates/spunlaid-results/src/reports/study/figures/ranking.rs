@@ -4,9 +4,9 @@ use super::quantity::{FactorAxis, QuantityGroup, label_of_key};
 use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
 use crate::figures::with_unit;
 use crate::numbers::range;
-use spunlaid::experiment::{Contrast, Ranking, Study};
-use spunlaid::ground::Effect;
 use spunlaid_charts::{Axis, Figure, Table};
+use spunlaid_experiment::{Contrast, Ranking, Study};
+use spunlaid_ground::Effect;
 
 /// What is compared: `5 to 30 m/s`, `sakiadis instead of matsui`.
 fn change_of(study: &Study, Contrast { factor, from, to }: Contrast) -> String {

@@ -3,11 +3,11 @@
 use super::*;
 use crate::reports::run::sample;
 use crate::reports::study::figures::quantity::name_of_key;
-use spunlaid::experiment::{Contrast, Factor, Levels, Point, Replicates, Spacing};
-use spunlaid::fibre::case::keys::{Kind, Sign, VariedKey};
-use spunlaid::ground::{Difference, Dimension, Effect};
-use spunlaid::simulation::MEASURES;
 use spunlaid_charts::png;
+use spunlaid_experiment::{Contrast, Factor, Levels, Point, Replicates, Spacing};
+use spunlaid_fibre::case::keys::{Kind, Sign, VariedKey};
+use spunlaid_ground::{Difference, Dimension, Effect};
+use spunlaid_simulation::MEASURES;
 
 /// A study with synthetic factors and results.
 fn study(design: Design, counts: &[usize]) -> (Study, Vec<PointResults>) {

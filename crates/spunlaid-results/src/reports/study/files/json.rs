@@ -3,8 +3,8 @@
 use super::inputs_of;
 use crate::files::table::Value;
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::{Claim, Contrast, PointResults, Ranking, Rankings, Study};
-use spunlaid::ground::Effect;
+use spunlaid_experiment::{Claim, Contrast, PointResults, Ranking, Rankings, Study};
+use spunlaid_ground::Effect;
 use std::io::Write;
 
 /// Version of the layout. It increases when a field is renamed or removed or changes its meaning.

@@ -6,8 +6,8 @@ pub mod shown;
 use crate::Failure;
 use crate::files::folder::Staging;
 use crate::files::table::{Column, ColumnValues, Value, whole};
-use spunlaid::experiment::study::results_of_point;
-use spunlaid::experiment::{Journal, PointResults, Quantity, Record, ReplicateOutcome, Study};
+use spunlaid_experiment::study::results_of_point;
+use spunlaid_experiment::{Journal, PointResults, Quantity, Record, ReplicateOutcome, Study};
 
 /// Writes `results.csv`, `results.parquet` and `replicates.parquet`, and returns the statistics of the points.
 ///

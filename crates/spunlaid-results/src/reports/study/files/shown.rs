@@ -1,9 +1,9 @@
 //! Quantities as tables for readers show them.
 
 use crate::numbers::plus_minus;
-use spunlaid::experiment::{Experiment, PointResults, Quantity, Study};
-use spunlaid::fibre::Case;
-use spunlaid::simulation::{DECLARED, FibreMeasure};
+use spunlaid_experiment::{Experiment, PointResults, Quantity, Study};
+use spunlaid_fibre::Case;
+use spunlaid_simulation::{DECLARED, FibreMeasure};
 
 /// The quantities that tables show, by their indices: those of a figure together, which are the patches of all sizes.
 pub fn quantities(study: &Study) -> Vec<usize> {

@@ -3,9 +3,9 @@
 use super::{MM, PER_CENT};
 use crate::figures::joined;
 use crate::numbers::significant;
-use spunlaid::web::Clouds;
 use spunlaid_charts::palette::{BLUE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_web::Clouds;
 
 /// Waves of clouds that the eye sees, for the cloudiness index [m].
 pub const SEEN: [f64; 2] = [5e-3, 50e-3];

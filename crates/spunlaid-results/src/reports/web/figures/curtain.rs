@@ -3,9 +3,9 @@
 
 use super::MM;
 use crate::figures::joined;
-use spunlaid::web::{Correlation, LaidWeb, LayerFlown, NeighbourCorrelation};
 use spunlaid_charts::palette::{BLUE, Colour, GREEN, ORANGE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_web::{Correlation, LaidWeb, LayerFlown, NeighbourCorrelation};
 
 /// Colours of the first layer and of others.
 const OF_LAYERS: [Colour; 4] = [BLUE, VERMILION, GREEN, ORANGE];

@@ -3,10 +3,10 @@
 use super::PER_CENT;
 use crate::effects::{describe, name};
 use crate::figures::effects::{EffectRow, EffectsFigure, Panel, in_unit};
-use spunlaid::experiment::{Advice, SensitivityRun, setting};
-use spunlaid::ground::{Difference, Dimension};
-use spunlaid::simulation::WebSpec;
 use spunlaid_charts::{Figure, Table};
+use spunlaid_experiment::{Advice, SensitivityRun, setting};
+use spunlaid_ground::{Difference, Dimension};
+use spunlaid_simulation::WebSpec;
 
 /// What changes of a web do to its CV over the patches by which they are judged, the largest effect at the
 /// top. None if none is known.

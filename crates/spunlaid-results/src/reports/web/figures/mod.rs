@@ -6,9 +6,9 @@ pub(crate) mod effects;
 pub(crate) mod patch_cv;
 mod profiles;
 
-use spunlaid::web::map::Findings;
-use spunlaid::web::{Web, scan};
 use spunlaid_charts::{Figure, Rose};
+use spunlaid_web::map::Findings;
+use spunlaid_web::{Web, scan};
 
 pub(crate) const MM: f64 = 1e3;
 pub(crate) const PER_CENT: f64 = 100.0;

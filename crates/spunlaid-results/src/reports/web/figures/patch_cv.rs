@@ -3,11 +3,11 @@
 use super::{MM, PER_CENT, Weights};
 use crate::figures::joined;
 use crate::numbers::significant;
-use spunlaid::web::map::uniformity::PatchCv;
-use spunlaid::web::map::{Evidence, Findings, PatchFindings, straight_fibres};
-use spunlaid::web::{Edges, Map, Web, scan};
 use spunlaid_charts::palette::{BLUE, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_web::map::uniformity::PatchCv;
+use spunlaid_web::map::{Evidence, Findings, PatchFindings, straight_fibres};
+use spunlaid_web::{Edges, Map, Web, scan};
 
 pub(crate) fn empty_chart() -> Chart {
     Chart::new(

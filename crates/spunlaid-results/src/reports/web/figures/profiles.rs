@@ -2,11 +2,11 @@
 
 use super::{GRAMS, MM, PER_CENT, Weights};
 use crate::numbers::significant;
-use spunlaid::web::map::Findings;
-use spunlaid::web::scan::{StreakSearch, WIDTH};
-use spunlaid::web::{Edges, Map, Web};
 use spunlaid_charts::palette::{BLUE, GREY, VERMILION};
 use spunlaid_charts::{Axis, Chart, Figure, Series};
+use spunlaid_web::map::Findings;
+use spunlaid_web::scan::{StreakSearch, WIDTH};
+use spunlaid_web::{Edges, Map, Web};
 
 /// Most points of a profile; more cells are averaged.
 const POINTS: usize = 1000;

@@ -4,10 +4,10 @@
 use crate::command::web_command;
 use crate::files::measured::{joined, known};
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::{Advice, Change, ChangedWeb, SensitivityRun};
-use spunlaid::ground::{ChangedKey, Effect};
-use spunlaid::simulation::LayerSpec;
-use spunlaid::web::map::Findings;
+use spunlaid_experiment::{Advice, Change, ChangedWeb, SensitivityRun};
+use spunlaid_ground::{ChangedKey, Effect};
+use spunlaid_simulation::LayerSpec;
+use spunlaid_web::map::Findings;
 
 /// Seconds of an hour.
 pub(crate) const HOUR: f64 = 3600.0;

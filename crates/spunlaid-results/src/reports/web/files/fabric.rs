@@ -3,8 +3,8 @@
 use crate::files::measured::{joined, json, known};
 use crate::numbers::{HARD, THIN, in_sentence, number, number_to, plus_minus, range};
 use serde_json::{Value as Json, json};
-use spunlaid::ground::{Known, Measure, Measured, Value, measure};
-use spunlaid::web::{
+use spunlaid_ground::{Known, Measure, Measured, Value, measure};
+use spunlaid_web::{
     FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
 };
 

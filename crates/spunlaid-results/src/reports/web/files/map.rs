@@ -4,7 +4,7 @@ use super::MOST_CELLS;
 use crate::Failure;
 use crate::failure::undrawable;
 use crate::files::folder::Staging;
-use spunlaid::web::{CELL, Map, WEIGHT_OF_BLACK};
+use spunlaid_web::{CELL, Map, WEIGHT_OF_BLACK};
 use std::fs::File;
 use std::io;
 use std::io::{BufWriter, Write};

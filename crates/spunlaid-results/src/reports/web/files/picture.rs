@@ -4,10 +4,10 @@
 use super::map::{Shades, grey_png};
 use crate::files::pictures::SOFTWARE;
 use crate::numbers::{HARD, THIN};
-use spunlaid::web::{Map, Web};
 use spunlaid_charts::palette::INK;
 use spunlaid_charts::picture::{Anchor, Text};
 use spunlaid_charts::{Picture, png};
+use spunlaid_web::{Map, Web};
 use std::io::Cursor;
 
 /// Most pixels of the whole web: a page of some megabytes.
@@ -78,7 +78,7 @@ impl Pictures {
         let [to, long] = [EDGE + size[0] * times, pixels(bar) * times];
         let ends = [(to - long.min(to), foot - 12), (to, foot - 6)].map(|(x, y)| (x as f64, y as f64));
         words.rectangles(&[(ends[0], ends[1])], INK);
-        let scale = spunlaid::ground::Dimension::Length.pretty_to(bar, 2);
+        let scale = spunlaid_ground::Dimension::Length.pretty_to(bar, 2);
         write(&mut words, [to - long.min(to) - 12, foot], Anchor::End, &scale, 24.0);
         let mut left = EDGE;
         for ((_, _, columns), said) in panes.iter().zip(&self.words) {

@@ -2,7 +2,7 @@
 
 use super::map::{array_head, light_table_of};
 use serde_json::Value as Json;
-use spunlaid::web::Map;
+use spunlaid_web::Map;
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};

@@ -5,12 +5,12 @@ use crate::Failure;
 use crate::failure::undrawable;
 use crate::files::pictures::SOFTWARE;
 use crate::numbers::{HARD, THIN, capitalised, number, plus_minus};
-use spunlaid::web::Fabric;
-use spunlaid::web::map::Findings;
 use spunlaid_charts::label::lines;
 use spunlaid_charts::palette::{GREY, GRID, INK};
 use spunlaid_charts::picture::{Anchor, Stroke, Text};
 use spunlaid_charts::{Picture, pdf};
+use spunlaid_web::Fabric;
+use spunlaid_web::map::Findings;
 
 /// A page of A4, its margin, and where the values begin [px].
 const PAGE: [f64; 2] = [793.7, 1122.5];

@@ -10,13 +10,13 @@ use crate::reports::load;
 use crate::reports::web::figures::clouds::SEEN;
 use serde::{Serialize, Serializer};
 use serde_json::{Value as Json, json};
-use spunlaid::experiment::Advice;
-use spunlaid::fibre::Load;
-use spunlaid::ground::statistics::interval_of_deviation;
-use spunlaid::ground::{Estimate, Measure};
-use spunlaid::web::map::Findings;
-use spunlaid::web::scan::ScanWarning;
-use spunlaid::web::{
+use spunlaid_experiment::Advice;
+use spunlaid_fibre::Load;
+use spunlaid_ground::statistics::interval_of_deviation;
+use spunlaid_ground::{Estimate, Measure};
+use spunlaid_web::map::Findings;
+use spunlaid_web::scan::ScanWarning;
+use spunlaid_web::{
     ChargedCurtain, Clouds, Edges, Fabric, Map, NeighbourCorrelation, PATCH_MEASURES, SCAN_MEASURES,
     SCAN_PERIOD_MEASURES, SCAN_STREAK_MEASURES, SCANNED_PATCH_MEASURES, STREAK_LIMIT_MEASURES,
     SubsampleEstimate, WEB_MEASURES, Web, scan,

@@ -10,12 +10,12 @@ use crate::page::words::{grams, grams_with_error};
 use crate::reports::web::files::effects::HOUR;
 use crate::reports::web::files::fabric::fabric_rows;
 use crate::reports::web::files::summary::LayerSummary;
-use spunlaid::experiment::plausible::implausible;
-use spunlaid::fibre::body::diameter_of;
-use spunlaid::ground::Dimension;
-use spunlaid::simulation::{LayerSpec, WebSpec};
-use spunlaid::web::map::Findings;
-use spunlaid::web::{Fabric, Map};
+use spunlaid_experiment::plausible::implausible;
+use spunlaid_fibre::body::diameter_of;
+use spunlaid_ground::Dimension;
+use spunlaid_simulation::{LayerSpec, WebSpec};
+use spunlaid_web::map::Findings;
+use spunlaid_web::{Fabric, Map};
 
 /// What is asked, the answers, and what is to be said of them.
 #[derive(Debug)]

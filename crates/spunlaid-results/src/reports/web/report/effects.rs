@@ -8,10 +8,10 @@ use crate::numbers::{HARD, THIN, in_sentence, plus_minus, significant};
 use crate::page::table::{Cell, Row, Table, Tone};
 use crate::page::words::{grams, millimetres};
 use crate::reports::web::files::effects::{Advised, HOUR};
-use spunlaid::experiment::{Advice, ChangedWeb, SensitivityRun, setting};
-use spunlaid::ground::{Difference, Effect, NAMED, Turned};
-use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::{Evidence, Findings};
+use spunlaid_experiment::{Advice, ChangedWeb, SensitivityRun, setting};
+use spunlaid_ground::{Difference, Effect, NAMED, Turned};
+use spunlaid_simulation::WebSpec;
+use spunlaid_web::map::{Evidence, Findings};
 
 /// Side of the patches by which changes are judged [m].
 fn judged_by(findings: &Findings, advice: &Advice) -> Option<f64> {

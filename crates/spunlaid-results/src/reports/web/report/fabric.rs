@@ -4,8 +4,8 @@ use crate::page::document::Section;
 use crate::page::table::{Content, Layout, Row, Table};
 use crate::page::words::millimetres;
 use crate::reports::web::files::fabric::known_text;
-use spunlaid::ground::{Measure, PERCENT, measure};
-use spunlaid::web::{
+use spunlaid_ground::{Measure, PERCENT, measure};
+use spunlaid_web::{
     FABRIC_MEASURES, FABRIC_PATCH_MEASURES, Fabric, STREAK_MEASURES, STRIP_MEASURES, THINNEST_PATCH_MEASURES,
 };
 

@@ -11,7 +11,7 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::web::{Fabric, Map, Marked, Marks, Streak, StripPlace, Window, WindowCurve};
+use spunlaid_web::{Fabric, Map, Marked, Marks, Streak, StripPlace, Window, WindowCurve};
 
 const MM: f64 = 1e3;
 /// Most points of fibres in the page.

@@ -27,15 +27,15 @@ use light_table::{Fibres, MarkedPlaces, Strands, marks_note, picture_note, sheet
 use patch_cv::{CV_OF_PATCHES, headline, largest_clouds, patch_table, per_cent};
 use scale::Judged;
 use spinlines::{LayerSpinline, sections_of_web};
-use spunlaid::experiment::Advice;
-use spunlaid::fibre::{BREAKDOWN, Load};
-use spunlaid::ground::Dimension;
-use spunlaid::input::WebFile;
-use spunlaid::simulation::WebSpec;
-use spunlaid::web::map::uniformity::PatchCv;
-use spunlaid::web::map::{Evidence, Findings, PatchFindings};
-use spunlaid::web::{ChargedCurtain, SubsampleEstimate, Web, WindowCurve};
 use spunlaid_charts::Figure;
+use spunlaid_experiment::Advice;
+use spunlaid_fibre::{BREAKDOWN, Load};
+use spunlaid_ground::Dimension;
+use spunlaid_input::WebFile;
+use spunlaid_simulation::WebSpec;
+use spunlaid_web::map::uniformity::PatchCv;
+use spunlaid_web::map::{Evidence, Findings, PatchFindings};
+use spunlaid_web::{ChargedCurtain, SubsampleEstimate, Web, WindowCurve};
 
 /// A web.
 ///

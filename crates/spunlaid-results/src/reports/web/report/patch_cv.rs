@@ -4,10 +4,10 @@ use crate::files::measured::text;
 use crate::numbers::{THIN, plus_minus, significant};
 use crate::page::table::{Row, Table};
 use crate::page::words::millimetres;
-use spunlaid::ground::{ErrorRole, Measure, PERCENT, Unit};
-use spunlaid::web::map::uniformity::PatchCv;
-use spunlaid::web::map::{Findings, PatchFindings};
-use spunlaid::web::{Clouds, PATCH_MEASURES};
+use spunlaid_ground::{ErrorRole, Measure, PERCENT, Unit};
+use spunlaid_web::map::uniformity::PatchCv;
+use spunlaid_web::map::{Findings, PatchFindings};
+use spunlaid_web::{Clouds, PATCH_MEASURES};
 
 pub(super) const PER_CENT: f64 = 100.0;
 
@@ -106,7 +106,7 @@ fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
 #[cfg(test)]
 mod tests {
     use super::{PERCENT, cell};
-    use spunlaid::ground::RATIO;
+    use spunlaid_ground::RATIO;
 
     #[test]
     fn a_cell_has_the_unit_of_its_measure() {

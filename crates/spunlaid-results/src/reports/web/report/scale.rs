@@ -10,8 +10,8 @@ use crate::reports::web::files::pieces::MEAN;
 use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use spunlaid::web::Map;
-use spunlaid::web::map::PatchFindings;
+use spunlaid_web::Map;
+use spunlaid_web::map::PatchFindings;
 
 /// The CVs of the pictures.
 const LEVELS: [f64; 5] = [0.03, 0.06, 0.1, 0.15, 0.2];

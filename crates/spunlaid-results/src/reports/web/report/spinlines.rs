@@ -6,8 +6,8 @@ use crate::page::words::grams;
 use crate::reports::spinline::files::{SpinResults, solidification};
 use crate::reports::spinline::report::section;
 use crate::reports::web::files::summary::LayerSummary;
-use spunlaid::web::Web;
 use spunlaid_charts::Figure;
+use spunlaid_web::Web;
 
 /// A spinline from which filaments of a web come.
 #[derive(Clone, Debug)]

@@ -3,9 +3,9 @@
 
 use super::data::{Belt, Data, Frames, LaidPoints, POSITIONS, encode};
 use crate::page::words::{count, time};
-use spunlaid::fibre::{Case, Line};
-use spunlaid::ground::{Error, Vec3};
-use spunlaid::simulation::{Results, Shape, Trajectory};
+use spunlaid_fibre::{Case, Line};
+use spunlaid_ground::{Error, Vec3};
+use spunlaid_simulation::{Results, Shape, Trajectory};
 
 /// Most nodes of a fibre in the air that are drawn.
 const NODES: usize = 500;
@@ -131,7 +131,7 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<
 fn instants(chosen: &NodeChoice<'_>, fibres: &[Replicate<'_>], most: usize) -> std::ops::Range<usize> {
     let goes_on = |instant: usize| {
         fibres.iter().all(|(t, outlines)| {
-            let number = |point: Option<&spunlaid::fibre::LaidPoint>| point.map(|p| chosen.number(p.fed));
+            let number = |point: Option<&spunlaid_fibre::LaidPoint>| point.map(|p| chosen.number(p.fed));
             let (Some(first), Some(last)) = (number(t.laid.first()), number(t.laid.last())) else {
                 return false;
             };

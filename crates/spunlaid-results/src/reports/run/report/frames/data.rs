@@ -5,9 +5,9 @@ use askama::Template;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
-use spunlaid::fibre::{Case, Root};
-use spunlaid::ground::Vec3;
-use spunlaid::simulation::Trajectory;
+use spunlaid_fibre::{Case, Root};
+use spunlaid_ground::Vec3;
+use spunlaid_simulation::Trajectory;
 
 /// Most node positions in a page: 8 characters each, 3 MB in all.
 pub(crate) const POSITIONS: usize = 375_000;

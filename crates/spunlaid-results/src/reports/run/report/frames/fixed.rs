@@ -3,10 +3,10 @@
 use super::data::{Data, Frames, POSITIONS};
 use crate::page::words::{count, time};
 use crate::reports::run::figures::swing_frequency;
-use spunlaid::fibre::Case;
-use spunlaid::ground::Error;
-use spunlaid::simulation::{Results, Shapes, Trajectory};
 use spunlaid_charts::even;
+use spunlaid_fibre::Case;
+use spunlaid_ground::Error;
+use spunlaid_simulation::{Results, Shapes, Trajectory};
 
 /// Most nodes of a fibre in a picture.
 const NODES: usize = 101;

@@ -8,9 +8,9 @@ pub(super) use data::Frames;
 pub(crate) use data::POSITIONS;
 
 use crate::page::document::script;
-use spunlaid::fibre::Case;
-use spunlaid::ground::Error;
-use spunlaid::simulation::Results;
+use spunlaid_fibre::Case;
+use spunlaid_ground::Error;
+use spunlaid_simulation::Results;
 
 /// Script with the class `Camera`: how the space of the moving fibre is seen and turned, for other pages that show one.
 pub const CAMERA: &str = script!("camera.js");
