@@ -34,6 +34,6 @@ pub use plant::{PlantNumber, plant_numbers};
 pub use study::{
     Batch, Bundles, Contrast, Design, Experiment, Factor, Header, Journal, JournalState, Levels, Link, Point,
     PointResults, Progress, Quantity, Ranking, Rankings, Record, ReplicateOutcome, Replicates, Rounds, STUDY,
-    Spacing, Statement, Study, StudyClaim, Way,
+    Spacing, Statement, Study, StudyClaim, Trend,
 };
 pub use study::{MOST_POINTS, MOST_REPLICATES, RANGE};

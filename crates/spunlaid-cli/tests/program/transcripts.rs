@@ -1,9 +1,9 @@
 //! Transcripts of a shell, `tests/cmd/*.txt`: what the program prints and with which code it ends.
 //!
-//! `$ ` begins a command for `sh`, `> ` continues it, and `? 1` is its exit code if this is not 0. Each transcript runs in
-//! a folder of its own with `brief.toml` and `fed.toml`; `$CASES` is the folder `cases` of the repository. In the output,
-//! a line `...` matches any lines, and `[..]` any part of a line. After a change of the program, renew all transcripts and
-//! read what has changed with `git diff`:
+//! `$ ` begins a command for `sh`, `> ` continues it, and `? 1` is its exit code if this is not 0. Each transcript runs
+//! in a folder of its own with `brief.toml` and `fed.toml`; `$CASES` is the folder `cases` of the repository. In the
+//! output, a line `...` matches any lines, and `[..]` any part of a line. After a change of the program, renew all
+//! transcripts and read what has changed with `git diff`:
 //!
 //!     SNAPSHOTS=overwrite cargo test --release -p spunlaid-cli --test program transcripts
 

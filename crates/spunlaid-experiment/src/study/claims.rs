@@ -32,14 +32,14 @@ pub enum Statement {
         /// The factor that is said to matter less.
         less: usize,
     },
-    /// It follows a factor in this way, while the other factors are as at the first point.
-    Follows(usize, Way),
+    /// It follows a factor with this trend, while the other factors are as at the first point.
+    Follows(usize, Trend),
 }
 
 named! {
     /// How a result follows a factor.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Way {
+    pub enum Trend {
         /// It rises from the least to the greatest value.
         Rises = "rises",
         /// It falls.
@@ -83,13 +83,13 @@ pub fn judge(
                     None => open("these effects cannot be separated"),
                 }
             }
-            (Some(quantity), Statement::Follows(factor, way)) => {
+            (Some(quantity), Statement::Follows(factor, trend)) => {
                 let points = points_along(study, results, quantity, factor);
                 if points.len() < 3 {
                     open("fewer than three points differ in this key alone")
                 } else {
                     let differences = Differences { study, quantity, points: &points, results };
-                    follows(&differences, factor, way, journal)?
+                    follows(&differences, factor, trend, journal)?
                 }
             }
         };
@@ -189,7 +189,7 @@ impl Differences<'_> {
 fn follows(
     of: &Differences<'_>,
     factor: usize,
-    way: Way,
+    trend: Trend,
     journal: &mut Journal,
 ) -> Result<(String, Verdict), Error> {
     let (last, quantity) = (of.points.len() - 1, &of.study.quantities[of.quantity]);
@@ -197,8 +197,8 @@ fn follows(
     let ends = of.between(0, last, journal)?;
     let steps = (0..last).map(|i| of.between(i, i + 1, journal)).collect::<Result<Vec<_>, _>>()?;
     let reported = format!("{} from {} to {}", in_words(quantity, ends), place(0), place(last));
-    if way != Way::Turns {
-        let direction = if way == Way::Rises { 1.0 } else { -1.0 };
+    if trend != Trend::Turns {
+        let direction = if trend == Trend::Rises { 1.0 } else { -1.0 };
         let (back, verdict) = goes(ends, &steps, direction);
         let evidence = match ends.standard_error {
             0.0 if back > CHANCE => format!("{reported}, without error; a step goes the other way"),

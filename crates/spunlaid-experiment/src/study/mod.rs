@@ -25,7 +25,7 @@ mod rounds;
 mod run;
 
 pub use batch::{Batch, Bundles, fly_batches};
-pub use claims::{Statement, StudyClaim, Way, judge};
+pub use claims::{Statement, StudyClaim, Trend, judge};
 pub use design::{Design, Factor, Levels, Spacing};
 pub use effects::{Contrast, Ranking, Rankings, Refusal, Term, rankings};
 pub use experiment::Experiment;

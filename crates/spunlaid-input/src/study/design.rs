@@ -5,7 +5,7 @@ use super::super::entry::{Entry, kind};
 use super::{Base, MOST_FIBRES, MOST_POINTS_UNASKED, Reader, not_varied, not_written};
 use spunlaid_experiment::{
     Design, Factor, Levels, MOST_POINTS, Quantity, RANGE, Replicates, Spacing, Statement, Study, StudyClaim,
-    Way,
+    Trend,
 };
 use spunlaid_fibre::case::keys::{Kind, Relative, Value, VariedKey};
 use spunlaid_ground::error::nearest_word;
@@ -367,9 +367,11 @@ fn read(text: &str, factors: &[Factor], quantities: &[Quantity]) -> Result<(Stri
         }
         None => {
             let said = said.trim();
-            let way = Way::ALL.into_iter().find_map(|way| Some((said.strip_suffix(way.name())?, way)));
-            let (key, way) = way.ok_or_else(|| Fault::new("contains nothing that can be judged", FORM))?;
-            Statement::Follows(factor(key)?, way)
+            let found =
+                Trend::ALL.into_iter().find_map(|trend| Some((said.strip_suffix(trend.name())?, trend)));
+            let (key, trend) =
+                found.ok_or_else(|| Fault::new("contains nothing that can be judged", FORM))?;
+            Statement::Follows(factor(key)?, trend)
         }
     };
     Ok((result.to_owned(), statement))

@@ -16,9 +16,8 @@ const BLOCK: usize = 512;
 const MOST_TOGETHER: usize = 96;
 const GROUPS: usize = 8;
 
-/// The stretch of belt that becomes the sheet, as in a [beam](spunlaid_simulation::shared_turbulence): positions on the
-/// belt are counted from where a filament in the middle of the slot is fed when its first point is fed, and what is laid
-/// later lies farther back.
+/// The stretch of belt that becomes the sheet. Positions on the belt are counted from where a filament in the middle of
+/// the slot is fed when its first point is fed, and what is laid later lies farther back.
 #[derive(Clone, Copy, Debug)]
 pub struct Belt<'a> {
     /// The sheet.

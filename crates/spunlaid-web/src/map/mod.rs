@@ -12,7 +12,7 @@
 //! | which of the filaments were simulated | `few_filaments` | (83d), (83e), "The error of few filaments" |
 //! | the mean over filaments that share eddies | `shared_error` | (72a) |
 //! | the curves of single fibres, of a web of independent filaments | `expected` | scatter between the fibres |
-//! | when neighbours come down together | `simulation::shared_turbulence` | "The error of a correlation of neighbours" |
+//! | neighbours that land together | `simulation::shared_turbulence` | "The error of a correlation of neighbours" |
 //!
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 

@@ -73,7 +73,7 @@ fn the_methods_have_program_models_and_what_to_cite() {
     for part in [
         "spunlaid 0.1.0 (spunlaid run)",
         "by the models of Battocchio, Sutcliffe and Teschner 2015; Sakiadis 1961",
-        "The input with all its numbers is case.toml of the results",
+        "The complete input is case.toml of the results",
         "Battocchio, M. P. F. Sutcliffe, F. Teschner: Fibre behaviour in the spunbonding process. Part II",
         "B. C. Sakiadis: Boundary-layer behavior",
     ] {
