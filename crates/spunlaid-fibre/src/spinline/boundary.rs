@@ -457,3 +457,121 @@ fn joined(legs: Vec<Shot>) -> Shot {
 pub(super) fn largest_tension(shot: &Shot) -> f64 {
     shot.steps.iter().map(|step| step.from[TENSION].abs()).fold(shot.end[TENSION].abs(), f64::max)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::shooting::find;
+    use super::super::shot::shoot;
+    use super::super::tests::{NONE, isothermal};
+    use super::super::{Law, Spinline};
+    use super::*;
+
+    /// A melt that cools and gets stiffer, with inertia.
+    fn line(law: Law) -> Spinline {
+        let mut line = Spinline { law, end: End::TakeUp(2.0), ..isothermal(1000.0) };
+        (line.material.activation_energy, line.material.surface_tension) = (44e3, 0.02);
+        line
+    }
+
+    fn filament(line: &Spinline) -> Filament<'_> {
+        Filament { heat_transfer: Some(0.015), ..Filament::new(line, NONE, &line.air) }
+    }
+
+    fn run(filament: &Filament<'_>, tension: f64) -> Run {
+        Run { at_die: tension.ln(), shot: shoot(filament, filament.at_die(tension).unwrap()) }
+    }
+
+    /// A filament that was followed in one go satisfies the equations of its places, and each derivative is that of the
+    /// equations, by central differences.
+    #[test]
+    fn analytic_the_equations_of_a_known_filament_and_their_derivatives() {
+        for law in [Law::Newtonian, Law::Giesekus] {
+            let line = line(law);
+            let filament = filament(&line);
+            let run = run(&filament, 3e-4);
+            for varies in [Varies::End, Varies::Forces] {
+                let effort = Effort::default();
+                let mut branch = Branch::new(&filament, varies, &run, &effort);
+                let value = if varies == Varies::End { branch.end_of(&run.shot) } else { 1.0 };
+                branch.accept(&run, value);
+                assert!(branch.places.len() >= 2, "{}", branch.places.len());
+                let at = branch.unknowns(&Point { run: run.clone(), value }).unwrap();
+                let count = at.len();
+                assert_eq!(count, 2 + branch.places.len() * branch.active.len());
+                let across: Unknowns = (0..count).map(|i| 1.0 / (1.0 + i as f64)).collect();
+                let left = |unknowns: &Unknowns| {
+                    let legs = branch.legs(unknowns).unwrap();
+                    branch.residual(unknowns, &legs, Plane { through: &at, across: &across })
+                };
+                // What is missed at the end is the wanted end, of ln 2, where forces vary.
+                let found = left(&at);
+                let missed = if varies == Varies::End { 0.0 } else { branch.end_of(&run.shot) - 2_f64.ln() };
+                for (i, left) in found.iter().enumerate() {
+                    let expected = if i == count - 2 { missed } else { 0.0 };
+                    assert!((left - expected).abs() < 1e-6, "{law:?} {i}: {left} {expected}");
+                }
+                let rows = branch.derivatives(&at, &branch.legs(&at).unwrap(), &across).unwrap();
+                for column in 0..count {
+                    let near = |by: f64| {
+                        let mut near = at.clone();
+                        near[column] += by;
+                        left(&near)
+                    };
+                    for (row, (after, before)) in near(1e-4).into_iter().zip(near(-1e-4)).enumerate() {
+                        let (found, expected) = (rows[row * count + column], (after - before) / 2e-4);
+                        let within = 2e-3 * expected.abs().max(1.0);
+                        assert!(
+                            (found - expected).abs() < within,
+                            "{law:?} {row} {column}: {found} {expected}"
+                        );
+                    }
+                }
+                assert!(effort.0.get() > 100 && !effort.is_too_much());
+            }
+        }
+    }
+
+    /// Followed along the arc from another end, or from half of the forces, a filament is the one that is found by its
+    /// tension alone; a state that is solved again from a place beside it is the same.
+    #[test]
+    fn analytic_a_filament_at_the_end_of_the_arc_is_that_of_shooting() {
+        for law in [Law::Newtonian, Law::Giesekus] {
+            let line = line(law);
+            for end in [End::TakeUp(2.0), End::Tension(4e-4)] {
+                let wanted = Filament { end, ..filament(&line) };
+                let expected = find(&Filament { ends_slack: true, ..wanted.clone() }, false);
+                let expected = expected.unwrap_or_else(|miss| panic!("{law:?} {end:?}: {miss:?}")).tension;
+                for varies in [Varies::End, Varies::Forces] {
+                    let forces = if varies == Varies::Forces { 0.5 } else { 1.0 };
+                    let from = Filament { forces, ..wanted.clone() };
+                    let start = match varies {
+                        Varies::End => run(&from, 0.8 * expected),
+                        Varies::Forces => {
+                            let tension =
+                                find(&from, false).unwrap_or_else(|miss| panic!("{miss:?}")).tension;
+                            run(&from, tension)
+                        }
+                    };
+                    let effort = Effort::default();
+                    let arrival = Branch::new(&from, varies, &start, &effort).walk(start.clone());
+                    let Arrival::Met(met) = arrival else { panic!("{law:?} {end:?}: not met") };
+                    assert!((met.at_die - expected.ln()).abs() < 1e-6, "{law:?} {end:?}: {}", met.at_die);
+                    // One shot under this tension has the same end and the same sums.
+                    let alone = run(&wanted, met.at_die.exp()).shot;
+                    for i in [LN_SPEED, TEMPERATURE, PULL, HEAT, WORK] {
+                        let [found, alone] = [met.shot.end[i], alone.end[i]];
+                        assert!((found - alone).abs() < 1e-5 * alone.abs().max(1e-9), "{i}: {found} {alone}");
+                    }
+                    let ends: Vec<f64> = met.shot.steps.iter().map(Step::end).collect();
+                    assert!(
+                        met.shot.steps[1..]
+                            .iter()
+                            .zip(&ends)
+                            .all(|(step, end)| (step.start - end).abs() < 1e-12)
+                    );
+                }
+            }
+        }
+    }
+}

@@ -265,3 +265,139 @@ impl Weights {
         Deviations::add(self.deviations, Known::Value(edge, error), change).times(1.0 / CLASSES_PER_MEAN)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::web::map::lattice::Chance;
+
+    const BY_CHANCE: f64 = 0.04;
+
+    /// Six blocks, in each of which so many patches lie in classes below and above the mean.
+    fn weights() -> Weights {
+        let counts = [[6, 1, 3], [2, 7, 1], [4, 4, 2], [1, 3, 6], [5, 0, 5], [2, 5, 3]];
+        let block = |counts: &[u32; 3]| {
+            let mut classes = vec![0; CLASSES];
+            for (class, count) in [80, 99, 125].into_iter().zip(counts) {
+                classes[class] = *count;
+            }
+            classes
+        };
+        let chance = Chance { closed: [true, false], streaks: true };
+        let deviations = Some(Deviations { by_chance: BY_CHANCE, of_map: 0.02 });
+        Weights::new(counts.iter().map(block).collect(), Lattice { sides: [3, 2], chance }, deviations)
+    }
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-11 * expected.abs().max(1.0), "{found} {expected}");
+    }
+
+    /// Twenty of sixty patches lie in each class: what lies below an edge is a line within it.
+    #[test]
+    fn analytic_what_patches_of_three_classes_weigh() {
+        let weights = weights();
+        for (edge, below) in [
+            (-3.0, 0.0),
+            (80.0, 0.0),
+            (80.25, 0.25 / 3.0),
+            (81.0, 1.0 / 3.0),
+            (99.0, 1.0 / 3.0),
+            (99.6, 1.6 / 3.0),
+            (100.0, 2.0 / 3.0),
+            (125.5, 2.5 / 3.0),
+            (126.0, 1.0),
+            (900.0, 1.0),
+        ] {
+            close(Weights::at(&weights.all, edge), below);
+            close(weights.share(edge, false).value(), below);
+            close(weights.share(edge, true).value(), 1.0 - below);
+        }
+        close(weights.density(82.0), 1.0 / 12.0);
+        close(weights.density(90.0), 0.0);
+        close(weights.density(99.5), 1.0 / 12.0);
+        let deviation = ((19.5_f64.powi(2) + 0.5_f64.powi(2) + 25.5_f64.powi(2)) / 3.0).sqrt();
+        close(weights.deviation(), deviation);
+        for (share, edge) in [(0.1, 80.3), (0.5, 99.5), (2.0 / 3.0, 100.0), (0.9, 125.7), (1.0, 126.0)] {
+            close(weights.quantile(share).value(), edge / 100.0);
+        }
+        // Means of the blocks over that of all, each as if its patches lay at the upper ends of their classes.
+        let mean = (81.0 + 100.0 + 126.0) / 3.0;
+        close(weights.means[0], (6.0 * 81.0 + 100.0 + 3.0 * 126.0) / 10.0 / mean - 1.0);
+        close(weights.means[4], (81.0 + 126.0) / 2.0 / mean - 1.0);
+    }
+
+    /// Correlations of the blocks against all pairs of them, around the web and along it, and what they make of the
+    /// chance of a share: He₁ to He₄ by their closed forms, and no terms beyond where the correlations are small.
+    #[test]
+    fn analytic_the_chance_of_a_share_of_a_normal_field() {
+        let mut weights = weights();
+        let variance = (weights.deviation() / 100.0).powi(2);
+        let correlation = |across: usize, along: usize| {
+            let at = |i: usize| (i % 3, i / 3);
+            let pair = |i: usize| {
+                weights.means[i] * weights.means[(at(i).0 + across) % 3 + 3 * ((at(i).1 + along) % 2)]
+            };
+            (0..6).map(pair).sum::<f64>() / 6.0 / variance
+        };
+        for (power, found) in (2..).zip(weights.powers) {
+            let all = (0..6).map(|i| correlation(i % 3, i / 3).powi(power)).sum::<f64>() / 6.0;
+            assert!((found / all - 1.0).abs() < 1e-9, "{power}: {found} {all}");
+        }
+        weights.powers = [0.0; POWERS];
+        weights.powers[..4].copy_from_slice(&[0.5, 0.3, 0.2, 0.1]);
+        let deviation = weights.deviation();
+        let of_normal = |edge: f64| {
+            let z = (edge - 100.0) / deviation;
+            let hermite = [z, z * z - 1.0, z.powi(3) - 3.0 * z, z.powi(4) - 6.0 * z * z + 3.0];
+            let parts = hermite.iter().zip([2.0, 6.0, 24.0, 120.0]).zip([0.5, 0.3, 0.2, 0.1]);
+            let sum: f64 =
+                parts.map(|((hermite, factorial), power)| hermite * hermite / factorial * power).sum();
+            deviation * BY_CHANCE * (2.0 * sum / 0.5).sqrt()
+        };
+        for edge in [50.0, 70.0, 99.5, 100.0, 130.0] {
+            close(weights.of_normal(edge), of_normal(edge));
+        }
+        // At least that of the blocks; of a rare share no more than the share, and of a common one than the rest.
+        let by_blocks = |edge: f64| weights.by_blocks(edge).unwrap_or(f64::NAN);
+        for (edge, share) in [(80.1, 0.1 / 3.0), (99.5, 0.5), (125.9, 0.1 / 3.0)] {
+            let least = (of_normal(edge) * weights.density(edge)).min(share);
+            close(weights.error(edge).unwrap_or(f64::NAN), by_blocks(edge).max(least));
+        }
+        // A quantile moves by the error of the share over the density, and with the deviations of the map.
+        let Known::Value(_, Some(error)) = weights.quantile(0.5) else { panic!("no error") };
+        let own = (by_blocks(99.5) / weights.density(99.5)).max(of_normal(99.5)) / 100.0;
+        close(error, own.hypot(0.5 * 0.02 / 100.0));
+        // What each block has beyond all, less what its mean weight alone would make of it.
+        let of_block = |i: usize, share: f64| share - 0.5 + 99.5 / 12.0 * weights.means[i];
+        let influence =
+            [0.65, 0.55, 0.6, 0.25, 0.5, 0.45].iter().enumerate().map(|(i, share)| of_block(i, *share));
+        let expected = weights.lattice.error_of_mean(&influence.collect::<Vec<_>>(), &weights.means);
+        close(by_blocks(99.5), expected.unwrap_or(f64::NAN));
+        assert!(expected.is_some());
+        weights.powers[0] = 0.0;
+        assert_eq!(weights.of_normal(70.0), 0.0);
+    }
+
+    /// Against sums of all cells of a small map: the lightest place, and the next one that is 1.5 sides away.
+    #[test]
+    fn analytic_the_lightest_places_are_apart() {
+        let (columns, rows, side) = (14, 11, 2);
+        let cells: Vec<u32> = (0..columns * rows).map(|i| 50 + (i * i * 17 % 101) as u32).collect();
+        let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true; 2], cells };
+        let weight = |[column, row]: [usize; 2]| -> f64 {
+            (0..4).map(|i| f64::from(map.row(row + i / 2)[column + i % 2])).sum()
+        };
+        let mut places: Vec<[usize; 2]> =
+            (0..columns - 1).flat_map(|column| (0..rows - 1).map(move |row| [column, row])).collect();
+        let mean = 4.0 * map.total() as f64 / map.cells.len() as f64;
+        let found = lightest(&map, side, 6);
+        assert_eq!(found.len(), 6);
+        for (at, share) in found {
+            let least = places.iter().map(|place| weight(*place)).fold(f64::INFINITY, f64::min);
+            close(share, least / mean);
+            close(weight(at), least);
+            places.retain(|place| place[0].abs_diff(at[0]).max(place[1].abs_diff(at[1])) > 3);
+        }
+        assert!(lightest(&Map { cells: vec![0; 154], ..map }, side, 6).is_empty());
+    }
+}

@@ -459,4 +459,136 @@ mod tests {
         let ratio = scatter * 60_f64.sqrt() / reported.sqrt();
         assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
+
+    /// One plus this at each column and row.
+    fn waved([columns, rows]: [usize; 2], closed: [bool; 2], wave: impl Fn(usize, usize) -> f64) -> Map {
+        let cell = |i: usize| (1e8 * (1.0 + wave(i % columns, i / columns))).round() as u32;
+        let cells = (0..columns * rows).map(cell).collect();
+        Map { columns, rows, cell: 1e-3, quantum: 1e-12, closed, cells }
+    }
+
+    fn turns(turns: f64) -> f64 {
+        libm::cos(2.0 * PI * turns)
+    }
+
+    /// Tiles of 32 cells with five waves across: a Hann window leaves two thirds of the power in its wave number, and
+    /// a sixth in each of those next to it, across and along.
+    #[test]
+    fn analytic_the_waves_of_a_tile_under_its_window() {
+        const POWER: f64 = 0.5 * 0.2 * 0.2;
+        let parts = [(-1.0, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.0, 1.0 / 6.0)];
+        for direction in [0, 1] {
+            let wave = |at: [usize; 2]| 0.2 * turns(5.0 * at[direction] as f64 / 32.0);
+            let map = waved([128, 128], [true; 2], |column, row| wave([column, row]));
+            let clouds = Clouds::measure(&map).unwrap();
+            let close = |found: f64, expected: f64| {
+                assert!((found / expected - 1.0).abs() < 1e-6, "{direction}: {found} {expected}");
+            };
+            close(clouds.longest(), 32e-3);
+            close(clouds.shortest(), 2e-3);
+            let (own, other) = (clouds.spectrum(direction), clouds.spectrum(1 - direction));
+            for (k, part) in [(4, 1.0 / 6.0), (5, 2.0 / 3.0), (6, 1.0 / 6.0)] {
+                close(own[k - 1].0, 32e-3 / k as f64);
+                close(own[k - 1].1, POWER * part * 32e-3);
+            }
+            // Along the crests, the waves of the window: half of it on either side.
+            close(other[0].1, POWER / 3.0 * 32e-3);
+            assert!(own.len() == 16 && other[1].1 < 1e-9 * POWER && own[6].1 < 1e-9 * POWER);
+            // The long waves begin at 32/5 mm. Shorter ones are those of the tiles, by the middle of their ring.
+            for (band, part) in [
+                ([2e-3, 6.4e-3], 5.0 / 6.0),
+                ([5.5e-3, 6e-3], 2.0 / 3.0),
+                ([4.7e-3, 5.5e-3], 1.0 / 6.0),
+                ([6.39e-3, 6.5e-3], 1.0),
+            ] {
+                let found = clouds.variance(band[0], band[1]);
+                close(found.mean, POWER * part);
+                assert!(found.standard_error.is_none_or(|error| error < 1e-6 * POWER) || band[0] > 6e-3);
+            }
+            let along = |(across, one): (f64, f64), (md, other): (f64, f64)| {
+                one * other * (5.0 + across).powi(2) / ((5.0 + across).powi(2) + md * md)
+            };
+            let across: f64 = parts.iter().flat_map(|a| parts.map(|b| along(*a, b))).sum();
+            let texture = clouds.texture_md();
+            close(texture.mean, if direction == 0 { across } else { 1.0 - across });
+            assert!(texture.standard_error.unwrap() < 1e-6, "{texture:?}");
+            // One per cent of weight is one per cent of a variance, and half of that of its root.
+            let (index, error) = clouds.clone().with_error_of_weight(0.01).cloudiness(2e-3, 6.4e-3);
+            close(index, (POWER * 5.0 / 6.0).sqrt());
+            close(error.unwrap(), 0.005 * index);
+            let octaves = clouds.octaves();
+            let bounds: Vec<f64> = octaves.iter().flat_map(|(band, _)| band.map(|m| m * 1e3)).collect();
+            assert!(
+                bounds
+                    .iter()
+                    .zip([2.0, 4.0, 4.0, 8.0, 8.0, 16.0, 16.0, 32.0])
+                    .all(|(a, b)| (a - b).abs() < 1e-9)
+            );
+            assert_eq!(octaves.len(), 4);
+        }
+    }
+
+    /// A long wave has half the square of its size, whatever the numbers of cells and parts, on a ring and under a
+    /// window; the bands next to it have nothing.
+    #[test]
+    fn analytic_a_long_wave_has_its_power() {
+        const POWER: f64 = 0.5 * 0.2 * 0.2;
+        for (size, closed, within) in [
+            ([256, 128], [true; 2], 1e-6),
+            ([200, 120], [true; 2], 1e-3),
+            ([90, 300], [true; 2], 1e-3),
+            ([256, 128], [false, true], 0.01),
+            ([128, 256], [true, false], 0.01),
+            ([256, 256], [false; 2], 0.01),
+        ] {
+            for (across, along) in [(9, 5), (3, 8), (8, 0), (0, 9), (5, -6)] {
+                let [columns, rows] = size.map(|cells| cells as f64);
+                let wave = |column: usize, row: usize| {
+                    let at = [(column as f64 + 0.5) / columns, (row as f64 + 0.5) / rows];
+                    0.2 * turns(f64::from(across) * at[0] + f64::from(along) * at[1])
+                };
+                let clouds = Clouds::measure(&waved(size, closed, wave)).unwrap();
+                let length = 1e-3 / (f64::from(across) / columns).hypot(f64::from(along) / rows);
+                let found = clouds.variance(0.6 * length, 1.8 * length).mean / POWER;
+                assert!((found - 1.0).abs() < within, "{size:?} {closed:?} {across} {along}: {found}");
+                let beside = clouds.variance(1.8 * length, 4.0 * length).mean / POWER;
+                assert!(beside < within, "{size:?} {closed:?} {across} {along}: {beside}");
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_autocorrelation_is_that_of_all_pairs_of_cells() {
+        let map =
+            waved([40, 30], [true, false], |column, row| 0.01 * ((column * column + 7 * row) % 23) as f64);
+        let mean = map.total() as f64 / 1200.0;
+        let off = |column: usize, row: usize| f64::from(map.row(row)[column]) - mean;
+        let found = autocorrelation(&map, 35, 2);
+        assert_eq!(found.each_ref().map(Vec::len), [35, 30]);
+        for (direction, found) in found.iter().enumerate() {
+            let product = |lag: usize| {
+                let by = [[lag, 0], [0, lag]][direction];
+                let (mut sum, mut count) = (0.0, 0.0);
+                for row in 0..30 - by[1] {
+                    for column in 0..40 - by[0] {
+                        sum += off(column, row) * off(column + by[0], row + by[1]);
+                        count += 1.0;
+                    }
+                }
+                sum / count
+            };
+            for (lag, found) in found.iter().enumerate() {
+                let expected = product(lag) / product(0);
+                assert!((found - expected).abs() < 1e-9, "{direction} {lag}: {found} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sheet_without_fibre_or_of_few_cells_has_no_clouds() {
+        let flat = waved([16, 40], [true; 2], |_, _| 0.0);
+        assert!(Clouds::measure(&flat).is_some_and(|clouds| clouds.texture_md().mean.is_nan()));
+        assert!(Clouds::measure(&waved([15, 40], [true; 2], |_, _| 0.0)).is_none());
+        assert!(Clouds::measure(&waved([16, 40], [true; 2], |_, _| -1.0)).is_none());
+    }
 }

@@ -341,3 +341,174 @@ fn rejects_a_cell_that_is_too_full_for_the_sum_of_both_halves() {
     assert!(!is_full(Some(0))(&first) && !is_full(Some(1))(&first));
     assert!(first.estimate(None, 1).unwrap_err().to_string().contains("more fibre than can be counted"));
 }
+
+/// Two filaments for four, by hand: theory.md (83e). Own parts 4 and 2, so that alone they change 1 and −1.75.
+#[test]
+fn analytic_the_variance_by_depths_of_one_pair_by_hand() {
+    let pair = |other: f64| [[12.0, 3.0, 0.0, 20.0, other, 1.0], [6.0, 3.0, 6.0, 10.0, 4.0, 2.0]];
+    let variance = |pairs: Vec<[[f64; 6]; 2]>| Products { means: [0.0; 4], pairs }.variance(0.5, 2.0, 4.0);
+    // Halves 4.875 and 0.375 agree a little: ½ (5.25² + 4 · 4.875 · 0.375).
+    assert_eq!(variance(vec![pair(5.0)]), 17.4375);
+    // Halves 4.875 and −0.625 do not: ½ · 4.25².
+    assert_eq!(variance(vec![pair(3.0)]), 9.03125);
+    assert_eq!(variance(vec![pair(5.0), [[0.0; 6]; 2]]), 8.71875);
+}
+
+/// Against sums cell by cell: a map with its own columns, and one that begins elsewhere and goes on at its edge.
+#[test]
+fn analytic_products_of_patches_are_those_of_their_cells() {
+    const SIZE: [usize; 2] = [9, 11];
+    let cells = (0..SIZE[0] * SIZE[1]).map(|i| (i * i * 7 % 31) as u32).collect();
+    let [columns, rows] = SIZE;
+    let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true, false], cells };
+    for (first, columns) in [(0_i64, 9), (-3, 7), (5, 12), (13, 5)] {
+        let [own, other] = [0, first].map(|first| CornerSums::around(&map, first, columns));
+        let even = CornerSums::even(columns, rows);
+        for side in 1..=5 {
+            let step = (side / 2).max(1);
+            let at = |row: usize, column: i64| f64::from(map.row(row)[column.rem_euclid(9) as usize]);
+            let patch = |row: usize, column: usize, first: i64| -> f64 {
+                let cells = |row: usize| (column..column + side).map(move |c| at(row, first + c as i64));
+                (row..row + side).flat_map(cells).sum()
+            };
+            let (mut expected, mut mass, mut taken) = (0.0, 0.0, 0.0);
+            for row in (0..=rows - side).step_by(step) {
+                taken += 1.0;
+                for column in (0..=columns - side).step_by(step) {
+                    expected += patch(row, column, 0) * patch(row, column, first);
+                    mass += patch(row, column, 0) * (side * side) as f64;
+                }
+            }
+            // One place of so many is taken, across and along.
+            let scale = step as f64 * (rows - side + 1) as f64 / taken;
+            for (found, expected) in [(own.product(&other, side), expected), (own.product(&even, side), mass)]
+            {
+                assert!((found / (expected * scale) - 1.0).abs() < 1e-12, "{first} {side}: {found}");
+            }
+        }
+    }
+    assert_eq!(CornerSums::over(&map).product(&CornerSums::even(9, 11), 11.min(9)), {
+        let row = |row: usize| (row..row + 9).flat_map(|row| map.row(row)).sum::<u32>();
+        // Rows 0 of 0 to 2: a step of four cells takes the first of three places.
+        f64::from(row(0)) * 81.0 * 4.0 * 3.0
+    });
+}
+
+/// The error of waves is that of the patches nearest to half their mean length, by their ratio.
+#[test]
+fn the_error_of_waves_is_that_of_patches_half_as_large() {
+    let of_patches = [(1e-3, 0.1), (2e-3, 0.2), (10e-3, 0.3)];
+    // Half means of 0.71, 1.34, 1.56, 4.24 and 4.6 mm: 1.41 mm is as far from 1 as from 2 mm, and 4.47 mm from 2 as from
+    // 10 mm.
+    for (from, expected) in
+        [(1e-3, 0.1), (1.9e-3, 0.1), (2.2e-3, 0.2), (6e-3, 0.2), (6.5e-3, 0.3), (32e-3, 0.3)]
+    {
+        assert_eq!(error_of_waves([from, 2.0 * from], &of_patches), expected, "{from}");
+    }
+    assert_eq!(error_of_waves([1.0, 2.0], &[]), 0.0);
+}
+
+/// Blocks against the patches of each, one by one: the mean square of their deviations from the mean of all.
+#[test]
+fn analytic_blocks_are_the_mean_squares_of_their_patches() {
+    let (columns, rows, side) = (6, 9, 2);
+    let cells: Vec<u32> = (0..columns * rows).map(|i| (10 + i * i * 5 % 13) as u32).collect();
+    let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true, false], cells };
+    // Around the web in all columns, and along it in eight places.
+    let patch = |row: usize, column: usize| -> f64 {
+        let cell = |i: usize| f64::from(map.row(row + i / 2)[(column + i % 2) % columns]);
+        (0..4).map(cell).sum()
+    };
+    let places = || (0..8).flat_map(|row| (0..columns).map(move |column| (row, column)));
+    let mean = 4.0 * map.total() as f64 / map.cells.len() as f64;
+    let expected = |block: [usize; 2]| {
+        let inside = places().filter(|(row, column)| [column / 3, row / 2] == block);
+        inside.map(|(row, column)| (patch(row, column) / mean - 1.0).powi(2)).sum::<f64>() / 6.0
+    };
+    let found = blocks(&map, side, [2, 4]);
+    assert_eq!(found.len(), 8);
+    for (number, found) in found.into_iter().enumerate() {
+        let expected = expected([number % 2, number / 2]);
+        assert!((found / expected - 1.0).abs() < 1e-12, "{number}: {found} {expected}");
+    }
+    assert!(blocks(&map, 10, [1, 1]).is_empty());
+    assert_eq!(blocks_on(&Sheet::new(0.12, 0.03, 1e-3)), [2, 1]);
+}
+
+/// Straight filaments in a cell each: so many of 96 columns have CV² = 96/n − 1, and a filament has 96 times its mean
+/// square with itself and none with others. Theory.md (83d), by hand.
+#[test]
+fn analytic_straight_filaments_that_never_meet() {
+    let sheet = sheet(&[1.0]);
+    let straight = |count: usize| {
+        let points = |i: usize| (0..302).map(move |k| [(i as f64 + 0.1) * CELL, (f64::from(k) - 0.5) * CELL]);
+        (0..count).map(move |i| Some(points(i * 96 / count).collect()))
+    };
+    let map = |count: usize| few(&sheet, Arrangement::Rows, 1, straight(count)).map(None).unwrap();
+    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    // CV² of all, of every second one, what each has for itself, and what filled maps have more.
+    let own = [0.0, 2.0, (96.0 - 1.0 - 7.0) / 48.0];
+    let all: [f64; 3] = [7.0, 7.0 - (1.0 / 12.0 - 1.0 / 48.0) * 96.0, 7.0 + own[2]];
+    let half: [f64; 3] = [15.0, 15.0 - (1.0 / 6.0 - 1.0 / 48.0) * 96.0, 15.0 + (96.0 - 1.0 - 15.0) / 48.0];
+    for (i, arrangement) in
+        [Arrangement::Rows, Arrangement::Slot, Arrangement::AtRandom].into_iter().enumerate()
+    {
+        let twelve = few(&sheet, arrangement, 48, straight(12));
+        let told = twelve.estimate(None, 1).unwrap();
+        let [cv, off] = [all[i].sqrt(), half[i].sqrt() - all[i].sqrt()];
+        let found = told.cvs[0];
+        for (found, expected) in [
+            (found.cv, cv),
+            (found.few, 7_f64.sqrt()),
+            (found.own, own[i]),
+            (found.of_halves, off / cv),
+            (found.by_pitch, (0.5 * off).hypot(0.02 * cv)),
+            (told.pitch, 8e-3),
+            (told.area, 96e-3 * 0.3),
+            (told.fine_area, 96e-3 * 0.3),
+        ] {
+            close(found, expected);
+        }
+        let on_map = patch_cv(&map(12), 1).unwrap();
+        assert_eq!(found.by_chance.is_some(), on_map.standard_error.is_some());
+        assert!(told.blocks[0].len() == 6 && told.blocks[0].iter().all(|block| (block - 7.0).abs() < 1e-9));
+        assert_eq!((told.filaments, told.lost, told.sheet), (12, 0, [WIDTH, LENGTH]));
+        // Filled in to 32 and to 16: CV² of 2 and of 5, which differ alike in each of six blocks.
+        let at_random = |square: f64| if i == 2 { (95.0 - square) / 48.0 } else { 0.0 };
+        let [cv, half] = [2.0, 5.0].map(|square| (square + at_random(square)).sqrt());
+        let filled = |patches| FilledMaps { of_all: map(32), of_every_second: map(16), patches };
+        let told = twelve.estimate(Some(&filled(0.0..1.0)), 1).unwrap();
+        let found = told.cvs[0];
+        close(found.cv, cv);
+        close(found.of_halves, half / cv - 1.0);
+        close(found.by_pitch, (half - cv).max(1.5 / 6_f64.sqrt() / cv).hypot(0.02 * cv));
+        close(found.own, [0.0, 2.0, at_random(2.0)][i]);
+        close(found.few, 7_f64.sqrt());
+        assert!(told.blocks[0].iter().all(|block| (block - 2.0).abs() < 1e-9));
+        // The error of waves is that of the variance over these patches, or by how much the two maps differ in them.
+        let of_variance = 2.0 * found.by_pitch / found.cv;
+        let [of_all, of_half] = [32, 16].map(|count| Clouds::measure(&map(count)).unwrap());
+        for ((band, error), (_, apart)) in told.octaves.iter().zip(of_all.apart(&of_half)) {
+            assert_eq!(*error, apart.max(of_variance), "{band:?}");
+        }
+        // Over patches that filled maps do not give, CV² of all has more than theirs.
+        let told = twelve.estimate(Some(&filled(1.0..2.0)), 1).unwrap();
+        close(told.cvs[0].beyond_filling, if i == 2 { 7.0 } else { all[i] } - 2.0);
+        close(told.cvs[0].cv, all[i].sqrt());
+        let of_variance =
+            (2.0 * told.cvs[0].by_pitch / told.cvs[0].cv).hypot(told.cvs[0].beyond_filling / 2.0);
+        for ((band, error), (_, apart)) in told.octaves.iter().zip(of_all.apart(&of_half)) {
+            assert_eq!(*error, apart.max(of_variance), "{band:?}");
+        }
+    }
+    // Filled maps that agree: in a slot the simulated ones contradict them beyond their own error of 2 %.
+    let [of_all, of_every_second] = [map(32), map(32)];
+    let filled = FilledMaps { of_all, of_every_second, patches: 0.0..1.0 };
+    let agreeing =
+        |arrangement| few(&sheet, arrangement, 48, straight(12)).estimate(Some(&filled), 1).unwrap().cvs[0];
+    close(agreeing(Arrangement::Rows).by_pitch, 0.02 * 2_f64.sqrt());
+    close(agreeing(Arrangement::Slot).by_pitch, ((2_f64.sqrt() - 1.0).powi(2) - 0.02 * 0.02).sqrt());
+    // Too short a row, and none of it.
+    let short = few(&sheet, Arrangement::Slot, 48, straight(8)).estimate(None, 1).unwrap();
+    assert!(short.cvs[0].cv.is_nan() || short.cvs[0].cv == 0.0, "{short:?}");
+}
