@@ -482,7 +482,7 @@ mod tests {
         Run { at_die: tension.ln(), shot: shoot(filament, filament.at_die(tension).unwrap()) }
     }
 
-    /// A filament that was followed in one go satisfies the equations of its places, and each derivative is that of the
+    /// A filament that was followed in one go satisfies the equations between them, and each derivative is that of the
     /// equations, by central differences.
     #[test]
     fn analytic_the_equations_of_a_known_filament_and_their_derivatives() {
@@ -533,7 +533,7 @@ mod tests {
     }
 
     /// Followed along the arc from another end, or from half of the forces, a filament is the one that is found by its
-    /// tension alone; a state that is solved again from a place beside it is the same.
+    /// tension alone; its parts join to what one shot has.
     #[test]
     fn analytic_a_filament_at_the_end_of_the_arc_is_that_of_shooting() {
         for law in [Law::Newtonian, Law::Giesekus] {

@@ -396,13 +396,13 @@ fn analytic_the_rates_of_a_state_satisfy_the_equations() {
         let eta =
             300.0 * (activation * (1.0 / 400.0 - 1.0 / material.viscosity_temperature) + hardening).exp();
         // Of the air: 18 m/s faster, at a film of 350 K.
-        let reynolds = 18.0 * 2.0 * radius / crate::air::motion::kinematic_viscosity_at(300.0);
+        let reynolds = 18.0 * 2.0 * radius / spunlaid_air::motion::kinematic_viscosity_at(300.0);
         let drag = 1.1 * PI * radius * 101_325.0 / 287.05 / 300.0
             * friction.coefficient(reynolds, 0.0)
             * 18.0
             * 18.0;
         let conductivity = 2.64638e-3 * 350_f64.powf(1.5) / (350.0 + 245.4 * 10_f64.powf(-12.0 / 350.0));
-        let per_viscosity = 2.0 * radius / crate::air::motion::kinematic_viscosity_at(350.0);
+        let per_viscosity = 2.0 * radius / spunlaid_air::motion::kinematic_viscosity_at(350.0);
         let nusselt = 0.8 * 0.42 * (per_viscosity * (18.0 * 18.0_f64 + 64.0 * 0.25).sqrt()).cbrt();
         let convection = PI * conductivity * nusselt * 100.0;
         let radiation = 2.0 * PI * radius * 0.9 * 5.670_374_419e-8 * (400_f64.powi(4) - 300_f64.powi(4));
@@ -482,7 +482,7 @@ fn tension(filament: &Filament<'_>, state: &State) -> f64 {
     filament.rates(0.3, state, Phase::Melt, &mut 0).station.tension
 }
 
-/// A filament that cools by e^(−3z) while its speed rises by e^(2z), so that both are known at any place. Half the step
+/// A filament that cools by e^(−3z) while its speed rises by e^(2z), so that both have closed forms. Half the step
 /// has a part in 2^(p+1) of the error, at its end and between its ends; in both methods.
 #[test]
 fn order_of_the_steps_along_a_filament() {
@@ -586,7 +586,7 @@ fn analytic_air_between_the_rows_of_a_table() {
 }
 
 /// Roots of functions that are straight, curved, flat at the root, steep and infinite at an end, to the wanted error and
-/// in few looks.
+/// with at most so many evaluations.
 #[test]
 fn analytic_roots_between_two_places() {
     type Curve = fn(f64) -> f64;
@@ -600,15 +600,15 @@ fn analytic_roots_between_two_places() {
     ];
     for (number, (curve, ends, root, most)) in curves.into_iter().enumerate() {
         for ends in [ends, [ends[1], ends[0]]] {
-            let mut looks = 0;
+            let mut calls = 0;
             let counted = |x| {
-                looks += 1;
+                calls += 1;
                 curve(x)
             };
             let ends = ends.map(|x| (x, curve(x).clamp(-f64::MAX, f64::MAX)));
             let found = brent(counted, ends, 1e-10);
             assert!((found - root).abs() < 1e-10, "{number}: {found} {root}");
-            assert!(looks <= most, "{number}: {looks}");
+            assert!(calls <= most, "{number}: {calls}");
         }
     }
 }

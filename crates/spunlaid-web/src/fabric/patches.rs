@@ -269,9 +269,9 @@ impl Weights {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::web::map::lattice::Chance;
+    use crate::map::lattice::Chance;
 
-    const BY_CHANCE: f64 = 0.04;
+    const OF_CV: f64 = 0.04;
 
     /// Six blocks, in each of which so many patches lie in classes below and above the mean.
     fn weights() -> Weights {
@@ -284,7 +284,7 @@ mod tests {
             classes
         };
         let chance = Chance { closed: [true, false], streaks: true };
-        let deviations = Some(Deviations { by_chance: BY_CHANCE, of_map: 0.02 });
+        let deviations = Some(Deviations { by_chance: OF_CV, of_map: 0.02 });
         Weights::new(counts.iter().map(block).collect(), Lattice { sides: [3, 2], chance }, deviations)
     }
 
@@ -317,8 +317,8 @@ mod tests {
         close(weights.density(99.5), 1.0 / 12.0);
         let deviation = ((19.5_f64.powi(2) + 0.5_f64.powi(2) + 25.5_f64.powi(2)) / 3.0).sqrt();
         close(weights.deviation(), deviation);
-        for (share, edge) in [(0.1, 80.3), (0.5, 99.5), (2.0 / 3.0, 100.0), (0.9, 125.7), (1.0, 126.0)] {
-            close(weights.quantile(share).value(), edge / 100.0);
+        for (part, edge) in [(0.1, 80.3), (0.5, 99.5), (2.0 / 3.0, 100.0), (0.9, 125.7), (1.0, 126.0)] {
+            close(weights.quantile(part).value(), edge / 100.0);
         }
         // Means of the blocks over that of all, each as if its patches lay at the upper ends of their classes.
         let mean = (81.0 + 100.0 + 126.0) / 3.0;
@@ -327,9 +327,9 @@ mod tests {
     }
 
     /// Correlations of the blocks against all pairs of them, around the web and along it, and what they make of the
-    /// chance of a share: He₁ to He₄ by their closed forms, and no terms beyond where the correlations are small.
+    /// sampling error of a fraction: He₁ to He₄ by their closed forms, and no terms beyond where the correlations are small.
     #[test]
-    fn analytic_the_chance_of_a_share_of_a_normal_field() {
+    fn analytic_the_sampling_error_of_a_fraction_of_a_normal_field() {
         let mut weights = weights();
         let variance = (weights.deviation() / 100.0).powi(2);
         let correlation = |across: usize, along: usize| {
@@ -352,25 +352,25 @@ mod tests {
             let parts = hermite.iter().zip([2.0, 6.0, 24.0, 120.0]).zip([0.5, 0.3, 0.2, 0.1]);
             let sum: f64 =
                 parts.map(|((hermite, factorial), power)| hermite * hermite / factorial * power).sum();
-            deviation * BY_CHANCE * (2.0 * sum / 0.5).sqrt()
+            deviation * OF_CV * (2.0 * sum / 0.5).sqrt()
         };
         for edge in [50.0, 70.0, 99.5, 100.0, 130.0] {
             close(weights.of_normal(edge), of_normal(edge));
         }
-        // At least that of the blocks; of a rare share no more than the share, and of a common one than the rest.
+        // At least that of the blocks; of a rare fraction no more than the fraction, and of a common one than the rest.
         let by_blocks = |edge: f64| weights.by_blocks(edge).unwrap_or(f64::NAN);
-        for (edge, share) in [(80.1, 0.1 / 3.0), (99.5, 0.5), (125.9, 0.1 / 3.0)] {
-            let least = (of_normal(edge) * weights.density(edge)).min(share);
+        for (edge, part) in [(80.1, 0.1 / 3.0), (99.5, 0.5), (125.9, 0.1 / 3.0)] {
+            let least = (of_normal(edge) * weights.density(edge)).min(part);
             close(weights.error(edge).unwrap_or(f64::NAN), by_blocks(edge).max(least));
         }
-        // A quantile moves by the error of the share over the density, and with the deviations of the map.
+        // A quantile moves by the error of the fraction over the density, and with the deviations of the map.
         let Known::Value(_, Some(error)) = weights.quantile(0.5) else { panic!("no error") };
         let own = (by_blocks(99.5) / weights.density(99.5)).max(of_normal(99.5)) / 100.0;
         close(error, own.hypot(0.5 * 0.02 / 100.0));
         // What each block has beyond all, less what its mean weight alone would make of it.
-        let of_block = |i: usize, share: f64| share - 0.5 + 99.5 / 12.0 * weights.means[i];
+        let of_block = |i: usize, part: f64| part - 0.5 + 99.5 / 12.0 * weights.means[i];
         let influence =
-            [0.65, 0.55, 0.6, 0.25, 0.5, 0.45].iter().enumerate().map(|(i, share)| of_block(i, *share));
+            [0.65, 0.55, 0.6, 0.25, 0.5, 0.45].iter().enumerate().map(|(i, part)| of_block(i, *part));
         let expected = weights.lattice.error_of_mean(&influence.collect::<Vec<_>>(), &weights.means);
         close(by_blocks(99.5), expected.unwrap_or(f64::NAN));
         assert!(expected.is_some());
@@ -378,25 +378,25 @@ mod tests {
         assert_eq!(weights.of_normal(70.0), 0.0);
     }
 
-    /// Against sums of all cells of a small map: the lightest place, and the next one that is 1.5 sides away.
+    /// Against sums of all cells of a small map: the lightest position, and the next one that is 1.5 sides away.
     #[test]
-    fn analytic_the_lightest_places_are_apart() {
+    fn analytic_the_lightest_positions_are_apart() {
         let (columns, rows, side) = (14, 11, 2);
         let cells: Vec<u32> = (0..columns * rows).map(|i| 50 + (i * i * 17 % 101) as u32).collect();
         let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true; 2], cells };
         let weight = |[column, row]: [usize; 2]| -> f64 {
             (0..4).map(|i| f64::from(map.row(row + i / 2)[column + i % 2])).sum()
         };
-        let mut places: Vec<[usize; 2]> =
+        let mut positions: Vec<[usize; 2]> =
             (0..columns - 1).flat_map(|column| (0..rows - 1).map(move |row| [column, row])).collect();
         let mean = 4.0 * map.total() as f64 / map.cells.len() as f64;
         let found = lightest(&map, side, 6);
         assert_eq!(found.len(), 6);
-        for (at, share) in found {
-            let least = places.iter().map(|place| weight(*place)).fold(f64::INFINITY, f64::min);
-            close(share, least / mean);
+        for (at, part) in found {
+            let least = positions.iter().map(|at| weight(*at)).fold(f64::INFINITY, f64::min);
+            close(part, least / mean);
             close(weight(at), least);
-            places.retain(|place| place[0].abs_diff(at[0]).max(place[1].abs_diff(at[1])) > 3);
+            positions.retain(|other| other[0].abs_diff(at[0]).max(other[1].abs_diff(at[1])) > 3);
         }
         assert!(lightest(&Map { cells: vec![0; 154], ..map }, side, 6).is_empty());
     }

@@ -551,8 +551,8 @@ mod tests {
                 let length = 1e-3 / (f64::from(across) / columns).hypot(f64::from(along) / rows);
                 let found = clouds.variance(0.6 * length, 1.8 * length).mean / POWER;
                 assert!((found - 1.0).abs() < within, "{size:?} {closed:?} {across} {along}: {found}");
-                let beside = clouds.variance(1.8 * length, 4.0 * length).mean / POWER;
-                assert!(beside < within, "{size:?} {closed:?} {across} {along}: {beside}");
+                let next = clouds.variance(1.8 * length, 4.0 * length).mean / POWER;
+                assert!(next < within, "{size:?} {closed:?} {across} {along}: {next}");
             }
         }
     }

@@ -581,11 +581,12 @@ mod tests {
         ];
         let square = fine + coefficient * (all - common);
         let found = levels.variances().unwrap();
-        let known = 1.0 + (all - common).powi(2) / (of_all.variance * of_coefficient);
+        let of_both = 1.0 + (all - common).powi(2) / (of_all.variance * of_coefficient);
         let by_area = coefficient * coefficient * of_all.of_mean();
         // A fifth, two fifths and two fifths of the area: their squares are 9/25, and the mean of halves is 0.02.
         let by_pitch = (0.04_f64.powi(2) + 2.0 * 0.02_f64.powi(2) + 2.0 * 0.05_f64.powi(2)) / 5.0 * 0.36;
-        let expected = [left * known / (4.0 * square * square), by_area / (4.0 * square * square), by_pitch];
+        let expected =
+            [left * of_both / (4.0 * square * square), by_area / (4.0 * square * square), by_pitch];
         for (found, expected) in [found.by_pairs, found.by_area, found.by_pitch].into_iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
         }

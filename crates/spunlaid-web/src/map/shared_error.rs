@@ -193,24 +193,25 @@ mod tests {
         assert_eq!(SharedError::of(&one, &[0; 4]), None);
     }
 
-    /// A variance by neighbours and one by places, by hand: filaments of ±4 or ±8 in all stretches, one or two of a
-    /// group, with twice their length besides; theory.md (72a).
+    /// A variance by neighbours and one by positions, by hand: filaments of ±4 or ±8 in all stretches, one or two of a
+    /// group, plus twice their length; theory.md (72a).
     #[test]
-    fn analytic_the_error_of_filaments_in_one_air_by_hand() {
-        let parts = |places: &[f64], along: &[f64], lengths: &[f64]| -> Vec<Vec<Part>> {
-            let part = |place: f64, (along, length): (&f64, &f64)| Part {
-                value: 5.0 + place * along + 2.0 * length,
+    fn analytic_the_error_of_filaments_in_shared_turbulence_by_hand() {
+        let parts = |positions: &[f64], along: &[f64], lengths: &[f64]| -> Vec<Vec<Part>> {
+            let part = |position: f64, (along, length): (&f64, &f64)| Part {
+                value: 5.0 + position * along + 2.0 * length,
                 length: 3.0 + length,
             };
-            let of = |place: &f64| along.iter().zip(lengths).map(|both| part(*place, both)).collect();
-            places.iter().map(of).collect()
+            let of = |position: &f64| along.iter().zip(lengths).map(|both| part(*position, both)).collect();
+            positions.iter().map(of).collect()
         };
         let (four, alike) = ([4.0, 4.0, -4.0, -4.0], [1.0; 3]);
         let check =
-            |parts: Vec<Vec<Part>>, groups: &[usize], by_chance: f64, degrees: f64, by_places: f64| {
-                let variance: f64 = by_chance + by_places;
+            |parts: Vec<Vec<Part>>, groups: &[usize], by_neighbours: f64, degrees: f64, by_positions: f64| {
+                let variance: f64 = by_neighbours + by_positions;
                 let expected = variance * variance
-                    / (by_chance * by_chance / degrees + by_places * by_places / (parts.len() as f64 - 1.0));
+                    / (by_neighbours * by_neighbours / degrees
+                        + by_positions * by_positions / (parts.len() as f64 - 1.0));
                 let found = SharedError::of(&parts, groups);
                 assert!((found.standard_error / variance.sqrt() - 1.0).abs() < 1e-12, "{found:?} {variance}");
                 assert!((found.degrees / expected - 1.0).abs() < 1e-12, "{found:?} {expected}");
@@ -224,18 +225,18 @@ mod tests {
             64.0 / 12.0 - 2.0,
             0.0,
         );
-        // Twelve cells of ±1: weights of 40, squares of 24, products of 20. A place has 9 − 3 − 2 of each filament.
-        let (chance, places) = (20.0 * 12.0 / (12.0 - 40.0 / 12.0), 4.0 * 4.0 * 4.0 / 3.0);
-        check(parts(&four, &alike, &[0.0; 3]), &[0, 1, 2, 3], chance, 4.0, places);
+        // Twelve cells of ±1: weights of 40, squares of 24, products of 20. A position has 9 − 3 − 2 of each filament.
+        let (near, own) = (20.0 * 12.0 / (12.0 - 40.0 / 12.0), 4.0 * 4.0 * 4.0 / 3.0);
+        check(parts(&four, &alike, &[0.0; 3]), &[0, 1, 2, 3], near, 4.0, own);
         // Neighbours that differ have no variance by neighbours.
-        check(parts(&[4.0, -4.0, 4.0, -4.0], &alike, &[0.0; 3]), &[0, 1, 2, 3], 0.0, 4.0, places);
-        // Two filaments of each group make the same cells, and a quarter of a place each.
-        let twice: Vec<f64> = four.iter().flat_map(|place| [*place; 2]).collect();
-        check(parts(&twice, &alike, &[0.0; 3]), &[0, 0, 1, 1, 2, 2, 3, 3], chance, 4.0, 8.0 * 8.0 / 7.0);
+        check(parts(&[4.0, -4.0, 4.0, -4.0], &alike, &[0.0; 3]), &[0, 1, 2, 3], 0.0, 4.0, own);
+        // Two filaments of each group make the same cells, and a quarter of a position each.
+        let twice: Vec<f64> = four.iter().flat_map(|position| [*position; 2]).collect();
+        check(parts(&twice, &alike, &[0.0; 3]), &[0, 0, 1, 1, 2, 2, 3, 3], near, 4.0, 8.0 * 8.0 / 7.0);
         // The line over the length takes one of the twelve cells.
-        let chance = 20.0 * 12.0 / (12.0 - 40.0 / 12.0 - 1.0);
-        check(parts(&four, &alike, &[4.0, -4.0, 0.0]), &[0, 1, 2, 3], chance, 4.0, places);
-        // What turns from stretch to stretch has less than no place: −1 of each, of which half the chance counts.
+        let near = 20.0 * 12.0 / (12.0 - 40.0 / 12.0 - 1.0);
+        check(parts(&four, &alike, &[4.0, -4.0, 0.0]), &[0, 1, 2, 3], near, 4.0, own);
+        // What turns from stretch to stretch has a negative variance by positions, −1 of each, of which half of that by neighbours counts.
         check(parts(&four, &[1.0, -1.0], &[0.0; 2]), &[0, 1, 2, 3], 6.4, 64.0 / 15.0 - 2.0, -3.2);
     }
 }
