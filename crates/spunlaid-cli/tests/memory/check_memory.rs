@@ -46,6 +46,7 @@ fn check_reports_the_memory_of_a_run() {
 
 /// Tables and shapes go to files while fibres fly, and what observers keep of the instants is bounded.
 #[test]
+#[ignore = "slow: runs of many instants"]
 fn memory_of_a_run_does_not_grow_with_its_duration_or_its_recorded_instants() {
     let _alone = crate::alone();
     let desk = Desk::new();

@@ -53,6 +53,7 @@ fn peak(points: u64, replicates: u64) -> Peak {
 }
 
 #[test]
+#[ignore = "slow: studies of many fibres"]
 fn memory_is_flat() {
     let _alone = crate::alone();
     // A peak wanders by 1 MiB with what happens to be made side by side, and a look may miss the last moments of a

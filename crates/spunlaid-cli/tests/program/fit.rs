@@ -131,6 +131,7 @@ fn another_question_does_not_go_on_in_the_folder_of_the_first() {
 
 /// The strips at the edges of a cut web are no web, and known noise of the camera is not CV.
 #[test]
+#[ignore = "slow: three fits"]
 fn what_is_compared_is_the_web_without_edges_and_noise() {
     let desk = desk();
     let numbers = |to: &str| -> Vec<(f64, f64)> {

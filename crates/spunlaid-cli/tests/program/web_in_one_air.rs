@@ -91,6 +91,7 @@ fn a_web_in_one_air_reports_what_independent_turbulence_would_give() {
 /// A web of twelve hundred filaments, larger than the sheet that a few of them lay: that sheet is cut into
 /// pieces, which make the web.
 #[test]
+#[ignore = "slow: a web of all filaments in shared turbulence"]
 fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
     let case = FED
         .replace("speed = \"3 m/s\"", "speed = \"10 m/s\"")

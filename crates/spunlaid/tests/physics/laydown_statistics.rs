@@ -132,7 +132,6 @@ fn a_hundred_fibres_stay_finite() {
 }
 
 #[test]
-#[ignore = "slow: a hundred fibres"]
 fn a_hundred_fibres_stay_finite_at_twice_the_intensity() {
     fly_a_hundred("20 %");
 }

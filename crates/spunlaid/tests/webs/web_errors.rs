@@ -73,7 +73,6 @@ fn hold(what: &str, found: &[(f64, f64)]) {
 }
 
 #[test]
-#[ignore = "slow: eighty webs of each kind"]
 fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
     for (name, filaments) in [
         ("random places", Filaments::AtRandom { per_metre: 800.0 }),
