@@ -120,8 +120,8 @@ pub fn scan(data: &[u8]) -> bool {
                 if picture.values.len() > PIXELS {
                     continue;
                 }
-                let (transmitted, weight) =
-                    (Light::Transmitted { mean: None, white: None }, Light::Weight { mean: None });
+                let transmitted = Light::Transmitted { mean: None, white: None };
+                let weight = Light::Weight { mean: None };
                 for light in [transmitted, weight] {
                     match scan::analyse(&picture, &scan::Settings::new(light)) {
                         Ok(found) => {

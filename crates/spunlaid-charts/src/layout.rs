@@ -58,8 +58,8 @@ impl Plot {
         let least = width_of(&chart.y.label, LABEL) + 4.0;
         let bottom = top + if share == 1.0 { own } else { (own * share).max(least) };
         if chart.equal {
-            let (per_x, per_y) =
-                ((x.ends.1 - x.ends.0) / (right - left), (y.ends.1 - y.ends.0) / (bottom - top));
+            let per_x = (x.ends.1 - x.ends.0) / (right - left);
+            let per_y = (y.ends.1 - y.ends.0) / (bottom - top);
             let per = per_x.max(per_y);
             x = Scale::between(Spacing::Linear, widened(x.ends, per * (right - left)), count(6.0));
             y = Scale::between(Spacing::Linear, widened(y.ends, per * (bottom - top)), count(6.0));

@@ -92,7 +92,8 @@ impl Map {
         let at = |share: f64| bottom - share * (bottom - top);
         let (l, r) = (left + 14.0, left + 28.0);
         for level in 0..LEVELS {
-            let (b, t) = (at(level as f64 / LEVELS as f64), at((level + 1) as f64 / LEVELS as f64));
+            let b = at(level as f64 / LEVELS as f64);
+            let t = at((level + 1) as f64 / LEVELS as f64);
             picture.rectangles(&[((l, b), (r, t))], self.shades.colour(level));
         }
         let stroke = Stroke::solid(INK, 0.9);

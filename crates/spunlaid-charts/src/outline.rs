@@ -152,7 +152,8 @@ mod tests {
                 tiny_skia::PathSegment::CubicTo(a, b, to) => {
                     // The middle of the curve.
                     let middle = |from, a, b, to| 0.125 * (from + 3.0 * (a + b) + to);
-                    let (x, y) = (middle(from.0, a.x, b.x, to.x), middle(from.1, a.y, b.y, to.y));
+                    let x = middle(from.0, a.x, b.x, to.x);
+                    let y = middle(from.1, a.y, b.y, to.y);
                     assert!(((x - 3.0_f32).hypot(y + 2.0) - 10.0).abs() < 1e-4, "{x} {y}");
                     from = (to.x, to.y);
                 }

@@ -212,7 +212,8 @@ fn picture(bars: &[Bar], cores: usize, end: f64) -> String {
     }
     let _ = write!(svg, "<text x='20' y='{below}'>{cores} cores, one above another, for {end:.1} s</text>");
     for (number, name) in names.iter().map(|name| Some(*name)).chain([None]).enumerate() {
-        let (y, label) = (below + 20.0 * (number + 1) as f64, name.map_or("alone".to_owned(), short));
+        let y = below + 20.0 * (number + 1) as f64;
+        let label = name.map_or("alone".to_owned(), short);
         let _ = write!(
             svg,
             "<rect x='20' y='{}' width='12' height='12' fill='{}'/><text x='40' y='{y}'>{label}</text>",

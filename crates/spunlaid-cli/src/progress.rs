@@ -34,7 +34,8 @@ pub(crate) fn follow_state<T>(
     if quiet {
         return work();
     }
-    let (bar, begun) = (bar(1, "[{bar:20}] {percent:>3} %  {msg}", quiet), Instant::now());
+    let bar = bar(1, "[{bar:20}] {percent:>3} %  {msg}", quiet);
+    let begun = Instant::now();
     let (is_hidden, mut next) = (bar.is_hidden(), BETWEEN_LINES);
     let show = || {
         if is_hidden && begun.elapsed() < next {

@@ -101,7 +101,8 @@ pub struct Implausible {
 impl Implausible {
     /// How far it is outside, as a factor above 1.
     fn excess(&self) -> f64 {
-        let ([least, greatest], value) = (self.limit.range, self.value / self.limit.unit.1);
+        let [least, greatest] = self.limit.range;
+        let value = self.value / self.limit.unit.1;
         (least / value).max(value / greatest)
     }
 

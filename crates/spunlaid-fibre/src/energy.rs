@@ -120,13 +120,15 @@ impl Task for StateEnergy<'_> {
             let fallen = Wide::load(&position.x) - Wide::load(&start.x);
             gravity_work = Wide::load(&node.weight).mul_add(fallen, gravity_work);
         }
-        let (mut axial, mut bending, mut strain) = (Wide::zero(), Wide::zero(), Wide::zero());
+        let mut axial = Wide::zero();
+        let mut bending = Wide::zero();
+        let mut strain = Wide::zero();
         let mut above = Vec3::load(&c.root_direction);
         for (j, pair) in self.position.windows(2).enumerate() {
             let element = Element::<S>::between(Vec3::load(&pair[0]), Vec3::load(&pair[1]));
             let properties = &c.element;
-            let (rest_length, mut stiffness) =
-                (Wide::load(&properties.rest_length), Wide::load(c.bending_stiffness(j)));
+            let rest_length = Wide::load(&properties.rest_length);
+            let mut stiffness = Wide::load(c.bending_stiffness(j));
             let mut stretch = element.length - rest_length;
             if j > 0 && c.may_be_held(j, nodes) {
                 // Nodes that have left the chain have no mass, and their elements do not count.

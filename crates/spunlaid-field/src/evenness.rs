@@ -22,7 +22,9 @@ impl Field {
     fn compare_points(&self) -> [f64; 3] {
         let points = self.some_points();
         let partner = |i: usize| points[(((i + 1) as f64 * GOLDEN).fract() * points.len() as f64) as usize];
-        let (mut hint, mut squares, mut counts) = (Hint::default(), [0.0_f64; 3], [0.0; 3]);
+        let mut hint = Hint::default();
+        let mut squares = [0.0_f64; 3];
+        let mut counts = [0.0; 3];
         for (i, at) in points.iter().enumerate() {
             let (here, other) = (self.sample(vector(*at), &mut hint), partner(i));
             for axis in 0..3 {

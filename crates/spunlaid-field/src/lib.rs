@@ -294,7 +294,10 @@ impl Field {
     fn new(support: Support, values: &Values) -> Self {
         let bricks = OctreeCache::new(support.bounds());
         let (sources, layout) = (Vec::new(), FieldLayout::default());
-        let (turbulence, lacks, holes, measured_coordinate) = (values.has_turbulence(), None, None, None);
+        let turbulence = values.has_turbulence();
+        let lacks = None;
+        let holes = None;
+        let measured_coordinate = None;
         let changes = OnceLock::new();
         Self { support, turbulence, bricks, lacks, sources, layout, holes, measured_coordinate, changes }
     }

@@ -107,7 +107,8 @@ impl InverseTransform {
                 let lower = &data[stride * (p + half)..][..stride];
                 let (even, odd) = scratch[2 * stride * p..][..2 * stride].split_at_mut(stride);
                 for q in 0..stride {
-                    let (a, b) = (WideComplex::<S>::load(&upper[q]), WideComplex::load(&lower[q]));
+                    let a = WideComplex::<S>::load(&upper[q]);
+                    let b = WideComplex::load(&lower[q]);
                     even[q] = WideComplex { re: a.re + b.re, im: a.im + b.im }.store();
                     odd[q] = WideComplex { re: a.re - b.re, im: a.im - b.im }.times(root).store();
                 }

@@ -282,7 +282,9 @@ fn scan(file: &File, start: u64) -> io::Result<(Places, u64, u64, bool)> {
         let mut bytes = vec![0; HEAD * BYTES];
         reader.read_exact(&mut bytes)?;
         let word = |i: usize| u64::from_le_bytes(std::array::from_fn(|byte| bytes[i * BYTES + byte]));
-        let (mark, count, key) = (word(0), word(1), [word(2), word(3)]);
+        let mark = word(0);
+        let count = word(1);
+        let key = [word(2), word(3)];
         let room = (length - at - frame) / BYTES as u64;
         let mut back = (HEAD - 1) * BYTES;
         // A whole record that ends the file is no torn one.

@@ -94,7 +94,8 @@ impl OpenCase {
         let (fibre, length_scale) = (&mut case.fibre, case.air.length_scale);
         if let Some(element_length) = divide(fibre, written_length, length_scale) {
             let (elements, rest_length) = (fibre.elements, fibre.rest_length());
-            let (rest_length, are_used) = (Dimension::Length.pretty(rest_length), are_used(elements as u64));
+            let rest_length = Dimension::Length.pretty(rest_length);
+            let are_used = are_used(elements as u64);
             let text = format!(
                 "does not divide fibre.length into whole elements: {elements} of {rest_length} {are_used}"
             );
@@ -141,7 +142,8 @@ impl OpenCase {
 
     /// Divides the duration into whole steps.
     fn count_steps(&mut self) -> Result<(), Error> {
-        let (duration, time_step) = (self.number_of("run.duration"), self.case.run.time_step);
+        let duration = self.number_of("run.duration");
+        let time_step = self.case.run.time_step;
         let steps = (duration / time_step).ceil().max(1.0);
         if steps > MOST_STEPS as f64 {
             let fault = too_many_steps(steps, time_step);
@@ -162,7 +164,8 @@ impl OpenCase {
             let run = &mut self.case.run;
             // Round up: a shorter step keeps every limit that the written step keeps.
             (run.steps, run.time_step) = (steps as u64, duration / steps);
-            let (used, are_used) = (Dimension::Time.pretty_to(run.time_step, 8), are_used(run.steps));
+            let used = Dimension::Time.pretty_to(run.time_step, 8);
+            let are_used = are_used(run.steps);
             let text =
                 format!("does not divide run.duration into whole steps: {} of {used} {are_used}", run.steps);
             if self.is_written("run.time_step") {
@@ -247,7 +250,8 @@ fn feed_in_whole_steps(case: &mut Case, duration: f64) -> Option<Diagnostic> {
     let keeps = (whole / step - 1.0).abs() < 1e-9 || step > 0.5 * lifetime;
     case.run.time_step = if keeps { step } else { whole };
     case.run.steps = whole_parts(duration, case.run.time_step).0.max(1);
-    let (steps, used) = (line.steps_per_element, Dimension::Time.pretty_to(case.run.time_step, 8));
+    let steps = line.steps_per_element;
+    let used = Dimension::Time.pretty_to(case.run.time_step, 8);
     (!keeps).then(|| {
         Diagnostic::note(format!(
             "does not divide the time in which an element is fed into whole steps: {steps} of {used} are used for each"

@@ -68,7 +68,9 @@ pub(super) fn open<'a, T>(
     let root = root(&source, text)?;
     check_kind(keys, &root, &source)?;
     let layered = keys.lists.iter().any(|list| root.contains_key(list.name));
-    let (name, faults, named) = (name.to_owned(), BTreeMap::new(), Vec::new());
+    let name = name.to_owned();
+    let faults = BTreeMap::new();
+    let named = Vec::new();
     let mut document = Document { keys, name, source, version: None, key_values, faults, named, layered };
     document.take_table("", "", root, None);
     overrides.iter().for_each(|set| document.take_overrides(set));

@@ -31,7 +31,8 @@ impl<'a, T> Document<'a, T> {
                 Vec::new()
             });
             for Target { before, table, name } in targets {
-                let (full, path) = (format!("{before}{name}"), format!("{table}.{name}"));
+                let full = format!("{before}{name}");
+                let path = format!("{table}.{name}");
                 let is_known = self.keys.find(&path).is_some() || self.keys.list(&path).is_some();
                 if is_known && text.trim().trim_matches('"') == AUTO {
                     self.key_values.remove(&full);
@@ -69,7 +70,9 @@ impl<'a, T> Document<'a, T> {
     /// # Errors
     /// If it is of an entry of a list that is not there.
     fn target(&self, key: &str) -> Result<Target, Fault> {
-        let (mut before, mut table, mut rest) = (String::new(), "", key);
+        let mut before = String::new();
+        let mut table = "";
+        let mut rest = key;
         while let Some((name, after)) = rest.split_once('.') {
             let path = if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") };
             if let Some(list) = self.keys.list(&path) {

@@ -145,7 +145,10 @@ impl OpenCase {
     /// # Errors
     /// Every reason why the case cannot be run, a fibre that is lost, and a stop.
     fn find_tension(&self, by: RunContext<'_>) -> Result<Option<FlownTension>, Error> {
-        let (mut open, mut speed, mut tension, mut steps) = (self.clone(), f64::NAN, 0.0, 0);
+        let mut open = self.clone();
+        let mut speed = f64::NAN;
+        let mut tension = 0.0;
+        let mut steps = 0;
         for _ in 0..MOST_ROUNDS {
             let (case, _) = open.clone().resolve_at_once()?;
             let Some(line) = case.line else { break };

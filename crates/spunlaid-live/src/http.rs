@@ -167,7 +167,9 @@ pub(super) fn answer(stream: &mut TcpStream, response: &Response, headers: &[(&s
 
 /// Waits for a short while until the client has closed the connection as well.
 fn say_farewell(stream: &mut TcpStream) {
-    let (end, mut left, mut piece) = (Instant::now() + FAREWELL, LEFTOVER, [0; 4096]);
+    let end = Instant::now() + FAREWELL;
+    let mut left = LEFTOVER;
+    let mut piece = [0; 4096];
     while left > 0 && Instant::now() < end && stream.set_read_timeout(Some(FAREWELL)).is_ok() {
         match stream.read(&mut piece) {
             Ok(count) if count > 0 => left = left.saturating_sub(count),

@@ -140,7 +140,8 @@ impl Computed {
         let count = kept.first().map_or(0, |trajectory| trajectory.shapes.len());
         let nodes = kept.iter().map(|trajectory| trajectory.shapes.most_nodes()).max().unwrap_or(0);
         let (times, flat) = guarded(py, || {
-            let (mut times, mut flat) = (Vec::new(), Vec::with_capacity(kept.len() * count * nodes * 3));
+            let mut times = Vec::new();
+            let mut flat = Vec::with_capacity(kept.len() * count * nodes * 3);
             for shape in kept.iter().flat_map(|trajectory| trajectory.shapes.iter()) {
                 let shape = shape?;
                 times.push(shape.time);

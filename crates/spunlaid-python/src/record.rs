@@ -67,7 +67,8 @@ pub(crate) fn analyse<'py>(
     })?;
     analysis.warnings.iter().try_for_each(|text| warn(py, &text.to_string()))?;
     let curves = |component: &Component| {
-        let (density, coefficients) = (&component.spectrum.density, &component.autocorrelation.coefficients);
+        let density = &component.spectrum.density;
+        let coefficients = &component.autocorrelation.coefficients;
         let frequencies = (0..density.len()).map(|i| component.spectrum.frequency(i));
         let lags = (0..coefficients.len()).map(|i| i as f64 * analysis.interval);
         let [frequencies, lags] = [frequencies.collect(), lags.collect()].map(|x| PyArray1::from_vec(py, x));

@@ -115,7 +115,9 @@ impl Study {
     /// Flies all missing fibres on this machine.
     #[pyo3(signature = (threads = None, progress = None))]
     fn fly(&self, py: Python<'_>, threads: Option<usize>, progress: Option<Py<PyAny>>) -> PyResult<()> {
-        let (watch, counters, steps) = (Watch::default(), Progress::default(), AtomicU64::new(0));
+        let watch = Watch::default();
+        let counters = Progress::default();
+        let steps = AtomicU64::new(0);
         let computing = RunContext { done: &steps, ..watch.control(threads) };
         // Progress is counted in fibres, as it is on a cluster.
         let look = || {
@@ -310,7 +312,8 @@ impl Study {
             let explained = ranking.explained.unwrap_or(f64::NAN);
             for effect in &ranking.effects {
                 let (of, by) = (&effect.of, &effect.difference);
-                let (factor, half_width) = (&study.factors[of.factor].key.name, by.known_half_width());
+                let factor = &study.factors[of.factor].key.name;
+                let half_width = by.known_half_width();
                 let error = half_width.map(|_| by.standard_error);
                 let row = (measure, factor, of.from, of.to, by.value, error, half_width, explained);
                 all.push(row.into_pyobject(py)?);

@@ -63,7 +63,8 @@ pub(crate) fn watched<T: Send>(
     let (finished, changed) = (Mutex::new(false), Condvar::new());
     let report_progress = |py: Python<'_>| match progress {
         Some(progress) => {
-            let (done, total) = (watch.done.load(Ordering::Relaxed), watch.total.load(Ordering::Relaxed));
+            let done = watch.done.load(Ordering::Relaxed);
+            let total = watch.total.load(Ordering::Relaxed);
             progress.call1(py, (done.min(total), total)).map(drop)
         }
         None => Ok(()),

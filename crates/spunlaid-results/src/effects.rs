@@ -11,7 +11,8 @@ pub(crate) const PER_CENT: f64 = 100.0;
 
 /// `−10.6 ± 0.7`, or `+3.2 ± 1.3`: a difference with its standard error, both times a factor.
 pub(crate) fn difference_text(difference: &Difference, factor: f64) -> String {
-    let (value, error) = (factor * difference.value, Some(factor * difference.standard_error));
+    let value = factor * difference.value;
+    let error = Some(factor * difference.standard_error);
     let is_above = value > 0.0 && rounded(value, error).0.contains(|c| ('1'..='9').contains(&c));
     format!("{}{}", if is_above { "+" } else { "" }, plus_minus(value, error))
 }

@@ -76,7 +76,8 @@ pub fn number_to(value: f64, digits: i32) -> String {
     // The exponent is read after rounding: 9.999e17 is 1 × 10¹⁸.
     let text = format!("{value:.*e}", (digits - 1).max(0) as usize);
     let (mantissa, magnitude) = text.split_once('e').unwrap_or((&text, "0"));
-    let (mantissa, magnitude) = (mantissa.parse().unwrap_or(value), magnitude.parse().unwrap_or(0));
+    let mantissa = mantissa.parse().unwrap_or(value);
+    let magnitude = magnitude.parse().unwrap_or(0);
     if (-3..6).contains(&magnitude) {
         return significant(value, digits);
     }

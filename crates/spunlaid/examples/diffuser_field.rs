@@ -55,8 +55,8 @@ fn wide() -> Diffuser {
 }
 
 fn spunbond() -> Diffuser {
-    let (velocity, turbulence) =
-        (60.0 / IN_THE_MIDDLE, Turbulence::FromBefore { intensity: 0.1, length: 0.016 });
+    let velocity = 60.0 / IN_THE_MIDDLE;
+    let turbulence = Turbulence::FromBefore { intensity: 0.1, length: 0.016 };
     Diffuser { length: 0.5, half_height: 0.015, half_width: 0.1, slope: 0.15, velocity, turbulence }
 }
 
@@ -102,7 +102,9 @@ fn rows(diffuser: &Diffuser, [nx, ny, nz]: [usize; 3]) -> Vec<([f64; 3], [f64; 5
     for k in 0..nz {
         for j in 0..ny {
             for i in 0..nx {
-                let (x, eta, zeta) = (diffuser.length * share(i, nx), across(j, ny), across(k, nz));
+                let x = diffuser.length * share(i, nx);
+                let eta = across(j, ny);
+                let zeta = across(k, nz);
                 let place = [x, eta * diffuser.half_height_at(x), zeta * diffuser.half_width];
                 points.push((place, diffuser.air(x, eta, zeta)));
             }

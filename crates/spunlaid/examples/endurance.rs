@@ -106,7 +106,8 @@ impl Random {
     }
 
     fn drag(&mut self) -> String {
-        let (across, along) = (self.of(&["marheineke-wegener", "ju-shambaugh"]), self.evenly(0.3, 1.0));
+        let across = self.of(&["marheineke-wegener", "ju-shambaugh"]);
+        let along = self.evenly(0.3, 1.0);
         format!("[drag]\nacross = \"{across}\"\nfriction_coefficient = {along}\n")
     }
 

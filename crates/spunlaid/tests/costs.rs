@@ -157,7 +157,9 @@ fn frozen_memory_of_a_flight() {
             memory_of(new).1.kept
         };
         // Linear in the number of nodes, whatever their number.
-        let (a, b, c) = (kept(20), kept(2_000), kept(20_000));
+        let a = kept(20);
+        let b = kept(2_000);
+        let c = kept(20_000);
         assert_eq!((b - a) / 1_980, bytes_per_node, "{}", scheme.name());
         assert_eq!((c - b) / 18_000, bytes_per_node, "{}", scheme.name());
     }
@@ -196,8 +198,8 @@ fn memory_of_flights_is_what_they_keep_and_their_turbulence() {
         let turbulence = Wind::memory(&case.air, 20, duration);
         (flights, memory, turbulence as i64)
     };
-    let ((short, short_memory, short_turbulence), (long, long_memory, long_turbulence)) =
-        (simulated(0.2), simulated(2.0));
+    let (short, short_memory, short_turbulence) = simulated(0.2);
+    let (long, long_memory, long_turbulence) = simulated(2.0);
     let [short_bytes, long_bytes] = [&short, &long].map(|flights| flights.iter().map(bytes_of).sum::<i64>());
     // Ten times the records; the nodes stay.
     assert!(long_bytes > 8 * short_bytes, "{short_bytes} and {long_bytes} bytes");
@@ -381,7 +383,8 @@ fn limit_a_field_of_eddies_takes_the_memory_that_is_reported_before() {
                     field.make(from..from + field.block(), 1);
                 }
             });
-            let (found, estimated) = (memory.peak as f64, EddyField::memory(1, &air, 0.5, extent, cutoff));
+            let found = memory.peak as f64;
+            let estimated = EddyField::memory(1, &air, 0.5, extent, cutoff);
             assert!((0.75 * estimated..estimated).contains(&found), "{what}: {found} of {estimated}");
         }
     }

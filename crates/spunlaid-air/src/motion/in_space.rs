@@ -57,7 +57,9 @@ impl WayFlow {
     fn at(&self, x: f64) -> [f64; 3] {
         let place = (x * self.per_length).clamp(0.0, PIECES as f64);
         let piece = (place as usize).min(PIECES - 1);
-        let (start, end, share) = (&self.ends[piece], &self.ends[piece + 1], place - piece as f64);
+        let start = &self.ends[piece];
+        let end = &self.ends[piece + 1];
+        let share = place - piece as f64;
         [0, 1, 2].map(|i| start[i] + share * (end[i] - start[i]))
     }
 }

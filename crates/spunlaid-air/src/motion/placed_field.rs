@@ -178,7 +178,9 @@ impl PlacedField {
         let (low, high) = self.field.bounds();
         let [a, b] = [low, high].map(|corner| self.in_fibre_frame(corner * self.unit));
         let least = |a: f64, b: f64| (a.min(b), a.max(b));
-        let ((x0, x1), (y0, y1), (z0, z1)) = (least(a.x, b.x), least(a.y, b.y), least(a.z, b.z));
+        let (x0, x1) = least(a.x, b.x);
+        let (y0, y1) = least(a.y, b.y);
+        let (z0, z1) = least(a.z, b.z);
         (Vec3::new(x0, y0, z0), Vec3::new(x1, y1, z1))
     }
 
@@ -212,7 +214,9 @@ mod tests {
 
     #[test]
     fn identical_after_turning_there_and_back_and_right_handed() {
-        let (x, y, z) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0), Vec3::new(0.0, 0.0, 1.0));
+        let x = Vec3::new(1.0, 0.0, 0.0);
+        let y = Vec3::new(0.0, 1.0, 0.0);
+        let z = Vec3::new(0.0, 0.0, 1.0);
         let names = ["x", "y", "z", "-x", "-y", "-z"];
         assert_eq!(Axis::ALL.map(Axis::name), names);
         let across = |axis: Axis| Axis::ALL.into_iter().filter(move |other| other.index != axis.index);

@@ -155,7 +155,8 @@ impl Stations {
         }
         let (half, one) = (Wide::<S>::splat(0.5), Wide::splat(1.0));
         let (each, field, per_step) = self.elements.look_up::<S>(position);
-        let (per_length, last) = (Wide::load(&self.per_length), (self.way.stations - 1) as f64);
+        let per_length = Wide::load(&self.per_length);
+        let last = (self.way.stations - 1) as f64;
         let (end, before_end) = (Wide::splat(last), Wide::splat(last - 1.0));
         for (j, (ends, here)) in position.windows(2).zip(each).enumerate() {
             let centre = (Wide::<S>::load(&ends[0].x) + Wide::load(&ends[1].x)) * half;

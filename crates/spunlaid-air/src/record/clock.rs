@@ -82,7 +82,9 @@ fn usual_step<I: Iterator<Item = (usize, f64)>>(known: impl Fn() -> I) -> Option
 ///
 /// * `slack` – how much rounding may change a step [s]
 fn by_steps(known: impl Iterator<Item = (usize, f64)>, usual: f64, slack: f64) -> Result<Spacing, Trouble> {
-    let (mut ends, mut lost, mut jitter) = (None, Vec::new(), 0.0f64);
+    let mut ends = None;
+    let mut lost = Vec::new();
+    let mut jitter = 0.0f64;
     let bound = JITTER * usual + slack;
     let mut before: Option<(usize, f64)> = None;
     for (row, time) in known {

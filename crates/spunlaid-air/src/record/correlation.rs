@@ -39,7 +39,8 @@ impl IntegralRule {
     fn limit(self, coefficients: &[f64], interval: f64) -> Option<f64> {
         let falls_to = |level: f64| {
             let at = coefficients.iter().position(|c| *c <= level)?;
-            let (above, below) = (coefficients.get(at.checked_sub(1)?)?, coefficients.get(at)?);
+            let above = coefficients.get(at.checked_sub(1)?)?;
+            let below = coefficients.get(at)?;
             Some((at - 1) as f64 + (above - level) / (above - below))
         };
         let limit = match self {

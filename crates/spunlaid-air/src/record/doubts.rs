@@ -112,7 +112,8 @@ pub(super) fn warnings(
     for component in analysis.components.iter().skip(1).filter(|_| analysis.has_mean()) {
         let slope = component.mean.value.abs() / analysis.mean_velocity.value.abs();
         if slope > 0.05 {
-            let (name, angle) = (&component.name, number(libm::atan(slope).to_degrees()));
+            let name = &component.name;
+            let angle = number(libm::atan(slope).to_degrees());
             let message = format!("{name}: the mean flow is inclined by {angle}° in this direction");
             warnings.push(Fault::new(message, "is the probe aligned?"));
         }

@@ -211,7 +211,8 @@ fn strip(points: &[(usize, f64)], grid: f64) -> (f64, f64) {
         high - low
     };
     // The height is convex in the slope.
-    let (mut from, mut to) = (middle - 2.0 * grid / samples, middle + 2.0 * grid / samples);
+    let mut from = middle - 2.0 * grid / samples;
+    let mut to = middle + 2.0 * grid / samples;
     for _ in 0..24 {
         let third = (to - from) / 3.0;
         if height(from + third) < height(to - third) { to -= third } else { from += third }

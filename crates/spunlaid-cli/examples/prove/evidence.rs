@@ -124,7 +124,8 @@ impl Claims {
         /// Shares of wrong claims.
         const SHARES: [f64; 4] = [0.2, 0.4, 0.7, 0.99];
         let usual = 0.05 * Self::TOLERANCE;
-        let (wrong, right) = (self.false_ones as f64, (self.all - self.false_ones) as f64);
+        let wrong = self.false_ones as f64;
+        let right = (self.all - self.false_ones) as f64;
         let likelihood =
             |share: f64| (wrong * (share / usual).ln() + right * ((1.0 - share) / (1.0 - usual)).ln()).exp();
         SHARES.map(likelihood).iter().sum::<f64>() / SHARES.len() as f64 > REPORTED

@@ -91,7 +91,9 @@ fn main() {
     assert!(!search.bases.is_empty(), "the bases are {:?}", BASES.map(|base| base.name));
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = number("--threads").map_or(threads, |threads| threads as usize);
-    let (found, next, begun) = (Mutex::default(), AtomicU64::new(0), Instant::now());
+    let found = Mutex::default();
+    let next = AtomicU64::new(0);
+    let begun = Instant::now();
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {

@@ -28,7 +28,9 @@ fn main() {
     let is_asked = |name: &str| words.iter().any(|word| word == name);
     let word_after = |name: &str| Some(&words[words.iter().position(|word| word == name)? + 1]);
     let number = |name: &str, or: u64| word_after(name).map_or(or, |word| word.parse().expect("a number"));
-    let (lines, seeds, seed) = (number("--lines", 6), number("--seeds", 24), number("--seed", 1));
+    let lines = number("--lines", 6);
+    let seeds = number("--seeds", 24);
+    let seed = number("--seed", 1);
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     let threads = number("--threads", threads) as usize;
     let family = if is_asked("--shared") { Family::Shared } else { Family::Known };

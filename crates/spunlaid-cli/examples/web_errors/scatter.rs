@@ -75,7 +75,8 @@ pub fn differences(line: usize, pairs: &[[Numbers; 2]]) -> Vec<(String, Scatter)
     scatters(line, pairs, pairs.iter().flat_map(|[few, _]| few.keys()), |name| {
         let off = |[few, all]: &[Numbers; 2]| {
             let (few, all) = (few.get(name)?, all.get(name)?);
-            let (off, error) = (few.value - all.value, few.of_sample.unwrap_or(few.error));
+            let off = few.value - all.value;
+            let error = few.of_sample.unwrap_or(few.error);
             Some((off, error, off.abs() <= NORMAL_95 * error))
         };
         let all: Vec<Off> = pairs.iter().filter_map(off).collect();

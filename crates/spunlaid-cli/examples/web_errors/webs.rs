@@ -19,7 +19,9 @@ pub fn numbers_of(web: &WebFile, seed: u64, simulated: &str) -> Result<Numbers, 
     let set = [("web.seed", seed.to_string()), ("web.simulated", simulated.to_owned())];
     let set = set.map(|(key, value)| (key.to_owned(), value));
     let file = read_web((&*web.text, "web.toml"), &set[..])?;
-    let (stop, laid, started) = (AtomicBool::new(false), AtomicU64::new(0), Instant::now());
+    let stop = AtomicBool::new(false);
+    let laid = AtomicU64::new(0);
+    let started = Instant::now();
     let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &laid };
     let mut simulated = Flyer::new(1, &stop, &|_, work| work()).web(&file.spec)?;
     let findings = simulated.find(by)?;

@@ -13,13 +13,16 @@ use spunlaid_results::reports::fit::{self, FitInput, FoundFit, pretty};
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn fit(arguments: &args::Fit, invocation: &Invocation) -> Result<(), Failure> {
-    let (set, threads, output) = (overrides(&arguments.set), arguments.threads, &arguments.output);
+    let set = overrides(&arguments.set);
+    let threads = arguments.threads;
+    let output = &arguments.output;
     let (web, webs) = (&arguments.web, arguments.webs);
     let read = |resources: &Resources| read_fit(web, set.with(resources), &arguments.vary, "--vary");
     let file = &settled(threads, output.quiet, read)?;
     file.start.notes.iter().for_each(say::note);
     let target = &fit::target(&arguments.to, file, arguments.spectrum)?;
-    let (name, paths) = (stem(web, "web"), [web, &arguments.to].map(|path| path.display().to_string()));
+    let name = stem(web, "web");
+    let paths = [web, &arguments.to].map(|path| path.display().to_string());
     let path = output.folder(format!("{name}_fit"));
     let input = FitInput { name, paths, file, target, webs };
     let origin = invocation.origin_of([web], &path);

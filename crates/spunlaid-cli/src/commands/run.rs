@@ -25,7 +25,9 @@ pub(crate) fn run(run: &Run, invocation: &Invocation) -> Result<(), Failure> {
 
     let fibre_steps = AtomicU64::new(0);
     let by = control(run.threads, &fibre_steps);
-    let (started, plans, asked) = (Instant::now(), FinerPlans::for_case(&case), case.run.replicates);
+    let started = Instant::now();
+    let plans = FinerPlans::for_case(&case);
+    let asked = case.run.replicates;
     let fibres = counted(asked, "fibre");
     let before = |left| aside(&run.output, &format!("going on: {left} of {fibres} were simulated before"));
     let work = || fly(&case, &plans, by, delivery.staging(), delivery.folder().is_some(), before);

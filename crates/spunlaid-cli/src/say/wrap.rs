@@ -48,7 +48,9 @@ fn wrap(line: &str, width: usize) -> String {
     // Under the last column if there is room, or else a little further in than the line begins.
     let place = last.map(|last| shown(&content[..last])).filter(|place| place + LEAST <= width);
     let indentation = place.unwrap_or(begin + 2);
-    let (mut text, mut at, mut is_first) = (String::new(), 0, true);
+    let mut text = String::new();
+    let mut at = 0;
+    let mut is_first = true;
     // Each word with the blanks before it.
     let mut rest = content;
     if let (Some(last), None) = (last, place)

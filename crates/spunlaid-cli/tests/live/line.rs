@@ -108,7 +108,9 @@ fn identical_numbers_of_the_page_and_of_the_program_before_and_after_a_knob_is_t
     let patch =
         sketch["patches"].as_array().unwrap().iter().find(|patch| patch["change"].is_object()).unwrap();
     let number = |value: &Value| value.as_f64().unwrap();
-    let (before, now, change) = (&patch["before"], &patch["now"], &patch["change"]);
+    let before = &patch["before"];
+    let now = &patch["now"];
+    let change = &patch["change"];
     let expected = number(&before["cv"]) * (1.0 + number(&change["value"]));
     assert!((number(&now["cv"]) / expected - 1.0).abs() < 1e-12 && now["is_complete"] == false, "{patch}");
     let error = (number(&before["standard_error"]) * (1.0 + number(&change["value"])))

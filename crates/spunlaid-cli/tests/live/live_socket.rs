@@ -200,7 +200,8 @@ fn bombard(live: &mut Live, messages: usize, case: &str) {
         let stream = socket.get_ref().try_clone().unwrap();
         let last = format!("last-{sent}");
         let reading = std::thread::spawn({
-            let (mut reader, last) = (stream.try_clone().unwrap(), last.clone().into_bytes());
+            let mut reader = stream.try_clone().unwrap();
+            let last = last.clone().into_bytes();
             move || contains(&mut reader, &last)
         });
         let mut socket = WebSocket::from_raw_socket(stream.try_clone().unwrap(), Role::Client, None);

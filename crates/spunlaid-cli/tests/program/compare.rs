@@ -37,8 +37,8 @@ fn runs_in_the_same_turbulence_are_compared_pair_by_pair() {
     let one = &found["comparisons"][0];
     assert_eq!((one["paired"].as_bool(), one["pairs"].as_u64()), (Some(true), Some(8)));
     // By hand: mean and standard error of the differences.
-    let (a, b) =
-        (values(&desk, "a", "end_node", "amplitude_y_m"), values(&desk, "b", "end_node", "amplitude_y_m"));
+    let a = values(&desk, "a", "end_node", "amplitude_y_m");
+    let b = values(&desk, "b", "end_node", "amplitude_y_m");
     let d: Vec<f64> = a.iter().zip(&b).map(|(a, b)| b - a).collect();
     let mean = d.iter().sum::<f64>() / 8.0;
     let error = (d.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 56.0).sqrt();

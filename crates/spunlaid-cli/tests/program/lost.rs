@@ -50,8 +50,8 @@ fn rows(desk: &Desk, table: &str) -> Vec<(i64, f64)> {
 fn a_run_goes_on_without_the_fibres_that_it_loses_and_reports_them() {
     let desk = desk();
     let output = desk.spunlaid("run brief.toml --out r").output().unwrap();
-    let (said, table) =
-        (String::from_utf8(output.stderr).unwrap(), String::from_utf8(output.stdout).unwrap());
+    let said = String::from_utf8(output.stderr).unwrap();
+    let table = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(desk.entries("r").is_superset(&names(&ENTRIES)), "{said}");
 
@@ -72,7 +72,8 @@ fn a_run_goes_on_without_the_fibres_that_it_loses_and_reports_them() {
     let report = String::from_utf8(desk.read("r/report.html")).unwrap();
     assert!(notes.contains(&expected) && report.contains(&expected), "{notes}");
     for fibre in fibres {
-        let (reason, time) = (fibre["reason"].as_str().unwrap(), fibre["time_s"].as_f64().unwrap());
+        let reason = fibre["reason"].as_str().unwrap();
+        let time = fibre["time_s"].as_f64().unwrap();
         assert!(reason.starts_with(&format!("replicate {}: ", fibre["replicate"])), "{reason}");
         assert!(said.contains(reason) && (0.0..0.05).contains(&time), "{said}");
     }

@@ -310,7 +310,8 @@ fn the_knobs_of_every_new_line_can_be_turned_and_saved() {
         let file = format!("{name}.toml");
         let air = if name == "cabin" { LINE.len() - 2 } else { LINE.len() };
         success(desk.spunlaid(&format!("new --web {file} {options}")).args(&LINE[..air]));
-        let (path, text) = (desk.path(&file), String::from_utf8(desk.read(&file)).unwrap());
+        let path = desk.path(&file);
+        let text = String::from_utf8(desk.read(&file)).unwrap();
         let line = read_line(&text, &path.display().to_string(), &Resources::default()).unwrap();
         let knobs = line.knobs();
         assert!(knobs.len() >= 8, "{name}: {knobs:?}");

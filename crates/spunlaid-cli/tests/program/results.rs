@@ -542,7 +542,8 @@ fn lines_of_a_fed_fibre_have_as_many_points_as_it_has_nodes() {
     }
     assert!(counts.iter().any(|count| *count != counts[0]), "the number of nodes changes: {counts:?}");
     let laid = text("r/laid.vtp");
-    let (points, fed) = (array(&laid, "NumberOfComponents=\"3\""), array(&laid, "Name=\"fed_m\""));
+    let points = array(&laid, "NumberOfComponents=\"3\"");
+    let fed = array(&laid, "Name=\"fed_m\"");
     assert_eq!(points.len(), 3 * fed.len());
     assert!(points.iter().step_by(3).all(|x| *x == 0.0));
     let (_, rows) = table(&desk, "r/laid.parquet");

@@ -54,7 +54,9 @@ fn velocity(x: f64, y: f64) -> [f64; 3] {
 /// Hexahedra in rows along x, one cell thick, as legacy VTK.
 fn field() -> String {
     let [nx, ny] = CELLS;
-    let (mut points, mut velocities, mut cells) = (String::new(), String::new(), String::new());
+    let mut points = String::new();
+    let mut velocities = String::new();
+    let mut cells = String::new();
     for (k, j, i) in (0..2).flat_map(|k| (0..=ny).flat_map(move |j| (0..=nx).map(move |i| (k, j, i)))) {
         let x = i as f64 / nx as f64 * SIZE[0];
         let y = (j as f64 / ny as f64 - 0.5) * SIZE[1];
@@ -181,7 +183,8 @@ fn invariant_the_heat_for_openfoam_is_what_the_filaments_lose() {
     let heat = |(sh, per_kelvin): (&Vec<f64>, &Vec<f64>)| (sh[0] + per_kelvin[0] * (of_air + 273.15)) * area;
     let given: f64 = sh.iter().zip(&per_kelvin).map(heat).sum();
     assert!((given / number("heat_w_per_m") - 1.0).abs() < 1e-6, "{given}");
-    let (inlet, belt) = (summary["inlet_temperature_c"].as_f64().unwrap(), number("belt_temperature_c"));
+    let inlet = summary["inlet_temperature_c"].as_f64().unwrap();
+    let belt = number("belt_temperature_c");
     let content = |celsius: f64| (2100.0 + 0.5 * 3.35 * celsius) * celsius;
     let lost = 4000.0 * 0.35e-3 / 60.0 * (content(inlet) - content(belt));
     // The heat content of the mean temperature is not quite the mean of the heat contents.

@@ -89,8 +89,8 @@ fn the_numbers_of_a_figure_are_those_of_the_results() {
     let mut lines = text.lines();
     assert_eq!(lines.next(), Some("series,mean_velocity_m_s,amplitude_mm,error"));
     for axis in ["y", "z"] {
-        let (mean, error) =
-            (column(&format!("amplitude_{axis}_m")), column(&format!("amplitude_{axis}_m_se")));
+        let mean = column(&format!("amplitude_{axis}_m"));
+        let error = column(&format!("amplitude_{axis}_m_se"));
         for point in &points[1..] {
             let number = |cell: &str| cell.parse::<f64>().unwrap();
             let row: Vec<&str> = lines.next().unwrap().split(',').collect();

@@ -95,7 +95,9 @@ fn earlier_results_stay_whole_until_those_of_a_changed_study_are() {
     fs::write(place.path("study.toml"), &changed).unwrap();
     place.swept("whole", &["--threads", "2"]);
     let new = results(&place.path("whole"));
-    let (mut moments, mut kills, mut kept) = (Moments(5), 0, 0);
+    let mut moments = Moments(5);
+    let mut kills = 0;
+    let mut kept = 0;
     let now = || {
         let all = results(&place.path("out")).into_iter();
         // What is being made is in hidden folders.

@@ -106,7 +106,8 @@ impl PinnedWeb {
         see: &mut dyn FnMut(Seen),
         by: RunContext<'_>,
     ) -> Result<(), Error> {
-        let (flyer, webs) = (Flyer::new(by.threads, by.stop, &super::unwatched), [&self.spec, spec]);
+        let flyer = Flyer::new(by.threads, by.stop, &super::unwatched);
+        let webs = [&self.spec, spec];
         for area in LOOKS {
             let few = flyer.few_in_same_air(&webs, Compared { area, pitches: PITCHES }, by.done)?;
             let mut few = few.ok_or_else(Error::no_fibre)?.into_iter();

@@ -42,7 +42,9 @@ impl WebOfFew {
         let change = |patch: f64| {
             let (before, after) = (self.over(patch)?, other.over(patch)?);
             let ratio = (after.square / before.square).sqrt();
-            let (mut variance, mut degrees, mut common) = (0.0, f64::INFINITY, [0.0; 3]);
+            let mut variance = 0.0;
+            let mut degrees = f64::INFINITY;
+            let mut common = [0.0; 3];
             for ((weight, blocks, across), (other_weight, other_blocks, _)) in
                 before.layers.iter().zip(&after.layers)
             {

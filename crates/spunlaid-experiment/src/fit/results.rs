@@ -153,7 +153,8 @@ fn keys(
         let (parameter, value) = (parameter.clone(), parameter.value(coordinates[key]));
         let Some(index) = surface.keys.iter().position(|known| *known == key) else {
             let interval = Err("it has no effect on what is compared".to_owned());
-            let (ends, warning) = ([IntervalEnd::OfRange; 2], Some(KeyWarning::NoEffect));
+            let ends = [IntervalEnd::OfRange; 2];
+            let warning = Some(KeyWarning::NoEffect);
             return FittedKey { parameter, value, interval, ends, profile, warning };
         };
         let [low, high] = parameter.ends();

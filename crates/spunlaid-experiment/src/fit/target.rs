@@ -185,7 +185,8 @@ impl Target {
         threads: usize,
     ) -> Option<Vec<f64>> {
         let map = in_cells(&map.between(inner), self.map.cell);
-        let (sizes, sides) = ([map.columns, map.rows], [self.map.columns, self.map.rows]);
+        let sizes = [map.columns, map.rows];
+        let sides = [self.map.columns, self.map.rows];
         if sides[0] > sizes[0] || sides[1] > sizes[1] {
             return None;
         }

@@ -109,7 +109,8 @@ impl Check<'_> {
         }
         self.feed();
         if self.case.line.is_some() && fibre.root == Root::Free {
-            let (other, remedy) = ("[feed]", "the feed drives the root, so choose \"clamped\" or \"pinned\"");
+            let other = "[feed]";
+            let remedy = "the feed drives the root, so choose \"clamped\" or \"pinned\"";
             self.blame_key("fibre.root", "\"free\"".to_owned(), Fault::excludes(other, remedy));
         }
         let scheme = self.case.run.scheme;
@@ -217,10 +218,9 @@ impl Check<'_> {
             );
             Fault::new(message, remedy)
         };
-        let (air, largest) = (
-            &case.air,
-            memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.field).max(memory.instants),
-        );
+        let air = &case.air;
+        let largest =
+            memory.chain.max(memory.turbulence).max(memory.synthesis).max(memory.field).max(memory.instants);
         let chosen = case.default_harmonics();
         if largest == memory.chain {
             let fault = fault("the chain", "choose a longer one");
@@ -316,14 +316,15 @@ impl Check<'_> {
                 (eddies, turbulence)
             }
         };
-        let (records, convected) =
-            (self.case.air.records.len(), turbulence.iter().any(|t| t.carried.is_some()));
+        let records = self.case.air.records.len();
+        let convected = turbulence.iter().any(|t| t.carried.is_some());
         if convected && turbulence.iter().any(|eddy| eddy.decay_times > 0.0) {
-            let (other, remedy) =
-                ("air.decay_time", "a record is carried along unchanged; leave air.decay_time out");
+            let other = "air.decay_time";
+            let remedy = "a record is carried along unchanged; leave air.decay_time out";
             self.blame_key("air.record", self.names(), Fault::excludes(other, remedy));
         } else if convected && records > 1 {
-            let (other, remedy) = ("air.eddies = \"convected\"", "one record is carried along; name one");
+            let other = "air.eddies = \"convected\"";
+            let remedy = "one record is carried along; name one";
             self.blame_key("air.record", self.names(), Fault::excludes(other, remedy));
         } else if records > 1 && records != eddies.count() {
             let eddies = eddies.count();

@@ -132,7 +132,8 @@ impl Case {
             return Vec::new();
         }
         let feed = self.line.map_or(0.0, |line| line.feed_speed);
-        let (passing, rms) = ((self.air.fastest(self.along()) - feed).abs(), self.air.rms());
+        let passing = (self.air.fastest(self.along()) - feed).abs();
+        let rms = self.air.rms();
         let along = [rms.max(passing), 3.0 * rms + passing]
             .map(|speed| speed * self.fibre.diameter / self.air.kinematic_viscosity);
         let across = [self.usual_reynolds_across(), self.reynolds_across()];
@@ -284,7 +285,8 @@ impl Case {
             return None;
         };
         let (low, high) = placed.field.bounds();
-        let (root, far) = (placed.root * (1.0 / placed.unit), 1e-9 * (high - low).norm());
+        let root = placed.root * (1.0 / placed.unit);
+        let far = 1e-9 * (high - low).norm();
         let outside = |x: f64, low: f64, high: f64| low < high && !(low - far..=high + far).contains(&x);
         if !(outside(root.x, low.x, high.x)
             || outside(root.y, low.y, high.y)

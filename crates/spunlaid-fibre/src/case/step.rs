@@ -176,7 +176,9 @@ impl Case {
         };
         let run = &mut self.run;
         let steps = |time: f64| whole_parts(time, time_step).0;
-        let (duration, spin_up, output) = (run.duration(), run.spin_up(), run.output_interval());
+        let duration = run.duration();
+        let spin_up = run.spin_up();
+        let output = run.output_interval();
         (run.steps, run.spin_up_steps, run.output_steps) =
             (steps(duration).max(1), steps(spin_up), steps(output).max(1));
         run.time_step = time_step;

@@ -143,8 +143,8 @@ impl Case {
         // A thousandth of it is the speed of a flow: 1 to 100 m/s.
         let of_millimetres = mach_number > 3.0 && (1.0..=100.0).contains(&(speed / 1000.0));
         let advice = |text| if of_millimetres { text } else { "" };
-        let (shown, mach) =
-            (Dimension::Velocity.pretty_to(speed, 3), Dimension::Ratio.pretty_to(mach_number, 2));
+        let shown = Dimension::Velocity.pretty_to(speed, 3);
+        let mach = Dimension::Ratio.pretty_to(mach_number, 2);
         let remark = |advice| {
             Diagnostic::warning(format!(
                 "makes the air as fast as {shown}, which is Mach {mach}: the model's air has a constant density, as \

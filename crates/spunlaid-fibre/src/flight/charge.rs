@@ -94,7 +94,9 @@ mod tests {
     fn analytic_a_slab_of_charge_opens_evenly() {
         const FILAMENTS: usize = 64;
         const BLOCK: u64 = 4;
-        let (half, damping, h) = (5e-3, 1e3, 1e-4);
+        let half = 5e-3;
+        let damping = 1e3;
+        let h = 1e-4;
         let start = |i: usize| half * (2.0 * (i as f64 + 0.5) / FILAMENTS as f64 - 1.0);
         let places: Vec<f64> = (0..FILAMENTS).map(start).collect();
         let scheme = Scheme::ImplicitTension;
@@ -146,7 +148,8 @@ mod tests {
             flight.advance((2e-3 / h) as u64);
             let energy = flight.snapshot().energy;
             for lane in [0, 7] {
-                let (field, kinetic) = (energy.field_work.0[lane], energy.kinetic.0[lane]);
+                let field = energy.field_work.0[lane];
+                let kinetic = energy.kinetic.0[lane];
                 assert!(field > kinetic && kinetic > 0.5 * field, "{scheme:?}: {field:e} {kinetic:e}");
                 assert!(energy.imbalance().0[lane].abs() < 1e-3 * field, "{scheme:?} {field:e}: {energy:?}");
             }

@@ -120,8 +120,8 @@ impl Flight {
         (in_air > MOST_IN_AIR).then(|| {
             let time = self.time();
             let reached = self.chain.position.iter().map(|p| p.x.0[lane]).fold(f64::NEG_INFINITY, f64::max);
-            let (reached, distance) =
-                (Dimension::Length.pretty_to(reached, 3), Dimension::Length.pretty(line.distance));
+            let reached = Dimension::Length.pretty_to(reached, 3);
+            let distance = Dimension::Length.pretty(line.distance);
             let what = Fault::new(
                 format!(
                     "the fibre does not reach the belt: after {time:.3} s, {MOST_IN_AIR} times the way to the belt has \
@@ -149,10 +149,13 @@ impl Task for SuspectNodes<'_> {
     fn call<S: Register>(self) -> Lanes {
         let (chain, c) = (self.chain, &self.chain.constants);
         let (nodes, zero) = (chain.position.len(), Wide::<S>::zero());
-        let (most_off, most_strain) = (Wide::splat(DOUBTFUL * MOST_OFF), Wide::splat(DOUBTFUL * MOST_STRAIN));
+        let most_off = Wide::splat(DOUBTFUL * MOST_OFF);
+        let most_strain = Wide::splat(DOUBTFUL * MOST_STRAIN);
         // What is NaN or infinite makes the sum of the squares so. In the others a NaN is passed over, as it
         // is in the closer look.
-        let (mut squares, mut fastest, mut doubts) = (zero, zero, zero);
+        let mut squares = zero;
+        let mut fastest = zero;
+        let mut doubts = zero;
         for (position, velocity) in chain.position.iter().zip(chain.velocity.iter()) {
             let (position, velocity) = (Vec3::load(position), Vec3::load(velocity));
             squares = position.dot_add(position, squares);

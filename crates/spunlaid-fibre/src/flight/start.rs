@@ -138,7 +138,8 @@ impl Flight {
 
     /// Stores the start, and takes the first half kick of the staggered schemes.
     pub(super) fn begin(&mut self) {
-        let (position, velocity) = (self.chain.position.to_vec(), self.chain.velocity.to_vec());
+        let position = self.chain.position.to_vec();
+        let velocity = self.chain.velocity.to_vec();
         let energy = Energy::stored_energy(self.isa, &self.chain.constants, &position, &velocity, &position);
         self.start = Start { position, velocity, energy };
         self.start_staggered();

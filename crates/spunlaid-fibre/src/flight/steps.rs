@@ -52,12 +52,15 @@ impl Flight {
     pub fn observe(&mut self) -> Snapshot {
         let time = self.time();
         let chain = &self.chain;
-        let (position, mut velocity) = (chain.position.to_vec(), chain.velocity.to_vec());
+        let position = chain.position.to_vec();
+        let mut velocity = chain.velocity.to_vec();
         let tension = chain.tension();
         // The step may add nodes to a fed fibre and take others away.
         let fed_before =
             chain.laying.as_ref().map(|laying| (chain.constants.clone(), laying.origin.to_vec()));
-        let (nodes, in_air, fed) = (chain.nodes(), chain.in_air(), chain.fed());
+        let nodes = chain.nodes();
+        let in_air = chain.in_air();
+        let fed = chain.fed();
         let carried = chain.laying.as_ref().map(|laying| laying.carried).unwrap_or_default();
         let root_strain_integral = self.root_strain * Lanes::splat(self.h);
         let (before, first) = (self.work, self.steps_done == 0);

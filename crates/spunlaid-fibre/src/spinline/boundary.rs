@@ -150,7 +150,9 @@ impl<'a> Branch<'a> {
         };
         let towards = (goal - value).signum();
         let (mut here, mut before) = (Point { run, value }, None::<Point>);
-        let (mut turn, mut length, mut most_cooling) = (None, MOVES[0], 0.0);
+        let mut turn = None;
+        let mut length = MOVES[0];
+        let mut most_cooling = 0.0;
         for _ in 0..MOST_MOVES {
             self.accept(&here.run, here.value);
             let at = self.unknowns(&here).unwrap_or_default();
@@ -519,7 +521,8 @@ mod tests {
                         left(&near)
                     };
                     for (row, (after, before)) in near(1e-4).into_iter().zip(near(-1e-4)).enumerate() {
-                        let (found, expected) = (rows[row * count + column], (after - before) / 2e-4);
+                        let found = rows[row * count + column];
+                        let expected = (after - before) / 2e-4;
                         let within = 2e-3 * expected.abs().max(1.0);
                         assert!(
                             (found - expected).abs() < within,

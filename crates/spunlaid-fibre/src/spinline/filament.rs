@@ -240,7 +240,9 @@ impl<'a> Filament<'a> {
 
     /// What the relaxation takes from `c_zz` and `c_rr` per time, times the relaxation time [-].   theory.md (92)
     fn relaxation(&self, along: f64, across: f64) -> [f64; 2] {
-        let (zeta, chi, material) = (along - 1.0, across - 1.0, self.material());
+        let zeta = along - 1.0;
+        let chi = across - 1.0;
+        let material = self.material();
         let trace = material.extensibility * (zeta + 2.0 * chi);
         match self.line.law {
             Law::Newtonian => [0.0; 2],
@@ -300,7 +302,8 @@ impl<'a> Filament<'a> {
         let [convection, radiation] =
             self.heat(diameter, faster, air.cross_velocity, temperature, air.temperature);
         let heat = convection + radiation;
-        let (inertia, pull) = (self.forces * mass_flow, self.forces * (mass_flow * gravity / v + friction));
+        let inertia = self.forces * mass_flow;
+        let pull = self.forces * (mass_flow * gravity / v + friction);
         let surface = PI * self.forces * material.surface_tension * radius;
         let is_melt = phase == Phase::Melt;
         let viscoelastic = is_melt && line.law != Law::Newtonian;

@@ -134,7 +134,8 @@ impl<'t, 'a> Stepper<'t, 'a> {
     /// that the heat transfer has a cusp there. None if they do not, or have it at the start.
     pub(super) fn cusp(&mut self, step: &Step) -> Option<(f64, bool)> {
         let mut faster = |s: f64, state: &State| self.filament.faster_air(s * s, state, &mut self.hint);
-        let ([before, across], [after, _]) = (faster(step.start, &step.from), faster(step.end(), &step.to));
+        let [before, across] = faster(step.start, &step.from);
+        let [after, _] = faster(step.end(), &step.to);
         let speed = libm::exp(step.from[LN_SPEED]);
         if before.abs() < 1e-6 * speed || (before < 0.0) == (after < 0.0) {
             return None;

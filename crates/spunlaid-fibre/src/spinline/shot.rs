@@ -158,7 +158,8 @@ impl<'t, 'a> Leg<'t, 'a> {
 /// The part of a step in which the melt becomes solid: it ends where the filament is solid, by regula falsi (Illinois).
 fn freeze(filament: &Filament<'_>, stepper: &mut Stepper<'_, '_>, step: &Step) -> Step {
     let (mut melt, mut solid) = (0.0, step.length);
-    let (mut above, mut below) = (filament.until_solid(&step.from), filament.until_solid(&step.to));
+    let mut above = filament.until_solid(&step.from);
+    let mut below = filament.until_solid(&step.to);
     let mut last = *step;
     for _ in 0..60 {
         if below == 0.0 || solid - melt <= 1e-15 * step.end() || above <= 0.0 {

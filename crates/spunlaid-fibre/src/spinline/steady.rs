@@ -230,7 +230,8 @@ fn no_thread(filament: &Filament<'_>, miss: Miss) -> Failure {
 /// The filament is not solid at the end of the line.
 fn liquid_end(line: &Spinline, temperature: f64) -> Failure {
     let celsius = |kelvin: f64| format!("{:.0} °C", kelvin - ZERO_CELSIUS);
-    let (reached, solid) = (celsius(temperature), celsius(line.material.solidification_temperature));
+    let reached = celsius(temperature);
+    let solid = celsius(line.material.solidification_temperature);
     let message = format!(
         "is too short: the polymer is still at {reached} at the end of the spinline and solidifies at {solid}"
     );
@@ -335,7 +336,8 @@ fn largest_strain_rate(filament: &Filament<'_>, shot: &Shot) -> (f64, f64) {
         let Some(highest) = (0..=LOOKS).max_by(|a, b| rate(step, s(*a)).total_cmp(&rate(step, s(*b)))) else {
             continue;
         };
-        let (mut low, mut high) = (s(highest.saturating_sub(1)), s((highest + 1).min(LOOKS)));
+        let mut low = s(highest.saturating_sub(1));
+        let mut high = s((highest + 1).min(LOOKS));
         if rate(step, s(highest)) > best.0 * (1.0 - 1e-3) {
             for _ in 0..40 {
                 let [a, b] = [low + (high - low) / 3.0, high - (high - low) / 3.0];

@@ -406,7 +406,8 @@ fn analytic_the_rates_of_a_state_satisfy_the_equations() {
         let nusselt = 0.8 * 0.42 * (per_viscosity * (18.0 * 18.0_f64 + 64.0 * 0.25).sqrt()).cbrt();
         let convection = PI * conductivity * nusselt * 100.0;
         let radiation = 2.0 * PI * radius * 0.9 * 5.670_374_419e-8 * (400_f64.powi(4) - 300_f64.powi(4));
-        let (strain_rate, pull) = (12.0 * slopes[LN_SPEED], 0.7 * (line.throughput * 9.81 / 12.0 + drag));
+        let strain_rate = 12.0 * slopes[LN_SPEED];
+        let pull = 0.7 * (line.throughput * 9.81 / 12.0 + drag);
         let orientation =
             material.stress_optical_coefficient * stretched / area / material.full_birefringence;
         let progress =

@@ -112,7 +112,9 @@ impl Cells {
     /// When the number of points is not that of the shape's corners.
     pub fn push(&mut self, shape: Shape, points: &[u32]) -> Result<(), FileError> {
         if points.len() != shape.corners() || shape == Shape::Polyhedron {
-            let (name, found, wanted) = (shape.name(), points.len(), shape.corners());
+            let name = shape.name();
+            let found = points.len();
+            let wanted = shape.corners();
             let place = Position::Cell(self.len() as u64 + 1);
             return Err(FileError::from(Fault::new(
                 format!("{name} has {found} points and needs {wanted}"),

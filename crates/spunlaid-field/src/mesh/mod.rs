@@ -195,7 +195,9 @@ impl Mesh {
     pub(super) fn blocks(&self) -> Blocks {
         let mut ends: Vec<u32> = self.cells.iter().map(|cell| cell.data[1]).collect();
         ends.sort_unstable();
-        let (mut start, mut volumes, mut centres) = (0, Vec::new(), Vec::new());
+        let mut start = 0;
+        let mut volumes = Vec::new();
+        let mut centres = Vec::new();
         for end in &ends {
             let (mut sum, mut moment) = (0.0, Vec3::default());
             for tetrahedron in &self.tetrahedra[start..*end as usize] {
@@ -268,7 +270,10 @@ impl Mesh {
     #[inline]
     fn weights(&self, tetrahedron: &Tetrahedron, at: [f64; 3]) -> [f64; 4] {
         let [o, a, b, c] = tetrahedron.nodes.map(|node| vector(self.nodes[node as usize].at));
-        let (a, b, c, p) = (a - o, b - o, c - o, vector(at) - o);
+        let a = a - o;
+        let b = b - o;
+        let c = c - o;
+        let p = vector(at) - o;
         let face = b.cross(c);
         let turned = a.cross(p);
         let per_volume = 1.0 / a.dot(face);

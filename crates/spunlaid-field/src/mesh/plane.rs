@@ -80,7 +80,8 @@ fn prisms(faces: &Cells, count: u32) -> Result<Cells, FileError> {
 pub(super) fn plane_of(nodes: &[Node]) -> Option<Plane> {
     let levels = [0, 1, 2].map(|axis| few_levels(nodes, axis));
     let mut thin = (0..3).filter(|axis| levels[*axis].len() == 2);
-    let (axis, others) = (thin.next()?, levels.iter().filter(|levels| levels.len() >= FEWEST).count());
+    let axis = thin.next()?;
+    let others = levels.iter().filter(|levels| levels.len() >= FEWEST).count();
     if thin.next().is_some() || others != 2 {
         return None;
     }

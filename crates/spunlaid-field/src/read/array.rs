@@ -149,7 +149,8 @@ impl Array<'_> {
         count: usize,
         budget: &mut Budget,
     ) -> Result<Vec<T>, FileError> {
-        let (numbers, wanted) = (self.all(budget)?, count.saturating_mul(self.components));
+        let numbers = self.all(budget)?;
+        let wanted = count.saturating_mul(self.components);
         if numbers.len() == wanted {
             return Ok(numbers);
         }

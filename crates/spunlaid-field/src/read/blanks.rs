@@ -222,7 +222,8 @@ impl Gaps {
         let places = grid.places(of_cells, &missing);
         let first = match (lines.get(*first), places.first()) {
             (None, Some(at)) => {
-                let (kind, number) = (if of_cells { "cell" } else { "point" }, first + 1);
+                let kind = if of_cells { "cell" } else { "point" };
+                let number = first + 1;
                 let [x, y, z] = [at.x, at.y, at.z].map(|x| shortest((x * 1e6).round() / 1e6));
                 format!("is {kind} {number}, at ({x}, {y}, {z})")
             }

@@ -80,7 +80,9 @@ impl Grid {
         };
         let [mx, my, mz] = [nx, ny, nz].map(|n| n.saturating_sub(1).max(1));
         for number in 0..mx * my * mz {
-            let (x, y, z) = (number % mx, number / mx % my, number / mx / my);
+            let x = number % mx;
+            let y = number / mx % my;
+            let z = number / mx / my;
             corners.clear();
             // In order around each of two opposite faces. A grid that is one point thick has only one.
             for k in z..(z + 2).min(nz) {

@@ -306,7 +306,8 @@ fn is_filled(pieces: &[[Vec<f64>; 3]], points: usize) -> bool {
     for axes in pieces {
         let [xs, ys, zs] = [0, 1, 2].map(|axis| {
             let index = |at: &f64| levels[axis].partition_point(|level| level < at);
-            let (first, last) = (axes[axis].first().map_or(0, index), axes[axis].last().map_or(0, index));
+            let first = axes[axis].first().map_or(0, index);
+            let last = axes[axis].last().map_or(0, index);
             first..if levels[axis].len() == 1 { 1 } else { last }
         });
         for z in zs {

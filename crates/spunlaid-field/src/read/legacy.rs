@@ -77,7 +77,9 @@ impl<'a> Scanner<'a> {
     }
 
     fn image(&mut self) -> Result<Grid, FileError> {
-        let (mut size, mut origin, mut spacing) = (None, [0.0; 3], [1.0; 3]);
+        let mut size = None;
+        let mut origin = [0.0; 3];
+        let mut spacing = [1.0; 3];
         loop {
             match self.peek() {
                 Some("DIMENSIONS") => {

@@ -98,7 +98,8 @@ impl Reader<'_, '_> {
             let Some((array, factor)) = arrays.scalar(measure)? else {
                 continue;
             };
-            let (name, mut numbers) = (arrays.shown(array), self.numbers(of_cells, array, factor)?);
+            let name = arrays.shown(array);
+            let mut numbers = self.numbers(of_cells, array, factor)?;
             self.widen(&name, &numbers);
             self.note(measure, name);
             numbers.iter_mut().filter(|value| **value < 0.0).for_each(|value| *value = 0.0);

@@ -119,7 +119,9 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
     };
     let corner = |i: usize, j: usize| i + 6 * j;
     for (axis, triangles) in [(0, false), (1, true), (2, false), (0, true)] {
-        let (mut points, mut values, mut cells) = (String::new(), String::new(), Vec::new());
+        let mut points = String::new();
+        let mut values = String::new();
+        let mut cells = Vec::new();
         for (i, j) in (0..5).flat_map(|j| (0..6).map(move |i| (i, j))) {
             let (a, b) = (i as f64 * 0.5, j as f64 * 0.25);
             let [x, y, z] = place(axis, a, b);
@@ -133,7 +135,8 @@ fn analytic_meshes_of_faces_in_a_plane_are_plane_flows() {
                 }
             }
         }
-        let (count, entries) = (cells.len(), cells.len() * if triangles { 4 } else { 5 });
+        let count = cells.len();
+        let entries = cells.len() * if triangles { 4 } else { 5 };
         let mut text = format!(
             "# vtk DataFile Version 3.0\na\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 30 double\n\
             {points}CELLS {count} {entries}\n{}\n",

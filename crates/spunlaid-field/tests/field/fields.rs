@@ -58,7 +58,10 @@ fn analytic_the_air_around_a_point_is_the_field_within_its_reach() {
     // The documented error, as a share of the largest value.
     let limit = 1e-3 * std::f64::consts::E;
     for field in [lattice(16, smooth), field(&Block::cube(16, 0.2), Made::Hexahedra, smooth)] {
-        let (mut hint, mut used, mut worst, mut beyond) = (Hint::default(), 0, 0.0_f64, 0);
+        let mut hint = Hint::default();
+        let mut used = 0;
+        let mut worst = 0.0_f64;
+        let mut beyond = 0;
         for point in inside(2000) {
             let here = field.around(at(point), &mut hint);
             assert!(here.inside, "{point:?}");
@@ -96,7 +99,8 @@ fn identical_air_whoever_asks_first() {
     let points: Vec<_> = inside(2000).collect();
     let asked = |order: &mut dyn Iterator<Item = usize>| {
         let field = field(&Block::cube(32, 0.0), Made::Hexahedra, smooth);
-        let (mut hint, mut found) = (Hint::default(), vec![AirAround::default(); points.len()]);
+        let mut hint = Hint::default();
+        let mut found = vec![AirAround::default(); points.len()];
         order.for_each(|i| found[i] = field.around(at(points[i]), &mut hint));
         found
     };
@@ -168,14 +172,18 @@ fn kinks_cost_few_looks() {
         }
         let values = at_points(&points, |at| [profile(at), 0.0, 0.0, 0.01, 1.0]);
         let field = Field::lattice(rows, &values).unwrap();
-        let (mut hint, mut looks, mut off, mut number) = (Hint::default(), 0u32, 0.0, 0);
+        let mut hint = Hint::default();
+        let mut looks = 0u32;
+        let mut off = 0.0;
+        let mut number = 0;
         let mut random = || {
             number += 1;
             noise(number)
         };
         for _ in 0..40 {
             let mut at = [0.3 + 0.25 * random(), 0.08 * random(), 0.04 * random()];
-            let (mut from, mut here) = (at, AirAround { reach: -1.0, ..AirAround::default() });
+            let mut from = at;
+            let mut here = AirAround { reach: -1.0, ..AirAround::default() };
             for _ in 0..1000 {
                 let moved = [0, 1, 2].map(|axis| at[axis] - from[axis]);
                 if moved.iter().any(|by| by.abs() > here.reach) {

@@ -63,7 +63,9 @@ fn identical_in_every_encoding_of_a_grid() {
         }
     }
     let data = values(&points);
-    let (size, origin, spacing) = ([5, 3, 2], [0.0, 0.0, -0.5], [0.25, 0.5, 1.0]);
+    let size = [5, 3, 2];
+    let origin = [0.0, 0.0, -0.5];
+    let spacing = [0.25, 0.5, 1.0];
     let (plain, _) = read(&vtr(&axes, [&data, &[]], ASCII), "a.vtr");
     assert_eq!(plain.describe(), Description::Lattice { points: size });
     for style in styles() {

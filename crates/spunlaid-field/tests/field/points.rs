@@ -36,10 +36,8 @@ fn analytic_linear_fields_are_exact_between_columns_far_apart() {
     for (columns, rows, growth) in [(12, 400, 2.5_f64), (30, 201, 0.0), (6, 1500, 3.0)] {
         let points: Vec<[f64; 3]> = (0..columns * rows)
             .map(|i| {
-                let (x, s) = (
-                    (i / rows) as f64 / (columns - 1) as f64,
-                    2.0 * (i % rows) as f64 / (rows - 1) as f64 - 1.0,
-                );
+                let x = (i / rows) as f64 / (columns - 1) as f64;
+                let s = 2.0 * (i % rows) as f64 / (rows - 1) as f64 - 1.0;
                 let y = if growth > 0.0 { (growth * s).tanh() / growth.tanh() } else { s };
                 [x, (0.02 + 0.01 * x) * y, 0.0]
             })
@@ -218,8 +216,8 @@ fn identical_points_in_any_order_are_a_lattice() {
     let (found, _) = Field::points(&places, &at_points(&points, smooth)).unwrap();
     assert_eq!(found.describe(), lattice.describe());
     for point in inside(200) {
-        let (a, b) =
-            (found.sample(at(point), &mut Hint::default()), lattice.sample(at(point), &mut Hint::default()));
+        let a = found.sample(at(point), &mut Hint::default());
+        let b = lattice.sample(at(point), &mut Hint::default());
         assert_eq!(a, b);
     }
 }

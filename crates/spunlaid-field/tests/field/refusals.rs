@@ -352,8 +352,9 @@ fn rejects_a_slice_of_a_flow_around_an_axis() {
         let half = degrees.to_radians();
         let points: Vec<[f64; 3]> = (0..3 * 4 * 2)
             .map(|i| {
-                let (x, r, side) =
-                    (f64::from(i % 3), 0.01 * f64::from(i / 3 % 4 + 1), f64::from(i / 12) * 2.0 - 1.0);
+                let x = f64::from(i % 3);
+                let r = 0.01 * f64::from(i / 3 % 4 + 1);
+                let side = f64::from(i / 12) * 2.0 - 1.0;
                 [0.1 * x, r * half.cos(), side * r * half.sin()]
             })
             .collect();

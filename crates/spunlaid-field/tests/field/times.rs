@@ -6,7 +6,9 @@ use spunlaid_field::Field;
 fn rows(speed: f64) -> Vec<String> {
     let row = |i: usize| {
         let [x, y, z] = [i % 6, i / 6 % 3, i / 18].map(|n| n as f64);
-        let (y, z, u) = (0.05 * (y - 1.0), 0.05 * (z - 1.0), speed * (1.0 - 0.05 * x));
+        let y = 0.05 * (y - 1.0);
+        let z = 0.05 * (z - 1.0);
+        let u = speed * (1.0 - 0.05 * x);
         format!("{},{y},{z},{u},0,0", 0.1 * x)
     };
     (0..54).map(row).collect()
@@ -55,7 +57,9 @@ fn rejects_columns_of_several_times() {
 
 #[test]
 fn rejects_places_that_occur_several_times_with_different_air() {
-    let (one, other, third) = (rows(20.0), rows(40.0), rows(30.0));
+    let one = rows(20.0);
+    let other = rows(40.0);
+    let third = rows(30.0);
     let in_turn = || one.iter().zip(&other).map(|(a, b)| vec![a.clone(), b.clone()]).collect::<Vec<_>>();
     let mut missing = in_turn();
     missing[17].pop();

@@ -200,7 +200,8 @@ pub fn cos_sin_turn<S: Simd>(turns: Wide<S>) -> (Wide<S>, Wide<S>) {
     // The low bits are the number of the quarter turn. Odd ones swap cos and sin; cos is + − − +, sin is + + − −.
     let odd = Wide(rounded.0.and_bits(1).or_bits(TWO_52.to_bits())) - Wide::splat(TWO_52);
     let half = Wide::splat(0.5);
-    let (cos, sin) = (Wide::select_less(half, odd, s, c), Wide::select_less(half, odd, c, s));
+    let cos = Wide::select_less(half, odd, s, c);
+    let sin = Wide::select_less(half, odd, c, s);
     let cos_sign = rounded.0.add_bits(1).and_bits(2).shift_left::<62>();
     let sin_sign = rounded.0.and_bits(2).shift_left::<62>();
     (Wide(cos.0.xor(cos_sign)), Wide(sin.0.xor(sin_sign)))

@@ -159,7 +159,8 @@ pub fn inverse(mut matrix: Vec<Vec<f64>>) -> Result<Vec<Vec<f64>>, usize> {
         for row in [&mut matrix[pivot], &mut inverse[pivot]] {
             row.iter_mut().for_each(|x| *x /= value);
         }
-        let (from_matrix, from_inverse) = (matrix[pivot].clone(), inverse[pivot].clone());
+        let from_matrix = matrix[pivot].clone();
+        let from_inverse = inverse[pivot].clone();
         for other in (0..size).filter(|other| *other != pivot) {
             let factor = matrix[other][pivot];
             for (row, from) in [(&mut matrix[other], &from_matrix), (&mut inverse[other], &from_inverse)] {

@@ -142,7 +142,8 @@ impl Node {
                 (-value, powers)
             }
             Self::Binary(operator, left, right) => {
-                let ((a, left), (b, right)) = (left.value(value_of_key)?, right.value(value_of_key)?);
+                let (a, left) = left.value(value_of_key)?;
+                let (b, right) = right.value(value_of_key)?;
                 match operator {
                     '*' => (a * b, left.plus(right, 1.0)),
                     '/' => (a / b, left.plus(right, -1.0)),

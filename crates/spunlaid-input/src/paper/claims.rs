@@ -134,7 +134,9 @@ fn monotone(spots: &[Spot], direction: f64, unit: &str) -> (String, Verdict) {
 /// Whether a trend rises up to a place and changes by less than a tenth after it.
 fn plateau(spots: &[Spot], place: f64) -> (String, Verdict) {
     let at = spots.iter().position(|s| s.x >= place * (1.0 - 1e-9)).unwrap_or(spots.len() - 1);
-    let (first, knee, last) = (spots[0], spots[at], spots[spots.len() - 1]);
+    let first = spots[0];
+    let knee = spots[at];
+    let last = spots[spots.len() - 1];
     let (rise, after) = (significance(first.to(knee)), (last.y - knee.y) / knee.y);
     let error = last.error.hypot(knee.error) / knee.y;
     let evidence = format!(
@@ -174,7 +176,9 @@ fn sigmoid(spots: &[Spot]) -> (String, Verdict) {
     let slopes = slopes(spots);
     let steepest = (0..slopes.len()).max_by(|&a, &b| slopes[a].0.total_cmp(&slopes[b].0)).unwrap_or(0);
     let middle = |i: usize| 0.5e6 * (spots[i].x + spots[i + 1].x);
-    let (first, most, last) = (slopes[0], slopes[steepest], slopes[slopes.len() - 1]);
+    let first = slopes[0];
+    let most = slopes[steepest];
+    let last = slopes[slopes.len() - 1];
     let per = |slope: (f64, f64)| format!("{:.3} ± {:.3}", slope.0 * 1e-6, slope.1 * 1e-6);
     let evidence = format!(
         "slope {} mm/µm at the thin end, at most {} at {:.0} µm, {} at the thick end",
@@ -225,7 +229,8 @@ struct StraightLine {
 /// The least-squares line.
 fn line(spots: &[Spot]) -> StraightLine {
     let n = spots.len() as f64;
-    let (mx, my) = (spots.iter().map(|s| s.x).sum::<f64>() / n, spots.iter().map(|s| s.y).sum::<f64>() / n);
+    let mx = spots.iter().map(|s| s.x).sum::<f64>() / n;
+    let my = spots.iter().map(|s| s.y).sum::<f64>() / n;
     let sxx: f64 = spots.iter().map(|s| (s.x - mx).powi(2)).sum();
     let sxy: f64 = spots.iter().map(|s| (s.x - mx) * (s.y - my)).sum();
     let syy: f64 = spots.iter().map(|s| (s.y - my).powi(2)).sum();

@@ -159,6 +159,7 @@ fn no_flights(at: &Place) -> Vec<Diagnostic> {
         "needs simulated fibres, and a study of a spinline simulates none",
         "write a tension, or let the study vary the case: case = \"…\" instead of spinline = \"…\"",
     );
-    let (key, value) = ("spinline.end_tension".to_owned(), Some("\"simulated\"".to_owned()));
+    let key = "spinline.end_tension".to_owned();
+    let value = Some("\"simulated\"".to_owned());
     vec![Diagnostic { place: at.clone(), key, value, ..what.into() }]
 }

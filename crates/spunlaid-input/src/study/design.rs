@@ -227,7 +227,8 @@ impl<'a> Reader<'a> {
         table: DeTable<'a>,
         design: Design,
     ) -> Option<Levels> {
-        let (name, problems) = (|key: &str| format!("{}.{key}", varied.name), self.problems());
+        let name = |key: &str| format!("{}.{key}", varied.name);
+        let problems = self.problems();
         self.take_table(&name(""), RANGE, table, None);
         self.reject_unreadable();
         let mut ends = [None; 2];

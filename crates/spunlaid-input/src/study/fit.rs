@@ -40,7 +40,8 @@ pub fn read_fit<'a>(
     let base = source.into().open(FileKind::Web, set, |text, name, resources| {
         WebBase::new(text, name.to_owned(), &[set], resources)
     })?;
-    let (mut parameters, mut problems) = (Vec::<Parameter>::new(), Vec::<Diagnostic>::new());
+    let mut parameters = Vec::<Parameter>::new();
+    let mut problems = Vec::<Diagnostic>::new();
     for item in vary {
         let (key, range) =
             item.split_once('=').map_or((item.trim(), None), |(key, range)| (key.trim(), Some(range.trim())));

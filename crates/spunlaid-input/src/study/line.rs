@@ -393,7 +393,8 @@ impl WebToChange<'_> {
             Err(why) => (self.base.spec().clone(), Some(why.to_string())),
         };
         let ends = [self.base.spec(), &spec];
-        let (belt_speed, mass_flow) = (ends.map(WebSpec::belt_speed), ends.map(WebSpec::mass_flow));
+        let belt_speed = ends.map(WebSpec::belt_speed);
+        let mass_flow = ends.map(WebSpec::mass_flow);
         let file = self.base.path().to_owned();
         let experiment = ChangedWeb { file, set, spec, belt_speed, mass_flow };
         Change { setting, layers, keys, experiment, refusal }

@@ -146,7 +146,8 @@ pub fn parse_study<'a>(
     let Replicates { at_least, until, .. } = &plan.replicates;
     if !until.is_empty() && *at_least < FEWEST_REPLICATES {
         let place = Place::in_file(name, Position::Whole);
-        let (key, value) = ("replicates.at_least".to_owned(), Some(at_least.to_string()));
+        let key = "replicates.at_least".to_owned();
+        let value = Some(at_least.to_string());
         let what = Diagnostic::warning(
             "is too few to trust a standard error, so the study often stops before its results are as exact as \
             asked; write 6 or more",

@@ -55,8 +55,9 @@ impl Resolver<'_> {
         let base = values_before(self.base, factors);
         let rows = design.rows(factors, &base, *seed);
         let count = rows.len() as u64;
-        let (mut points, mut problems, mut notes) =
-            (Vec::with_capacity(rows.len()), Vec::new(), Notes::default());
+        let mut points = Vec::with_capacity(rows.len());
+        let mut problems = Vec::new();
+        let mut notes = Notes::default();
         for (index, row) in (0..).zip(rows) {
             match self.point(index, row) {
                 Ok((point, remarks)) => {

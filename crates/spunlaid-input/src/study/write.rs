@@ -63,7 +63,9 @@ fn write_values(text: &mut String, set: &[(String, String)], factors: &[Factor])
             }
             Levels::Range { from, to, steps, spacing } => {
                 let steps = steps.map_or_else(String::new, |steps| format!(", steps = {steps}"));
-                let (from, to, spacing) = (exact(*from), exact(*to), spacing.name());
+                let from = exact(*from);
+                let to = exact(*to);
+                let spacing = spacing.name();
                 writeln!(
                     text,
                     "\"{}\" = {{ from = {from}, to = {to}{steps}, spacing = \"{spacing}\" }}",

@@ -157,7 +157,8 @@ impl WebParser<'_> {
         // What the web has from a case, it has from one with another tension.
         read.iter().for_each(|(case, _)| self.resources.doubt(case));
         let read = read.map_err(|error| self.by_full_names(prefix, error));
-        let (named, throughput) = (format!("{prefix}{CASE}"), format!("{prefix}{THROUGHPUT}"));
+        let named = format!("{prefix}{CASE}");
+        let throughput = format!("{prefix}{THROUGHPUT}");
         if matches!(read, Err(Error::Rejected(_))) && self.is_written(&named) && self.is_written(&throughput)
         {
             let message =

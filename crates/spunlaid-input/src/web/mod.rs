@@ -196,7 +196,8 @@ fn values(text: &str, name: &str, set: &[Overrides<'_>]) -> Result<WrittenValues
     let first = values.all().min_by(|a, b| a.1.place.cmp(&b.1.place));
     match first.filter(|_| is_case_alone) {
         Some((full, written_value)) => {
-            let (table, place) = (full.split('.').next().unwrap_or(full), written_value.place.clone());
+            let table = full.split('.').next().unwrap_or(full);
+            let place = written_value.place.clone();
             let fault = Fault::new(
                 "belongs to a case, and the file does not describe a web",
                 "add [line] and [web], or read it as a case",

@@ -22,7 +22,9 @@ pub(super) struct OpenWeb<'a> {
 /// Reads the layers, the sheet, and what is written of the filaments.
 pub(super) fn open(written: WrittenWeb, resources: &Resources) -> OpenWeb<'_> {
     let WrittenWeb { values: key_values, path, named } = written;
-    let (notes, basis_weight_key, prefixes) = (Vec::new(), String::new(), prefixes(&key_values));
+    let notes = Vec::new();
+    let basis_weight_key = String::new();
+    let prefixes = prefixes(&key_values);
     let mut reading =
         WebParser { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
     let mut web = WebSpec::unknown();

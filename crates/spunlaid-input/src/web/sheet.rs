@@ -184,14 +184,16 @@ impl WebParser<'_> {
     /// The full name of a key of all layers in the first one in which it is written, if it is written in any. Another
     /// number in another layer is refused.
     fn of_all_layers(&mut self, name: &str) -> Option<String> {
-        let (key, mut written) = (WEB.find(name)?, self.written_in_layers(name).into_iter());
+        let key = WEB.find(name)?;
+        let mut written = self.written_in_layers(name).into_iter();
         let first = written.next()?;
         let number = self.key_values.number(&first);
         for full in written {
             if let (Some(number), Some(other)) = (number, self.key_values.number(&full))
                 && (other / number - 1.0).abs() > SAME
             {
-                let (number, why) = (key.kind.pretty(&number.into()), key.relations.of_all_layers);
+                let number = key.kind.pretty(&number.into());
+                let why = key.relations.of_all_layers;
                 let fault = Fault::new(
                     format!("differs from {first} = {number}, and {}", why.unwrap_or_default()),
                     "write it in one layer and leave it out of the others",

@@ -110,7 +110,9 @@ mod tests {
 
     fn knob(dimension: Dimension, value: f64) -> Knob {
         let setting = Setting { name: "one", words: "one", turned: Turned::Running };
-        let (name, label, keys) = ("one".to_owned(), "one".to_owned(), vec!["line.one".to_owned()]);
+        let name = "one".to_owned();
+        let label = "one".to_owned();
+        let keys = vec!["line.one".to_owned()];
         let range = [0.5 * value, 2.0 * value];
         Knob { name, label, setting, layers: Vec::new(), keys, dimension, is_whole: false, value, range }
     }

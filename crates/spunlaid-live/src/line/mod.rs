@@ -116,7 +116,9 @@ impl Session {
     /// The line cannot be read.
     pub(super) fn new(text: String, path: Option<PathBuf>, folder: PathBuf) -> Result<Self, Error> {
         let name = path.as_ref().map_or_else(|| "line.toml".to_owned(), |path| path.display().to_string());
-        let (mut resources, stop, done) = (Resources::default(), AtomicBool::new(false), AtomicU64::new(0));
+        let mut resources = Resources::default();
+        let stop = AtomicBool::new(false);
+        let done = AtomicU64::new(0);
         let threads = thread::available_parallelism().map_or(1, usize::from);
         let by = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &done };
         let read = |resources: &Resources| {
@@ -308,10 +310,8 @@ impl Session {
         let last = LOOKS[LOOKS.len() - 1];
         match (seen, task) {
             (Seen::Laid(stretch), _) => {
-                let (layers, part) = (
-                    self.web(self.now).spec.layers.len(),
-                    stretch.belt * stretch.width / (last * WITH_BEGINNING),
-                );
+                let layers = self.web(self.now).spec.layers.len();
+                let part = stretch.belt * stretch.width / (last * WITH_BEGINNING);
                 let share = (stretch.layer as f64 + part.min(1.0)) / layers as f64;
                 let Some(flying) = &mut self.flying else { return };
                 if matches!(task, Task::Compare { air: Air::Other, .. }) {

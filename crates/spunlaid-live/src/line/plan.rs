@@ -128,7 +128,8 @@ mod tests {
 
     #[test]
     fn what_has_failed_is_left_out_with_all_that_needs_it() {
-        let (before, now) = (web(1, false), WebState { is_settled: false, ..web(2, false) });
+        let before = web(1, false);
+        let now = WebState { is_settled: false, ..web(2, false) };
         let known = unknown(before, now);
         assert_eq!(next(&known, &[Task::Settle(2), Task::Pin(1)]), Some(Task::Lay(1)));
         assert_eq!(next(&known, &[Task::Settle(2), Task::Pin(1), Task::Lay(1)]), None);

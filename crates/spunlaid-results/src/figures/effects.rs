@@ -55,7 +55,8 @@ pub(crate) struct EffectRow {
 
 /// A difference in another unit.
 pub(crate) fn in_unit(difference: &Difference, factor: f64) -> Difference {
-    let (value, standard_error) = (factor * difference.value, factor * difference.standard_error);
+    let value = factor * difference.value;
+    let standard_error = factor * difference.standard_error;
     Difference { value, standard_error, ..*difference }
 }
 
@@ -169,7 +170,8 @@ impl Panel {
                     continue;
                 }
                 let y = if row.effects.len() == 1 { y } else { y + 16.0 * index as f64 - 8.0 };
-                let (ends, stroke) = (ends(effect).map(along), Stroke::solid(colour, 1.4));
+                let ends = ends(effect).map(along);
+                let stroke = Stroke::solid(colour, 1.4);
                 picture.line((ends[0], y), (ends[1], y), &stroke);
                 for end in ends {
                     picture.line((end, y - 3.5), (end, y + 3.5), &stroke);

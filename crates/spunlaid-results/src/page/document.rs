@@ -256,7 +256,8 @@ impl<'a> Section<'a> {
             Part::Prose { .. } => vec!["a paragraph and its references, to copy".to_owned()],
             _ => Vec::new(),
         };
-        let (mut text, names) = (String::new(), self.parts.iter().flat_map(names).collect::<Vec<_>>());
+        let mut text = String::new();
+        let names = self.parts.iter().flat_map(names).collect::<Vec<_>>();
         for (number, name) in names.iter().enumerate() {
             if text.len() > MOST_NAMES {
                 text += &format!("; {} more", names.len() - number);

@@ -287,7 +287,9 @@ fn markdown<T>(found: &[KeyEntry], head: &str, keys: &KeyTable<T>, within: &[&'s
                 [false, _] if any_varies => " *fixed*",
                 _ => "",
             };
-            let (takes, left_out, meaning) = (takes_in_row(key, &listed), &key.left_out, key.meaning);
+            let takes = takes_in_row(key, &listed);
+            let left_out = &key.left_out;
+            let meaning = key.meaning;
             let _ = writeln!(text, "| `{short}`{mark} | {takes} | {left_out} | {meaning}{also} |");
         }
     }

@@ -70,7 +70,9 @@ pub fn fly_for_checks<E: From<Error>>(
 ) -> Result<RunPaths, E> {
     let paths = finer::Paths::from_run(plans.step.as_ref().ok(), keep.recorder);
     let watched = Recorded { recorder: Some(&paths), ..keep };
-    let (mut replicate, mut left, mut first_lost) = (0, 0, None);
+    let mut replicate = 0;
+    let mut left = 0;
+    let mut first_lost = None;
     in_order(
         case.flights() as usize,
         computing.threads,
@@ -219,7 +221,8 @@ impl EndPath {
     pub fn since(&self, time: f64) -> impl Iterator<Item = &EndPoint> {
         let first = |points: Option<&EndPoint>| points.map_or(f64::INFINITY, |point| point.0);
         let all = first(self.last.front()) <= time.max(first(self.whole.values().first()));
-        let (last, whole) = (all.then_some(&self.last), (!all).then_some(self.whole.values()));
+        let last = all.then_some(&self.last);
+        let whole = (!all).then_some(self.whole.values());
         let points = last.into_iter().flatten().chain(whole.into_iter().flatten());
         points.filter(move |point| point.0 >= time)
     }

@@ -183,7 +183,8 @@ impl Collector {
                 }
             }
         }
-        let (mut numbers, mut curves) = (self.numbers.iter_mut(), self.curves.iter_mut());
+        let mut numbers = self.numbers.iter_mut();
+        let mut curves = self.curves.iter_mut();
         for (_, value) in &trajectory.values {
             match value {
                 Value::Curve(_, values) => curves.next().into_iter().for_each(|(.., sums)| {

@@ -297,7 +297,9 @@ pub fn pace(case: &Case, isa: Isa) -> Result<f64, Error> {
     // places where no air was looked up before, which takes the longest at the beginning.
     let part = steps.div_ceil(PARTS);
     let (trial_time, until) = if is_in_field { (4.0 * TRIAL, case.run.steps) } else { (TRIAL, steps) };
-    let (mut done, mut trial, started) = (0, flight.clone(), Instant::now());
+    let mut done = 0;
+    let mut trial = flight.clone();
+    let started = Instant::now();
     let mut before = (0, 0.0);
     while done == 0 || started.elapsed().as_secs_f64() < trial_time {
         if done > 0 && done % until < part {

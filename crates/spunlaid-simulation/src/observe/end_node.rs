@@ -384,7 +384,8 @@ mod residence_tests {
     fn analytic_circle_of_a_uniform_disc() {
         // In a disc of radius R, 90 % of the area is within R √0.9.
         let spiral = |i: u32| {
-            let (r, angle) = ((f64::from(i) / 20_000.0).sqrt(), 2.399_963 * f64::from(i));
+            let r = (f64::from(i) / 20_000.0).sqrt();
+            let angle = 2.399_963 * f64::from(i);
             (5.0 + r * angle.cos(), -2.0 + r * angle.sin())
         };
         let places: Vec<_> = (0..20_000).map(spiral).collect();

@@ -81,8 +81,8 @@ impl Flyer<'_> {
         });
         let threads = self.threads.div_ceil(laid.len());
         Ok(par_map(self.threads, laid.len(), |web| {
-            let (laid, of_beam) =
-                (laid[web].as_ref().map_err(again)?, layer.beams[web].as_ref().map_err(again)?);
+            let laid = laid[web].as_ref().map_err(again)?;
+            let of_beam = layer.beams[web].as_ref().map_err(again)?;
             let few = of_beam.few.as_ref().ok_or_else(Error::no_fibre)?;
             let (sheet, simulated) = laid.sheet(&layer.sheet, &during)?;
             let beam = of_beam.beam();
@@ -228,9 +228,11 @@ impl<'a> Laid<'a> {
     pub(super) fn new(beams: [&Beam<'_>; 2], flight: &'a BeamFindings) -> Result<Self, Error> {
         let [above, line] = beams.map(|beam| beam.case.line);
         let (above, line) = above.zip(line).ok_or_else(Error::no_fibre)?;
-        let (start, faster) =
-            (line.feed_speed * beams[1].case.run.spin_up(), above.belt_speed - line.belt_speed);
-        let (mut front, mut ahead, mut fed) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
+        let start = line.feed_speed * beams[1].case.run.spin_up();
+        let faster = above.belt_speed - line.belt_speed;
+        let mut front = f64::INFINITY;
+        let mut ahead = f64::NEG_INFINITY;
+        let mut fed = f64::INFINITY;
         for (filament, points) in &flight.kept {
             let y = beams[1].places[*filament].y;
             for point in points {

@@ -68,7 +68,9 @@ impl<'a> Flyer<'a> {
         spec: &WebSpec,
         on: Option<&Depositor<'_>>,
     ) -> Result<BeamFindings, Error> {
-        let (simulated, threads, stop) = (Mutex::new(None), self.threads, self.stop);
+        let simulated = Mutex::new(None);
+        let threads = self.threads;
+        let stop = self.stop;
         self.watched(&[layer], |done| {
             let by = RunContext { threads, isa: Isa::detect(), stop, done };
             *lock(&simulated) = Some(layer.beam().fly(&layer.sheet, spec.window(), on, by)?);

@@ -87,7 +87,8 @@ impl Flyer<'_> {
         on: &Depositor<'_>,
     ) -> Result<(LayerBeam<'b>, BeamFindings, Option<FlownCurves>), Error> {
         let (mut flights, mut spent) = (0, TimeSpent::default());
-        let (mut asked, sheets) = (spec.flown_sheet(number, None), LayerSheets::new(self, spec, number));
+        let mut asked = spec.flown_sheet(number, None);
+        let sheets = LayerSheets::new(self, spec, number);
         loop {
             let mut simulated = match &asked {
                 Some(asked) if flights == 0 && layer.few.is_some() => sheets.fine(&layer, asked)?,

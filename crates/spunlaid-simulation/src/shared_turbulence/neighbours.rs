@@ -291,7 +291,8 @@ fn distances(places: &[Inlet], farthest: f64, sheet: &Sheet) -> Vec<Distance> {
     let rows = rows(places);
     let turn = (sheet.edges == Edges::Periodic).then_some(sheet.width);
     let width = rows.iter().filter_map(|row| Some(places[*row.last()?].z - places[*row.first()?].z));
-    let (width, gaps) = (width.fold(0.0, f64::max), rows.iter().map(Vec::len).max().unwrap_or(0));
+    let width = width.fold(0.0, f64::max);
+    let gaps = rows.iter().map(Vec::len).max().unwrap_or(0);
     let pitch = width / gaps.saturating_sub(1).max(1) as f64;
     let farthest = farthest.min(turn.map_or(width, |turn| 0.5 * turn)) + 0.5 * pitch;
     let multiples = [1.0, 2.0].into_iter().chain((0..).map(|doubled| 5.0 * f64::from(doubled).exp2()));

@@ -175,7 +175,8 @@ impl PinnedLayer {
         see: &mut dyn FnMut(SeenOfLayer),
         by: RunContext<'_>,
     ) -> Result<bool, Error> {
-        let (pinned, other) = (coarse(own, self.number, &self.on)?, coarse(changed, self.number, &self.on)?);
+        let pinned = coarse(own, self.number, &self.on)?;
+        let other = coarse(changed, self.number, &self.on)?;
         let (own_beam, beam) = (pinned.beam(), other.beam());
         let line = own_beam.case.line.ok_or_else(Error::no_fibre)?;
         let of_pinned = Laid::new([&own_beam, &own_beam], &self.laid)?;

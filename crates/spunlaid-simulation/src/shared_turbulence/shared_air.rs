@@ -247,7 +247,8 @@ impl SharedAir<'_> {
         // The same stretch of the pattern passes for all groups, so that they end together.
         let longest = |beam: usize| of_field(beam, beams[beam].longest_block()) * self.pace(airs[beam].maker);
         let block = (0..beams.len()).map(longest).fold(airs[0].block(), f64::min);
-        let (pace, margin) = (self.pace(maker), 2.0 * steps.iter().copied().fold(0.0, f64::max));
+        let pace = self.pace(maker);
+        let margin = 2.0 * steps.iter().copied().fold(0.0, f64::max);
         let block =
             if beams.len() == 1 { (block / steps[0]).ceil().max(1.0) * steps[0] } else { block / pace };
         Group { making, pace, members, steps, block, time: 0.0, margin }
@@ -386,7 +387,9 @@ mod tests {
         case.fibre =
             Fibre { diameter: 18e-6, density: 910.0, youngs_modulus, root: Root::Clamped, ..Fibre::UNKNOWN };
         case.fibre.span(0.1, 4e-3);
-        let (feed_speed, belt_speed, kept_length) = (50.0, 3.0, 0.03);
+        let feed_speed = 50.0;
+        let belt_speed = 3.0;
+        let kept_length = 0.03;
         let line = Line { feed_speed, distance: 0.1, belt_speed, kept_length, ..Line::UNKNOWN };
         case.line = Some(Line { steps_per_element: 2, ..line });
         case.air = Air::uniform(60.0, 0.1, 0.016, 500.0);
@@ -399,7 +402,9 @@ mod tests {
     /// A fibre of no stiffness does not fly, and so the first beam is not there to say for how long the next one does.
     #[test]
     fn beams_that_fly_after_one_that_does_not_go_on_lay_their_sheet() {
-        let (lost, good, sheet) = (line(0.0), line(2e9), Sheet::new(24e-3, 32e-3, 1e-3));
+        let lost = line(0.0);
+        let good = line(2e9);
+        let sheet = Sheet::new(24e-3, 32e-3, 1e-3);
         let places: Vec<Inlet> = (0..4).map(|i| Inlet { y: 0.0, z: 6e-3 * f64::from(i) }).collect();
         let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
         let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &done };

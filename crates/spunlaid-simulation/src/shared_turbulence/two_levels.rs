@@ -224,7 +224,9 @@ impl<'a> LayerSheets<'a> {
         let alone = SubsampleEstimate { wanted: Some(wanted), ..first.few.clone() };
         let mut levels = Levels::default();
         // Numbers of the airs of coarse sheets and of pairs.
-        let (mut airs, mut pairs, mut simulated) = (1, 1, 0);
+        let mut airs = 1;
+        let mut pairs = 1;
+        let mut simulated = 0;
         let mut more = self.at_first();
         let mut pair = Some(NextPair { on, air: 0, fine: Some(&first) });
         loop {

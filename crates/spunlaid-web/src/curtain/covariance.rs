@@ -164,7 +164,8 @@ impl Covariance {
             }
             let parts = parts(d, &classes, variance, most);
             let term = |(number, part): (usize, f64)| {
-                let (across, along) = (across[number / along.len()], along[number % along.len()]);
+                let across = across[number / along.len()];
+                let along = along[number % along.len()];
                 (part > SMALLEST).then_some(Term { part, across, along })
             };
             Self { variance, terms: parts.into_iter().enumerate().filter_map(term).collect() }
@@ -240,7 +241,9 @@ fn parts(direction: usize, classes: &[Class], variance: f64, most: f64) -> Vec<f
 /// The shortest scale that is looked for [m].
 fn shortest_scale(simulated: &FlownCurves, deviations: &[[Vec<f64>; 2]], shortest: [f64; 2]) -> f64 {
     let places = simulated.places();
-    let (mut distances, mut products, mut squares) = (0.0, [0.0; 2], [0.0; 2]);
+    let mut distances = 0.0;
+    let mut products = [0.0; 2];
+    let mut squares = [0.0; 2];
     for (one, place) in places.iter().enumerate() {
         let distance = |other: usize| {
             let [z, y] = simulated.apart(*place, places[other]);
@@ -265,7 +268,8 @@ fn samples(simulated: &FlownCurves) -> Vec<[Vec<f64>; 2]> {
     let count = simulated.points().min(POINTS);
     let of = |(filament, y): (usize, f64)| {
         [0, 1].map(|d| {
-            let (values, mean) = (simulated.deviations(filament, d), simulated.mean(d, y));
+            let values = simulated.deviations(filament, d);
+            let mean = simulated.mean(d, y);
             (0..count).map(|i| f64::from(values[i * values.len() / count]) - mean).collect()
         })
     };

@@ -77,7 +77,8 @@ pub fn draw(
 
 /// The points whose pieces may touch the sheet or be kept.
 fn points_on(curtain: &dyn Curtain, belt: Belt<'_>) -> Range<usize> {
-    let (advance, farthest) = (curtain.belt_ratio() * curtain.spacing(), curtain.farthest());
+    let advance = curtain.belt_ratio() * curtain.spacing();
+    let farthest = curtain.farthest();
     // A piece that begins a cell beside the window is kept.
     let beyond = farthest + 2.0 * belt.sheet.cell;
     let y = || curtain.places().iter().map(|place| place.y - belt.back);

@@ -236,7 +236,8 @@ mod tests {
             let [simulated, truth] = parts(&field, &places);
             let simulated = field.with_noise(&simulated, OWN);
             let filling = simulated.fill_by(&known(&field), truth.places().to_vec(), 2);
-            let (estimated, found) = (mean(filling.missing()), error(&filling, &truth, field.sigma));
+            let estimated = mean(filling.missing());
+            let found = error(&filling, &truth, field.sigma);
             assert!((found / estimated - 1.0).abs() < 0.03, "{field:?}: {found} {estimated}");
         }
     }

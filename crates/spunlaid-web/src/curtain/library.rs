@@ -225,7 +225,8 @@ fn half_lag(simulated: &FlownCurves) -> f64 {
     let [md, cd] = [0, 1].map(|d| {
         let product = |lag: usize| {
             let of = |(filament, place): (usize, &Inlet)| {
-                let (values, mean) = (simulated.deviations(filament, d), simulated.mean(d, place.y));
+                let values = simulated.deviations(filament, d);
+                let mean = simulated.mean(d, place.y);
                 let pairs = values.iter().zip(&values[lag..]);
                 pairs.map(|(a, b)| (f64::from(*a) - mean) * (f64::from(*b) - mean)).sum::<f64>()
             };

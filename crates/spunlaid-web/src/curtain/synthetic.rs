@@ -42,7 +42,8 @@ impl Field {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let [z, y] = self.scales;
         // Waves across, and along the machine direction on a period of six scales beyond all places.
-        let (wave, most) = (TAU / self.turn, (4.0 / z / (TAU / self.turn)).ceil() as i32);
+        let wave = TAU / self.turn;
+        let most = (4.0 / z / (TAU / self.turn)).ceil() as i32;
         let depth = places.iter().map(|place| place.y.abs()).fold(0.0, f64::max);
         let (wave_y, most_y) = match y.is_finite() {
             true => {

@@ -141,7 +141,9 @@ impl Curtain for Tiles<'_> {
     }
 
     fn curve(&self, filament: usize, first: usize, mut into: [&mut [f32]; 2]) {
-        let (source, place, around) = (self.source, self.places[filament], &self.levels[filament]);
+        let source = self.source;
+        let place = self.places[filament];
+        let around = &self.levels[filament];
         let count = into[0].len();
         for (into, mean) in into.iter_mut().zip(source.levels.mean(around)) {
             into.fill(mean as f32);

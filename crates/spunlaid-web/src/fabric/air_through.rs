@@ -200,7 +200,8 @@ mod tests {
             Some(Known::Between(ends)) => ends,
             other => panic!("{other:?}"),
         };
-        let ([even, cloudy], [light, heavy]) = ([at(&[1.0]), at(&[0.7, 1.3])], [at(&[0.7]), at(&[1.3])]);
+        let [even, cloudy] = [at(&[1.0]), at(&[0.7, 1.3])];
+        let [light, heavy] = [at(&[0.7]), at(&[1.3])];
         for end in 0..2 {
             assert!((cloudy[end] / (0.5 * (light[end] + heavy[end])) - 1.0).abs() < 1e-12);
             assert!((1.05..1.3).contains(&(cloudy[end] / even[end])), "{cloudy:?} {even:?}");

@@ -117,7 +117,10 @@ mod tests {
     /// The error is that of `(1 + τdc²)^(−1/c²)` by the CV and of `exp(−τd)` by the length.
     #[test]
     fn analytic_the_error_of_the_bare_area() {
-        let (length, diameter, patch, error) = (80e3, 18e-6, 2e-3, 1e-5);
+        let length = 80e3;
+        let diameter = 18e-6;
+        let patch = 2e-3;
+        let error = 1e-5;
         let covered = length * diameter;
         let by_chance = straight_fibres(length, patch).powi(2);
         let cv = (0.1 + by_chance).sqrt();

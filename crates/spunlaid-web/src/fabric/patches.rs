@@ -61,7 +61,8 @@ pub fn thin_places(map: &Map, side: usize, of: MapUncertainty) -> Option<ThinPla
     });
     let weights = Weights::new(classes, Lattice { sides: blocks, chance: of.chance }, of.deviations);
     let patch = side as f64 * map.cell;
-    let (area, whole) = (patch * patch, (map.columns * map.rows) as f64 * map.cell * map.cell);
+    let area = patch * patch;
+    let whole = (map.columns * map.rows) as f64 * map.cell * map.cell;
     let per_area = |share: Known| match share {
         // Where the map may be too even, there are as many as if it were not.
         Known::Value(0.0, error) if of.deviations.is_some() => {
@@ -198,7 +199,10 @@ impl Weights {
     fn of_normal(&self, edge: f64) -> f64 {
         let deviation = self.deviation();
         let z = (edge - CLASSES_PER_MEAN) / deviation;
-        let (mut before, mut hermite, mut factorial, mut sum) = (1.0, z, 1.0, 0.0);
+        let mut before = 1.0;
+        let mut hermite = z;
+        let mut factorial = 1.0;
+        let mut sum = 0.0;
         for (n, power) in (2..).map(f64::from).zip(&self.powers) {
             factorial *= n;
             sum += hermite * hermite / factorial * power;
@@ -217,8 +221,8 @@ impl Weights {
         for (along, across) in (0..rows).flat_map(|along| (0..columns).map(move |across| (along, across))) {
             let product: f64 = (0..rows)
                 .map(|row| {
-                    let (one, [end, begin]) =
-                        (at(row), [&at(row + along)[..across], &at(row + along)[across..]]);
+                    let one = at(row);
+                    let [end, begin] = [&at(row + along)[..across], &at(row + along)[across..]];
                     dot(&one[..columns - across], begin) + dot(&one[columns - across..], end)
                 })
                 .sum();
@@ -381,7 +385,9 @@ mod tests {
     /// Against sums of all cells of a small map: the lightest position, and the next one that is 1.5 sides away.
     #[test]
     fn analytic_the_lightest_positions_are_apart() {
-        let (columns, rows, side) = (14, 11, 2);
+        let columns = 14;
+        let rows = 11;
+        let side = 2;
         let cells: Vec<u32> = (0..columns * rows).map(|i| 50 + (i * i * 17 % 101) as u32).collect();
         let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true; 2], cells };
         let weight = |[column, row]: [usize; 2]| -> f64 {

@@ -259,7 +259,9 @@ mod tests {
     /// either side, have the mean one in each block.
     #[test]
     fn analytic_the_length_at_which_a_streak_shows_follows_from_the_blocks_beside_it() {
-        let (map, corner, mass) = (map(), 0.4, 1e-5);
+        let map = map();
+        let corner = 0.4;
+        let mass = 1e-5;
         let place = corner + 9.5 * 14.0 * CELL;
         let of_block = 16.0 * 8.0 * STEP * STEP / (15.0 * 7.0);
         for (until, blocks, measured) in [(0.03, 3, STEP / 3.0), (0.029, 2, 0.0), (9.0, 8, 0.0)] {

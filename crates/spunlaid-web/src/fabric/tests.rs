@@ -51,7 +51,8 @@ impl Random {
         let mut sum = self.exponential();
         let mut lines = Vec::new();
         while sum < 2.0 * length * radius {
-            let (angle, off) = (PI * self.uniform(), radius * (2.0 * self.uniform() - 1.0));
+            let angle = PI * self.uniform();
+            let off = radius * (2.0 * self.uniform() - 1.0);
             let half = (radius * radius - off * off).max(0.0).sqrt();
             let [x, y] = [libm::cos(angle), libm::sin(angle)];
             let end = |along: f64| [0.5 * side - y * off + x * along, 0.5 * side + x * off + y * along];
@@ -204,7 +205,9 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
 #[test]
 #[ignore = "slow: many webs of straight fibres"]
 fn stat_the_bare_area_of_straight_fibres_at_random() {
-    let (side, pixels, length) = (2e-3, 400, 20e3);
+    let side = 2e-3;
+    let pixels = 400;
+    let length = 20e3;
     let expected = libm::exp(-length * DIAMETER);
     let mut random = Random::new(1);
     let drawn: Vec<f64> = (0..60)
@@ -238,7 +241,9 @@ fn off_line(at: [f64; 2], [from, to]: &[[f64; 2]; 2]) -> f64 {
 /// `(1 + τdc²)^(−1/c²)`; the chance of single fibres in the patches adds nothing to it.
 #[test]
 fn analytic_the_bare_area_of_a_cloudy_fabric() {
-    let (mut random, length, shape) = (Random::new(2), 80e3, 8);
+    let mut random = Random::new(2);
+    let length = 80e3;
+    let shape = 8;
     let sheet = map([300, 300], 2e-3, |_| random.gamma(shape));
     let squared = 1.0 / shape as f64;
     let by_chance = straight_fibres(length, 2e-3).powi(2);
@@ -385,7 +390,9 @@ fn words_of_those_who_make_fabric_are_answered_in_any_spelling() {
 
 /// A web of normal cells with the streak of one blocked hole.
 fn streaked(random: &mut Random, depth: f64, noise: f64) -> (Map, [StreakSource; 1]) {
-    let (cell, columns, spread) = (1e-3, 600, 9e-3);
+    let cell = 1e-3;
+    let columns = 600;
+    let spread = 9e-3;
     let place = 0.2503;
     let profile = |column: usize| {
         let off = ((column as f64 + 0.5) * cell - place) / spread;
@@ -465,7 +472,9 @@ fn stat_the_weakest_of_forty_sections() {
 
 /// A normal field of streaks and of independent cells on a sheet that is closed to a ring, 0.5 m wide and long.
 fn streaky(random: &mut Random) -> Map {
-    let (columns, sigma, width) = (200, 18e-3, 0.5);
+    let columns = 200;
+    let sigma = 18e-3;
+    let width = 0.5;
     let waves: Vec<[f64; 2]> = (1..=12)
         .map(|k| {
             let wave = 2.0 * PI * f64::from(k) / width * sigma;

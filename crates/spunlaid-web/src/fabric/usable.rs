@@ -50,7 +50,9 @@ mod tests {
     use super::*;
 
     fn web(weight: impl Fn(f64) -> f64) -> Map {
-        let (columns, rows, cell) = (1000, 4, 1e-3);
+        let columns = 1000;
+        let rows = 4;
+        let cell = 1e-3;
         let cells = (0..columns * rows)
             .map(|i| (1e6 * weight(((i % columns) as f64 + 0.5) * cell)).round() as u32)
             .collect();

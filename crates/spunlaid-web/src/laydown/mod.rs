@@ -222,7 +222,8 @@ mod tests {
     #[test]
     fn counts_do_not_depend_on_when_the_lattice_grew() {
         let point = |i: u32| {
-            let (a, b) = (f64::from(i * 7919 % 1009) - 500.0, f64::from(i * 104_729 % 997) - 300.0);
+            let a = f64::from(i * 7919 % 1009) - 500.0;
+            let b = f64::from(i * 104_729 % 997) - 300.0;
             [1.0 + a * 1e-3, -2.0 + b * 1e-3]
         };
         let mut grown = Footprint::new(0.001, [1.0, -2.0]);

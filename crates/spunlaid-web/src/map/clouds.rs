@@ -486,7 +486,8 @@ mod tests {
             };
             close(clouds.longest(), 32e-3);
             close(clouds.shortest(), 2e-3);
-            let (own, other) = (clouds.spectrum(direction), clouds.spectrum(1 - direction));
+            let own = clouds.spectrum(direction);
+            let other = clouds.spectrum(1 - direction);
             for (k, part) in [(4, 1.0 / 6.0), (5, 2.0 / 3.0), (6, 1.0 / 6.0)] {
                 close(own[k - 1].0, 32e-3 / k as f64);
                 close(own[k - 1].1, POWER * part * 32e-3);

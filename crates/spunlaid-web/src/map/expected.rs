@@ -199,7 +199,10 @@ pub(super) fn expected(
         let of_places = sums.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / count as f64;
         let mut by = vec![0.0; columns.start];
         by.extend(sums.iter().map(|value| 2.0 * (value - 1.0) / count as f64));
-        let (mut square, mut error, mut straight, mut parts) = (0.0, Some(0.0), 0.0, Vec::new());
+        let mut square = 0.0;
+        let mut error = Some(0.0);
+        let mut straight = 0.0;
+        let mut parts = Vec::new();
         for (number, ((layer, found), (_, weight))) in layers.iter().zip(&found).zip(&weights).enumerate() {
             let share = weight / whole;
             let scale = share * share * layer.linear_density / weight;

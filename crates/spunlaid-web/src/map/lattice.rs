@@ -246,7 +246,8 @@ mod tests {
             assert!((mean - 5.0).abs() < 1e-12 && (error / wanted - 1.0).abs() < 1e-9, "{mean} {error}");
         }
         // On a closed sheet what follows the weight has no wave of infinite length.
-        let (influence, weights) = (numbers(SIDES, even), numbers(SIDES, |k, l| 2.0 * even(k, l)));
+        let influence = numbers(SIDES, even);
+        let weights = numbers(SIDES, |k, l| 2.0 * even(k, l));
         let of =
             |closed: [bool; 2]| lattice(SIDES, closed, true).error_of_mean(&influence, &weights).unwrap();
         for (closed, wanted) in [

@@ -154,7 +154,9 @@ impl Levels {
     /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
     /// distance is the same on all of them.
     fn by_pitch(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<(f64, f64)> {
-        let (mut squares, mut off, mut fractions) = (0.0, 0.0, 0.0);
+        let mut squares = 0.0;
+        let mut off = 0.0;
+        let mut fractions = 0.0;
         for Sheet { few, fraction } in self.coarse() {
             let of_halves = few.cvs[at(few)?].of_halves;
             squares += fraction * of_halves * of_halves;
@@ -237,7 +239,9 @@ impl CoarseBlocks {
     /// * `sheets` – the number of blocks across, and the blocks
     fn of(sheets: Vec<(usize, Vec<f64>)>) -> Option<Self> {
         let all = deviations(sheets.iter().flat_map(|(_, blocks)| blocks.iter().copied()).collect())?;
-        let (mut near, mut weights, mut rest) = (0.0, 0.0, &all[..]);
+        let mut near = 0.0;
+        let mut weights = 0.0;
+        let mut rest = &all[..];
         for (across, blocks) in &sheets {
             let (own, behind) = rest.split_at(blocks.len());
             rest = behind;
@@ -314,7 +318,9 @@ impl OfMean {
         let along = blocks.len() / across;
         // Weights fall with the distance as those of moving sums of blocks do, so that no variance is negative.
         let falling = |steps: usize, reach: usize| 1.0 - steps as f64 / reach as f64;
-        let (mut products, mut weights, mut squares) = (0.0, 0.0, 0.0);
+        let mut products = 0.0;
+        let mut weights = 0.0;
+        let mut squares = 0.0;
         for (number, block) in blocks.iter().enumerate() {
             let [row, column] = [number / across, number % across];
             for other_row in row.saturating_sub(ALONG - 1)..along.min(row + ALONG) {
@@ -411,7 +417,10 @@ mod tests {
         const TRIALS: usize = 1500;
         let mut random = Normal(SplitMix64::seed_from_u64(3));
         for (in_common, reaching) in [0.98, 0.7, 0.0].into_iter().flat_map(|x| [(x, false), (x, true)]) {
-            let (mut sum, mut squares, mut reported, mut alone) = (0.0, 0.0, 0.0, 0.0);
+            let mut sum = 0.0;
+            let mut squares = 0.0;
+            let mut reported = 0.0;
+            let mut alone = 0.0;
             for _ in 0..TRIALS {
                 let levels = levels(&mut random, in_common, reaching);
                 let square = |few: &SubsampleEstimate| few.cvs[0].cv.powi(2) / SQUARES[0] - 1.0;
@@ -438,7 +447,9 @@ mod tests {
         const SHEETS: usize = 5;
         let mut random = Normal(SplitMix64::seed_from_u64(7));
         for (reaching, expected) in [(false, 1.0), (true, 3.35)] {
-            let (mut reported, mut found, mut reach) = (0.0, 0.0, 0.0);
+            let mut reported = 0.0;
+            let mut found = 0.0;
+            let mut reach = 0.0;
             for _ in 0..TRIALS {
                 let sheets: Vec<Vec<f64>> = (0..SHEETS).map(|_| blocks(&mut random, 20, reaching)).collect();
                 let count = sheets.iter().map(Vec::len).sum::<usize>() as f64;
@@ -530,7 +541,9 @@ mod tests {
         let mut random = Normal(SplitMix64::seed_from_u64(2));
         for (across, rows) in [(4, 6), (1, 5), (2, 4), (5, 2)] {
             let blocks = deviations((0..across * rows).map(|_| random.next()).collect()).unwrap();
-            let (mut products, mut weights, mut squares) = (0.0, 0.0, 0.0);
+            let mut products = 0.0;
+            let mut weights = 0.0;
+            let mut squares = 0.0;
             for (one, a) in blocks.iter().enumerate() {
                 for (other, b) in blocks.iter().enumerate() {
                     let along = (one / across).abs_diff(other / across) as f64 / 3.0;

@@ -77,7 +77,8 @@ pub fn one_fibre(
     let concurrent = (4 * CELLS / (rows * apart)).clamp(1, CONCURRENT) as u64;
     let fibres = sample.fibres.max(1);
     for first in (0..fibres).step_by(concurrent as usize) {
-        let (fibres, seed) = (concurrent.min(fibres - first), seed_of_batch(sample.seed, first));
+        let fibres = concurrent.min(fibres - first);
+        let seed = seed_of_batch(sample.seed, first);
         add(layer, sides, OneFibre { fibres, seed, ..sample }, [apart, trace, rows], by, &mut found)?;
     }
     let scales = sides.iter().map(|side| (*side as f64 * sample.cell).powi(2));

@@ -96,7 +96,8 @@ impl Sample {
         let advance = plan.layer.belt_ratio() * plan.piece;
         let mut sample = Self::new(weight);
         for group in (0..groups).step_by(groups.div_ceil(SAMPLE / WIDTH).max(1)) {
-            let (first, count) = (group * WIDTH, WIDTH.min(plan.places.len() - group * WIDTH));
+            let first = group * WIDTH;
+            let count = WIDTH.min(plan.places.len() - group * WIDTH);
             let before = sample.filaments.len();
             sample.filaments.resize(before + count, vec![DirectionSums::default()]);
             plan.walk(web, &[(first, count)], by, |_, points| {

@@ -63,7 +63,8 @@ fn found(picture: &Picture, settings: &Settings) -> Result<Findings, Fault> {
     let shading = weighed.shading.as_ref().map(|shading| libm::expm1(shading.range()));
     all_notes.extend(notes(picture, settings, light, is_even, &weighed, &patches, &aside));
     all_notes.extend(doubt.map(|(_, fault)| fault));
-    let (clouds, autocorrelation) = (Clouds::measure(map), autocorrelation(map, lags, 1));
+    let clouds = Clouds::measure(map);
+    let autocorrelation = autocorrelation(map, lags, 1);
     let streaks = search(map, shading.is_some());
     let WeighedPicture { map, mean_known, white, density, pixels, .. } = weighed;
     Ok(Findings {

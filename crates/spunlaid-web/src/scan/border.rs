@@ -52,7 +52,8 @@ impl Border {
     fn of_level(blocks: &Level, sides: [usize; 2], [level, web]: [f64; 2]) -> Option<Self> {
         let size = [blocks.columns, blocks.rows()];
         let is_near = |at: usize| (blocks.values[at] - level).abs() < (blocks.values[at] - web).abs();
-        let (mut visited, mut found) = (vec![false; blocks.values.len()], vec![false; blocks.values.len()]);
+        let mut visited = vec![false; blocks.values.len()];
+        let mut found = vec![false; blocks.values.len()];
         for first in (0..4).flat_map(|side| blocks.side(side)) {
             if !visited[first] && is_near(first) {
                 region(&mut visited, size, first, is_near).into_iter().for_each(|at| found[at] = true);

@@ -249,7 +249,9 @@ fn chi_squared(share: f64, degrees: f64) -> f64 {
     }
     let below = |x: f64| {
         let (a, x) = (0.5 * degrees, 0.5 * x);
-        let (mut term, mut sum, mut n) = (1.0, 1.0, a);
+        let mut term = 1.0;
+        let mut sum = 1.0;
+        let mut n = a;
         while term > 1e-15 * sum {
             n += 1.0;
             term *= x / n;

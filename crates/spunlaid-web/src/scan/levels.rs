@@ -33,8 +33,8 @@ pub(super) fn logs(picture: &Picture, lamp: Option<&Picture>) -> Vec<f64> {
 
 /// Refuses a picture of the lamp of another size.
 pub(super) fn same_size(picture: &Picture, lamp: Option<&Picture>) -> Result<(), Fault> {
-    let (wanted, found) =
-        (picture.whole().sides, lamp.map_or(picture.whole().sides, |lamp| lamp.whole().sides));
+    let wanted = picture.whole().sides;
+    let found = lamp.map_or(picture.whole().sides, |lamp| lamp.whole().sides);
     if wanted == found {
         return Ok(());
     }

@@ -103,7 +103,8 @@ impl Picture {
     /// A part of the picture.
     pub(super) fn part(&self, rectangle: Rectangle) -> Self {
         let [columns, rows] = rectangle.sides;
-        let (file, values) = (self.file.clone(), cut(&self.values, self.columns, rectangle));
+        let file = self.file.clone();
+        let values = cut(&self.values, self.columns, rectangle);
         Self { file, values, columns, rows, ..*self }
     }
 

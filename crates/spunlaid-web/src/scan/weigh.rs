@@ -120,8 +120,8 @@ pub(super) fn beside(picture: &Picture, light: Light, correction: Correction<'_>
         web.copy_from_slice(&logs);
         let ([left, top], [across, along]) = (found.web.corner, found.web.sides);
         for (at, log) in web.iter_mut().enumerate() {
-            let (column, row) =
-                ((at % picture.columns).wrapping_sub(left), (at / picture.columns).wrapping_sub(top));
+            let column = (at % picture.columns).wrapping_sub(left);
+            let row = (at / picture.columns).wrapping_sub(top);
             let is_web = column < across && row < along;
             if !is_web || found.dark.get(row * across + column).copied().unwrap_or(false) {
                 *log = f64::NAN;

@@ -83,7 +83,9 @@ impl Correlations {
         let place = lag / self.step;
         let first = (place.floor() as usize).saturating_sub(1).min(self.values.len() - 4);
         let t = place - first as f64;
-        let (a, b, c) = (t - 1.0, t - 2.0, t - 3.0);
+        let a = t - 1.0;
+        let b = t - 2.0;
+        let c = t - 3.0;
         let weights = [-a * b * c / 6.0, 0.5 * t * b * c, -0.5 * t * a * c, t * a * b / 6.0];
         let mut sum = [0.0; WIDTH];
         for (weight, values) in weights.iter().zip(&self.values[first..]) {
@@ -139,7 +141,8 @@ impl Generator {
                     }
                 };
                 let (root_m, root_n) = ((m as f64).sqrt(), rate * (n as f64).sqrt());
-                let (above_m, above_n) = ((m as f64 + 1.0).sqrt(), rate * (n as f64 + 1.0).sqrt());
+                let above_m = (m as f64 + 1.0).sqrt();
+                let above_n = rate * (n as f64 + 1.0).sqrt();
                 // From the function with one harmonic less; that without any is normalised differently.
                 if k > 0 {
                     let less = k as f64 - 1.0;
@@ -320,8 +323,11 @@ mod tests {
             let correlations = |step: f64| {
                 Correlations::with_step(step, other, noises, 12.0, Size { degree: 10, harmonic: 6 })
             };
-            let (exact, fine, coarse) = (correlations(1e-3), correlations(0.00625), correlations(0.025));
-            let (fine, coarse) = (difference(&fine, &exact), difference(&coarse, &exact));
+            let exact = correlations(1e-3);
+            let fine = correlations(0.00625);
+            let coarse = correlations(0.025);
+            let fine = difference(&fine, &exact);
+            let coarse = difference(&coarse, &exact);
             for i in 0..4 {
                 let order = (coarse[i] / fine[i]).ln() / 4.0_f64.ln();
                 assert!((1.8..2.3).contains(&order), "{other} {i}: {order}, {:e}", coarse[i]);

@@ -166,7 +166,9 @@ impl Surrogate {
         let lags = fibres.iter().flatten().map(|correlation| correlation.len()).min()?;
         let own = self.autocorrelation(step, lags)?;
         let sigmas = [self.sigma_md, self.sigma_cd];
-        let (mut residual, mut chance, mut single) = (0.0, 0.0, false);
+        let mut residual = 0.0;
+        let mut chance = 0.0;
+        let mut single = false;
         for (axis, own) in own.iter().enumerate() {
             let within = |lag: &usize| (LAGS[0]..=LAGS[1]).contains(&(*lag as f64 * step / sigmas[axis]));
             let mut squares = [0.0; 3];

@@ -274,7 +274,9 @@ impl<S: Register> Corner<S> {
         let (u, v) = (x * self.pull[0], y * self.pull[1]);
         let squared = u.mul_add(u, v * v);
         // tanh(w/2)/w in w²; w is below 1 within eight standard deviations.
-        let (c0, c1, c2) = (Wide::splat(0.5), Wide::splat(-1.0 / 24.0), Wide::splat(1.0 / 240.0));
+        let c0 = Wide::splat(0.5);
+        let c1 = Wide::splat(-1.0 / 24.0);
+        let c2 = Wide::splat(1.0 / 240.0);
         let ratio = c2.mul_add(squared, c1).mul_add(squared, c0);
         let (p, q) = (u * ratio, v * ratio);
         let square = p.mul_add(p, q * q);
@@ -290,7 +292,8 @@ impl<S: Register> Corner<S> {
 
         let dot = p.mul_add(a, q * b);
         let (factor, inverse) = (under + dot, one.over(more.mul_add(under, dot + dot)));
-        let (a, b) = (two_p.mul_add(factor, a * less) * inverse, two_q.mul_add(factor, b * less) * inverse);
+        let a = two_p.mul_add(factor, a * less) * inverse;
+        let b = two_q.mul_add(factor, b * less) * inverse;
         ([self.step.mul_add(a, x), self.step.mul_add(b, y)], [a, b])
     }
 }

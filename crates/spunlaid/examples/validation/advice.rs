@@ -166,7 +166,8 @@ fn estimated(text: &str, threads: usize) -> (WebSpec, Vec<Estimate>) {
         };
         estimated.extend(advice.tried.iter().filter_map(|tried| {
             let change = tried.on(judged_by)?.difference;
-            let (name, spec) = (label(&tried.change), tried.change.experiment.spec.clone());
+            let name = label(&tried.change);
+            let spec = tried.change.experiment.spec.clone();
             println!(
                 "  {name:44} {:7.2} ± {:5.2} %  {}{}",
                 100.0 * change.value,

@@ -57,7 +57,9 @@ pub fn orders() {
         };
         let distance =
             |a: &[V], b: &[V]| a.iter().zip(b).map(|(&a, &b)| (a - b).dot(a - b)).sum::<f64>().sqrt();
-        let (coarse, middle, fine) = (at(2e-6), at(1e-6), at(0.5e-6));
+        let coarse = at(2e-6);
+        let middle = at(1e-6);
+        let fine = at(0.5e-6);
         println!(
             "  {}: {:.3}",
             scheme.name(),
@@ -75,7 +77,8 @@ pub fn work_identity() {
         // F from the velocities before and after the step; the held root moves nowhere.
         let power: f64 = (1..=20)
             .map(|i| {
-                let (v, after) = (now.velocity[i].lane(lane), next.velocity[i].lane(lane));
+                let v = now.velocity[i].lane(lane);
+                let after = next.velocity[i].lane(lane);
                 (after - v).dot(v) * fibre.node_mass(i) / h
             })
             .sum();

@@ -49,7 +49,9 @@ pub fn terminal_velocity() {
     for (name, heading) in [("along itself", X), ("across itself", Y)] {
         let mut strand = stubby(Root::Free);
         strand.fibre.direction = heading;
-        let (d, nu, rho) = (strand.fibre.diameter, AIR.viscosity, AIR.air_density);
+        let d = strand.fibre.diameter;
+        let nu = AIR.viscosity;
+        let rho = AIR.air_density;
         let weight = strand.fibre.density * strand.fibre.cross_section() * 9.81;
         let expected = if heading == X {
             (weight / (0.5 * PI * d * rho * 0.9 * (d / nu).powf(-0.61))).powf(1.0 / 1.39)
@@ -248,7 +250,8 @@ pub fn beam() {
     let wave = (f.youngs_modulus * f.second_moment() / (f.density * f.cross_section())).sqrt();
     let exact: Vec<f64> =
         [1.875_104, 4.694_091, 7.854_757].map(|b: f64| (b / f.length).powi(2) * wave / (2.0 * PI)).to_vec();
-    let (coarse, fine) = (ratios(&bending(&fibre(40)).0, &exact), ratios(&bending(&fibre(80)).0, &exact));
+    let coarse = ratios(&bending(&fibre(40)).0, &exact);
+    let fine = ratios(&bending(&fibre(80)).0, &exact);
     let falls: Vec<f64> = coarse.iter().zip(&fine).map(|(a, b)| a / b).collect();
     println!("  mesh: {}; from 40 to 80 elements the error falls by {falls:.2?}", short(&fine[..3]));
 }
@@ -276,7 +279,9 @@ pub fn axial_chain() {
 pub fn taut_string() {
     title("taut string, 20 elements: simulated over 2√(T/ml) sin(kπ/2N) with leapfrog's own error, less 1");
     let fibre = thread(20);
-    let (n, m, tension) = (fibre.elements, fibre.element_mass(), 1e-6);
+    let n = fibre.elements;
+    let m = fibre.element_mass();
+    let tension = 1e-6;
     let spacing = fibre.rest_length() + tension / fibre.axial_stiffness();
     let stretched: Vec<V> = (0..=n).map(|i| X * (i as f64 * spacing)).collect();
     let h = 0.5 * fibre.axial_step_limit();

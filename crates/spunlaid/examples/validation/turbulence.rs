@@ -75,7 +75,9 @@ pub fn statistics() {
         println!("  autocorrelation after {:.2} ms: sin x/x = {:.4}, to {off:.1e}", tau * 1e3, x.sin() / x);
     }
     let deviation = 1.0 / (2.0 * air.harmonics as f64).sqrt();
-    let (mut squares, mut pairs, mut largest) = (0.0, 0u32, 0.0f64);
+    let mut squares = 0.0;
+    let mut pairs = 0u32;
+    let mut largest = 0.0f64;
     for i in 0..all.len() {
         for j in 0..i {
             let c: f64 = all[i].iter().zip(&all[j]).map(|(a, b)| a * b).sum::<f64>() / (n * u2) / deviation;

@@ -150,7 +150,9 @@ fn of_kind(web: &Web) {
         let truth = (found.iter().map(|of| of.cv * of.cv).sum::<f64>() / count).sqrt();
         let mean = found.iter().map(|of| of.cv).sum::<f64>() / count;
         let scatter = (found.iter().map(|of| (of.cv - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
-        let (mut errors, mut held, mut known) = (0.0, 0, 0);
+        let mut errors = 0.0;
+        let mut held = 0;
+        let mut known = 0;
         let mut correlation = [0.0; 3];
         for of in &found[..SEEDS as usize] {
             let Some(error) = of.standard_error else { continue };
@@ -180,7 +182,9 @@ fn of_kind(web: &Web) {
         let mean = values.iter().map(|of| of.0).sum::<f64>() / count;
         let scatter = (values.iter().map(|of| (of.0 - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
         let truth = truths.iter().map(|of| of[i]).sum::<f64>() / truths.len() as f64;
-        let (mut errors, mut held, mut known) = (0.0, 0, 0);
+        let mut errors = 0.0;
+        let mut held = 0;
+        let mut known = 0;
         for of in &values[..SEEDS as usize] {
             let Some(error) = of.1 else { continue };
             known += 1;

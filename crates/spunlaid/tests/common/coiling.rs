@@ -197,7 +197,9 @@ impl Thread {
             if piece + 1 < PIECES {
                 missed.extend(end.state().iter().zip(above(unknowns, piece)).map(|(end, start)| end - start));
             } else {
-                let (r, t, m) = (end.position, end.tangent, end.moment);
+                let r = end.position;
+                let t = end.tangent;
+                let m = end.moment;
                 let (firm, give) = (1.0 - self.give, self.give);
                 missed.extend([r.x, r.y, r.z, firm * t.y - give * m.z, firm * t.z + give * m.y]);
             }
@@ -259,7 +261,10 @@ fn above(unknowns: &[f64], piece: usize) -> &[f64] {
 impl RodState {
     /// All but `s`, in a row.
     fn state(&self) -> [f64; 12] {
-        let (r, t, m, n) = (self.position, self.tangent, self.moment, self.force);
+        let r = self.position;
+        let t = self.tangent;
+        let m = self.moment;
+        let n = self.force;
         [r.x, r.y, r.z, t.x, t.y, t.z, m.x, m.y, m.z, n.x, n.y, n.z]
     }
 

@@ -150,10 +150,13 @@ pub fn circle_through(points: &[LaidPoint]) -> Circle {
             product(y, z)
         })
     };
-    let (yy, zz, yz) = (sum(&|y, _| y * y), sum(&|_, z| z * z), sum(&|y, z| y * z));
+    let yy = sum(&|y, _| y * y);
+    let zz = sum(&|_, z| z * z);
+    let yz = sum(&|y, z| y * z);
     let (ry, rz) = (sum(&|y, z| y * (y * y + z * z)), sum(&|y, z| z * (y * y + z * z)));
     let determinant = 2.0 * (yy * zz - yz * yz);
-    let (cy, cz) = ((ry * zz - rz * yz) / determinant, (rz * yy - ry * yz) / determinant);
+    let cy = (ry * zz - rz * yz) / determinant;
+    let cz = (rz * yy - ry * yz) / determinant;
     let radius = (cy * cy + cz * cz + yy + zz).sqrt();
     let apart = sum(&|y, z| ((y - cy).hypot(z - cz) - radius).powi(2)).sqrt();
     Circle { centre: [my + cy, mz + cz], radius, apart }

@@ -14,9 +14,12 @@ pub struct ReferenceDrag {
 /// Forces on the nodes [N]: tension, bending, gravity, drag in air of the given velocity per element.
 pub fn forces(s: &FibreParameters, drag: Option<&ReferenceDrag>, air: &[V], r: &[V], v: &[V]) -> Vec<V> {
     let fibre = &s.fibre;
-    let (n, d, l) = (fibre.elements, fibre.diameter, fibre.length / fibre.elements as f64);
+    let n = fibre.elements;
+    let d = fibre.diameter;
+    let l = fibre.length / fibre.elements as f64;
     let area = PI * d * d / 4.0;
-    let (ka, kt) = (fibre.youngs_modulus * area / l, fibre.youngs_modulus * PI * d.powi(4) / 64.0 / l);
+    let ka = fibre.youngs_modulus * area / l;
+    let kt = fibre.youngs_modulus * PI * d.powi(4) / 64.0 / l;
     let mass = fibre.density * area * l;
     let mut f = vec![V::default(); n + 1];
     let edge = |j: usize| r[j + 1] - r[j];
@@ -39,7 +42,8 @@ pub fn forces(s: &FibreParameters, drag: Option<&ReferenceDrag>, air: &[V], r: &
         if c.norm() == 0.0 {
             return;
         }
-        let (moment, normal) = (stiffness * c.norm().atan2(t0.dot(t1)), c * (1.0 / c.norm()));
+        let moment = stiffness * c.norm().atan2(t0.dot(t1));
+        let normal = c * (1.0 / c.norm());
         let a = normal.cross(t0) * (moment / l0);
         let b = normal.cross(t1) * (moment / l1);
         if i > 0 {
@@ -79,7 +83,9 @@ fn element_drag(drag: &ReferenceDrag, d: f64, l: f64, relative: V, t: V) -> V {
 /// Potential energy of stretch and bending [J].
 pub fn elastic_energy(s: &FibreParameters, r: &[V]) -> f64 {
     let fibre = &s.fibre;
-    let (n, d, l) = (fibre.elements, fibre.diameter, fibre.length / fibre.elements as f64);
+    let n = fibre.elements;
+    let d = fibre.diameter;
+    let l = fibre.length / fibre.elements as f64;
     let ka = fibre.youngs_modulus * PI * d * d / 4.0 / l;
     let kt = fibre.youngs_modulus * PI * d.powi(4) / 64.0 / l;
     let edge = |j: usize| r[j + 1] - r[j];

@@ -9,7 +9,9 @@ use tempfile::TempDir;
 fn table(names: &str, values: &str, scale: f64) -> String {
     let mut text = format!("x,y,z,{names}\n");
     for i in 0..3 * 3 * 7 {
-        let (x, y, z) = (f64::from(i % 7) * 0.2, f64::from(i / 7 % 3) * 0.1, f64::from(i / 21) * 0.1);
+        let x = f64::from(i % 7) * 0.2;
+        let y = f64::from(i / 7 % 3) * 0.1;
+        let z = f64::from(i / 21) * 0.1;
         text += &format!("{},{},{},{values}\n", scale * x, scale * y, scale * z);
     }
     text

@@ -200,7 +200,9 @@ fn stat_the_intervals_of_scanned_pieces_hold_the_cv_of_their_web() {
             let variance = |web: &Map| patch_cv(web, side).expect("an patch_cv").cv.powi(2);
             (webs.iter().map(variance).sum::<f64>() / webs.len() as f64).sqrt()
         });
-        let (mut inside, mut pieces, mut widths) = ([0; 2], 0, [Vec::new(), Vec::new()]);
+        let mut inside = [0; 2];
+        let mut pieces = 0;
+        let mut widths = [Vec::new(), Vec::new()];
         for (seed, web) in (1..).zip(&webs) {
             for part in 0..5 {
                 let map = piece(web, [PIECE[0] * part, 0], PIECE);
@@ -271,7 +273,9 @@ fn an_assumed_lamp_leaves_no_interval() {
 #[test]
 fn without_the_lamp_the_cv_is_a_lower_bound() {
     let map = laid(3);
-    let (size, light, truth) = ([map.columns, map.rows], light(&map), unscanned(&map));
+    let size = [map.columns, map.rows];
+    let light = light(&map);
+    let truth = unscanned(&map);
     let even: Lamp = |_, _| 1.15;
     for (name, lamp) in [("lens", lens as Lamp), ("spotted", spotted), ("even", even)] {
         let scan = file(map.columns, &exposed(size, &light, lamp, 65535.0, 3), 16);

@@ -70,7 +70,8 @@ fn analytic_a_bare_strip_beside_the_web_is_cut_off() {
             let at = |x: usize, y: usize| level.map_or(0.0, |noise| noise[y * COLUMNS + x]);
             let values = map(|x, y, weight| if is_bare(x, y) { at(x, y) } else { weight });
             let found = found(&values);
-            let ([left, top], [columns, rows]) = (found.aside.corner, [found.map.columns, found.map.rows]);
+            let [left, top] = found.aside.corner;
+            let [columns, rows] = [found.map.columns, found.map.rows];
             // The same piece of the web, cut out by hand.
             let plain = map(|_, _, weight| weight);
             let piece = plain.chunks(COLUMNS).skip(top).take(rows).flat_map(|row| &row[left..left + columns]);
@@ -238,7 +239,8 @@ fn analytic_a_lid_of_one_level_around_the_web_is_cut_off() {
         let settings = Settings { patches: vec![1e-3], ..Settings::new(light) };
         let found =
             analyse(&read(COLUMNS, &levels), &settings).unwrap_or_else(|error| panic!("{name}: {error}"));
-        let ([left, top], [columns, rows]) = (found.aside.corner, [found.map.columns, found.map.rows]);
+        let [left, top] = found.aside.corner;
+        let [columns, rows] = [found.map.columns, found.map.rows];
         assert!((top..top + rows).all(|y| (left..left + columns).all(|x| !lid.is_beside(x, y))), "{name}");
         let kept = (columns * rows) as f64
             / (0..levels.len()).filter(|at| !lid.is_beside(at % COLUMNS, at / COLUMNS)).count() as f64;

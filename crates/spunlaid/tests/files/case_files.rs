@@ -144,7 +144,8 @@ fn what_is_set_replaces_what_a_case_says_in_other_words() {
         let air = read(lines, set).unwrap().0.air;
         [air.density, air.kinematic_viscosity]
     };
-    let (warm, numbers) = ("temperature = '60 °C'", "density = '1 kg/m³'\nkinematic_viscosity = '2e-5 m²/s'");
+    let warm = "temperature = '60 °C'";
+    let numbers = "density = '1 kg/m³'\nkinematic_viscosity = '2e-5 m²/s'";
     assert_eq!(air(numbers, &[("air.temperature", "60 °C")]), air(warm, &[]));
     let both = [("air.density", "1 kg/m³"), ("air.kinematic_viscosity", "2e-5 m²/s")];
     assert_eq!(air(warm, &both), [1.0, 2e-5]);

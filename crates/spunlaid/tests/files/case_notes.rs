@@ -49,7 +49,8 @@ fn what_was_rounded_is_said() {
 #[test]
 fn a_drag_law_says_once_where_it_ends() {
     let set = |pairs: &[(&str, &str)]| changed(pairs).1;
-    let (law, thick) = (("drag.across", "marheineke-wegener"), ("fibre.diameter", "6 mm"));
+    let law = ("drag.across", "marheineke-wegener");
+    let thick = ("fibre.diameter", "6 mm");
     assert_eq!(set(&[law]), [""; 0]);
     let fitted = ("drag.across", "ju-shambaugh");
     assert_eq!(set(&[fitted]), [""; 0]);

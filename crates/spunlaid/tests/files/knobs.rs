@@ -252,7 +252,8 @@ fn analytic_the_belt_follows_the_weight_unless_it_is_turned() {
     let line = spun();
     let of = |spec: &WebSpec| [spec.mass_flow(), spec.belt_speed(), spec.weight()];
     let base = of(line.spec());
-    let (throughput, belt) = (knob(&line, "throughput").value, knob(&line, "belt_speed").value);
+    let throughput = knob(&line, "throughput").value;
+    let belt = knob(&line, "belt_speed").value;
     // Mass flow, belt and weight in shares of what they were.
     let all: [(Turns<'_>, [f64; 3]); 6] = [
         (&[("throughput", 1.2 * throughput)], [1.2, 1.2, 1.0]),

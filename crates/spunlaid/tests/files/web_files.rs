@@ -150,7 +150,8 @@ fn identical_the_cutoff_of_one_air_is_set_with_or_without_its_turbulence_across(
         let values: Vec<_> = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
         read_web(FLOWN, &values)
     };
-    let (cutoff, lateral) = (("air.lateral_cutoff", "12"), ("air.lateral", "von-karman"));
+    let cutoff = ("air.lateral_cutoff", "12");
+    let lateral = ("air.lateral", "von-karman");
     let [alone, both] = [&[cutoff][..], &[lateral, cutoff]].map(|set| read(set).unwrap().spec);
     assert_eq!(alone.lateral_cutoff(0), Some(12.0));
     assert_eq!(alone, both);

@@ -210,7 +210,8 @@ fn the_interval_between_looks_follows_the_gradients() {
     case.run.time_step = 1e-5;
     case.air.flow = placed(waves, Vec3::default(), Axis::ALL[0], 1.0);
     let calm = Air { turbulence_intensity: 0.0, ..case.air.clone() };
-    let (eddies, still) = (case.eddies(), Air { velocity: 0.0, flow: Flow::Uniform, ..case.air.clone() });
+    let eddies = case.eddies();
+    let still = Air { velocity: 0.0, flow: Flow::Uniform, ..case.air.clone() };
     let key = StreamKey { seed: 1, replicate: 0 };
     let wind = Wind::uniform(Isa::detect(), &[(still, key)], eddies.count(), 0.11).unwrap();
     let path = |every: u64| -> Vec<Vec3<f64>> {
@@ -312,7 +313,8 @@ fn analytic_a_field_turned_and_in_other_units_is_the_same_air() {
     straight.air.flow = placed(along_x, Vec3::default(), Axis::ALL[0], 1.0);
     // x of the fibre is −z of the field, y is −x, z is y; the root is 7 m up, in the middle of the box.
     let there = |p: Vec3<f64>| (7.0 - 1e-3 * p.z, 0.3 - 1e-3 * p.x, 1e-3 * p.y - 0.2);
-    let (low, high) = (Vec3::new(-200.0, -300.0, 5500.0), Vec3::new(800.0, 700.0, 7500.0));
+    let low = Vec3::new(-200.0, -300.0, 5500.0);
+    let high = Vec3::new(800.0, 700.0, 7500.0);
     let turned_flow = |p: Vec3<f64>| {
         let (x, y, z) = there(p);
         let v = flow(x, y, z);

@@ -91,8 +91,9 @@ fn unbalanced(thread: Thread, coil: &Coil) -> [f64; 3] {
     let turned = |v: V, by: f64| V::new(v.x, cos * v.y + by * sin * v.z, cos * v.z - by * sin * v.y);
     let mut largest = [0.0f64; 3];
     for at in coil.shape.windows(3) {
-        let (before, now, after) =
-            (turned(at[0].position, -1.0), at[1].position, turned(at[2].position, 1.0));
+        let before = turned(at[0].position, -1.0);
+        let now = at[1].position;
+        let after = turned(at[2].position, 1.0);
         let velocity = (after - before) * (0.5 / step);
         let acceleration = (after - now * 2.0 + before) * (1.0 / (step * step));
         let slope = |of: fn(&RodState) -> V| (of(&at[2]) - of(&at[0])) * (0.5 / step);
@@ -151,7 +152,8 @@ fn shape_is_smooth_between_its_places_and_into_the_circle() {
         let off = (coarse.position(place.s) - place.position).norm();
         assert!(off < 1e-8, "s = {}: off by {off}", place.s);
     }
-    let (before, after) = (fine.position(fine.length - 1e-6), fine.position(fine.length + 1e-6));
+    let before = fine.position(fine.length - 1e-6);
+    let after = fine.position(fine.length + 1e-6);
     let tangent = (after - before) * 0.5e6;
     assert!((tangent - V::new(0.0, 0.0, 1.0)).norm() < 1e-5, "{tangent:?}");
 }

@@ -13,8 +13,10 @@ fn table1() -> Case {
 #[test]
 fn rejects_jobs_that_cannot_fly_together() {
     let case = table1();
-    let (mut coarser, mut longer, mut damped, mut broken) =
-        (case.clone(), case.clone(), case.clone(), case.clone());
+    let mut coarser = case.clone();
+    let mut longer = case.clone();
+    let mut damped = case.clone();
+    let mut broken = case.clone();
     coarser.fibre.elements = 10;
     longer.run.steps = 2000;
     damped.run.damping = 1.0;

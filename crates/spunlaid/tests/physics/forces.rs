@@ -142,7 +142,9 @@ proptest! {
 fn analytic_terminal_velocity_along_and_across() {
     // A free, straight, rigidly falling fibre: weight = drag, from the law alone.
     let strand = stubby(Root::Free);
-    let (d, nu, rho) = (strand.fibre.diameter, AIR.viscosity, AIR.air_density);
+    let d = strand.fibre.diameter;
+    let nu = AIR.viscosity;
+    let rho = AIR.air_density;
     let weight = strand.fibre.density * strand.fibre.cross_section() * 9.81;
     // ½πdρβ(Vd/ν)^-0.61 V² = w and ½dρ·6.96(Vd/ν)^-0.44(d/d₀)^0.404 V² = w, per length, for V.
     let along =
@@ -168,7 +170,9 @@ fn analytic_terminal_velocity_is_reached_by_falling() {
     for heading in [X, Y] {
         let mut strand = stubby(Root::Free);
         strand.fibre.direction = heading;
-        let (d, nu, rho) = (strand.fibre.diameter, AIR.viscosity, AIR.air_density);
+        let d = strand.fibre.diameter;
+        let nu = AIR.viscosity;
+        let rho = AIR.air_density;
         let weight = strand.fibre.density * strand.fibre.cross_section() * 9.81;
         let expected = if heading == X {
             (weight / (0.5 * std::f64::consts::PI * d * rho * 0.9 * (d / nu).powf(-0.61))).powf(1.0 / 1.39)

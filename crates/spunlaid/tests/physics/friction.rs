@@ -68,8 +68,8 @@ fn analytic_friction_pulls_what_slides() {
     // Found: 6e-5.
     assert!(off.abs() < 1e-3, "{off}");
     // So the tension holds the length T/μN; the touch-down is known to an element or two. Found: 0.6 %.
-    let (held, lies) =
-        (seen.tension[seen.in_air[0]].0[0] / friction, count as f64 * case.fibre.rest_length());
+    let held = seen.tension[seen.in_air[0]].0[0] / friction;
+    let lies = count as f64 * case.fibre.rest_length();
     assert!((held / lies - 1.0).abs() < 0.015, "{held} and {lies}");
 }
 
@@ -83,7 +83,8 @@ fn analytic_friction_holds_what_it_can() {
         flight.step_to(time).unwrap();
         let (seen, belt) = (flight.snapshot(), case.line.unwrap().belt_speed);
         let (friction, count) = (friction(&case), seen.nodes[0] - seen.in_air[0]);
-        let (tension, bend) = (seen.tension[seen.in_air[0]].0[0], mass(&case) * belt * belt);
+        let tension = seen.tension[seen.in_air[0]].0[0];
+        let bend = mass(&case) * belt * belt;
         // Found: 0.08 and 0.06 %.
         assert!((tension / bend - 1.0).abs() < 0.01, "{tension:e} and {bend:e}");
         assert!(tension / friction < count as f64 * case.fibre.rest_length());
@@ -126,8 +127,8 @@ fn what_slides_on_a_fast_belt_is_not_stretched() {
             })
             .collect::<Vec<_>>()
     };
-    let (slides, sticks) =
-        (strains("friction", "10 µs", "4 mm", 0.1), strains("stick", "20 µs", "8 mm", 0.15));
+    let slides = strains("friction", "10 µs", "4 mm", 0.1);
+    let sticks = strains("stick", "20 µs", "8 mm", 0.15);
     // Found: up to 4e-5, and 7.4 to 8.7 % on the way to 20 %, with elements of 4 mm 5.8 to 7.3 %.
     assert!(slides.iter().all(|strain| strain.abs() < 1e-4), "{slides:?}");
     assert!(sticks.iter().all(|strain| (0.05..0.2).contains(strain)), "{sticks:?}");
@@ -148,9 +149,7 @@ fn a_fine_fibre_that_may_slide_lies_as_one_that_sticks() {
         lengths.iter().sum::<f64>() / lengths.len() as f64 / case.fibre.rest_length()
     };
     // The suction holds it with more than the forces that arrive at the belt, but for the blows of landings.
-    let (slides, sticks) = (
-        laid(&[("run.duration", "0.1 s"), ("belt.contact", "friction")]),
-        laid(&[("run.duration", "0.1 s")]),
-    );
+    let slides = laid(&[("run.duration", "0.1 s"), ("belt.contact", "friction")]);
+    let sticks = laid(&[("run.duration", "0.1 s")]);
     assert!((slides / sticks - 1.0).abs() < 0.02, "{slides} and {sticks}");
 }

@@ -48,7 +48,9 @@ fn observed_order(scheme: Scheme, damping: f64) -> f64 {
     // (0.13 rad for the fastest, 5.8e4 rad/s).
     let duration = 4e-3;
     let at = |h| end_positions(&simulated(Isa::detect(), scheme, damping, h, duration).0);
-    let (coarse, middle, fine) = (at(2e-6), at(1e-6), at(0.5e-6));
+    let coarse = at(2e-6);
+    let middle = at(1e-6);
+    let fine = at(0.5e-6);
     (rms_distance(&coarse, &middle) / rms_distance(&middle, &fine)).log2()
 }
 
@@ -183,7 +185,10 @@ fn invariant_energy_ledgers_close_in_proportion_to_the_step() {
     for (scheme, power) in [(Scheme::SemiImplicitEuler, 1.0), (Scheme::Leapfrog, 2.0)] {
         let errors = |h: f64| {
             let e = simulated(Isa::detect(), scheme, 10.0, h, 0.064).0.energy;
-            let (w, t, b, air) = (e.work.0, e.kinetic.0, e.imbalance().0, e.drag_work.0);
+            let w = e.work.0;
+            let t = e.kinetic.0;
+            let b = e.imbalance().0;
+            let air = e.drag_work.0;
             let rms = |f: &dyn Fn(usize) -> f64| ((0..WIDTH).map(|i| f(i).powi(2)).sum::<f64>() / 8.0).sqrt();
             (rms(&|i| w[i] / t[i] - 1.0), rms(&|i| b[i] / air[i]))
         };

@@ -195,7 +195,8 @@ fn analytic_drag_factor_of_a_titre() {
         read_spinline(&file, &[(key.to_owned(), value.to_owned())]).unwrap()
     };
     let unchanged = with("drag.friction_coefficient", "0.5");
-    let (of_law, factor) = (with("drag.friction_coefficient", "0.4"), with("spinline.drag_factor", "0.8"));
+    let of_law = with("drag.friction_coefficient", "0.4");
+    let factor = with("spinline.drag_factor", "0.8");
     let mut factor = factor;
     factor.spec.drag = unchanged.spec.drag;
     let [expected, found] = [&of_law, &factor].map(|file| file.solve().unwrap().remove(0));

@@ -17,7 +17,10 @@ fn lines() -> Vec<(String, SpinFile)> {
 
 #[test]
 fn identical_states_followed_and_sought() {
-    let (mut compared, mut laws, mut polymers, mut crystallise) = (0, BTreeSet::new(), BTreeSet::new(), 0);
+    let mut compared = 0;
+    let mut laws = BTreeSet::new();
+    let mut polymers = BTreeSet::new();
+    let mut crystallise = 0;
     for (name, file) in lines() {
         let (line, friction) = (&file.spec.spinline, file.spec.drag.along);
         let Ok(base) = line.solve(friction) else { continue };

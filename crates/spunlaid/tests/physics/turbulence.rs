@@ -26,8 +26,9 @@ fn records_of(mut wind: Wind, air: &Air, interval: f64, times: Range<f64>) -> Ve
     for k in 0..((times.end - times.start) / interval) as usize {
         let velocities = wind.at(times.start + k as f64 * interval);
         for (lane_record, record) in records.iter_mut().enumerate() {
-            let (lane, eddy, component) =
-                (lane_record / (EDDIES * 3), lane_record / 3 % EDDIES, lane_record % 3);
+            let lane = lane_record / (EDDIES * 3);
+            let eddy = lane_record / 3 % EDDIES;
+            let component = lane_record % 3;
             let v = velocities[eddy].lane(lane);
             record.push([v.x - air.velocity, v.y, v.z][component]);
         }
@@ -307,7 +308,9 @@ fn stat_variance_is_the_same_at_every_instant_of_the_windows() {
 #[test]
 fn stat_autocorrelation_holds_across_the_joints_of_windows() {
     let air = short_windows();
-    let (repeat, fade, hop) = (air.repeat_time(), 0.25 * air.repeat_time(), 0.75 * air.repeat_time());
+    let repeat = air.repeat_time();
+    let fade = 0.25 * air.repeat_time();
+    let hop = 0.75 * air.repeat_time();
     // The weight of window k, theory.md (50).
     let weight = |k: usize, t: f64| {
         let since = t - k as f64 * hop;
@@ -345,7 +348,8 @@ fn stat_autocorrelation_holds_across_the_joints_of_windows() {
         let of_pair = |(start, end): (f64, f64)| {
             (0..12).map(|k| weight(k, start) * weight(k, end)).sum::<f64>() * within(lag)
         };
-        let (found, expected) = (sum / n, pairs.map(of_pair).iter().sum::<f64>() / places.len() as f64);
+        let found = sum / n;
+        let expected = pairs.map(of_pair).iter().sum::<f64>() / places.len() as f64;
         // Products of two normal variables scatter by one, or √2 where they are the same; three places of one
         // signal count as one, and y and z as two.
         let bound = 4.0 * (3.0_f64 / n).sqrt() * ((1.0 + expected * expected) / 2.0).sqrt();
@@ -376,7 +380,8 @@ fn stat_spectrum_of_many_windows_is_flat_to_the_cutoff_and_nothing_above() {
             let (fade, hop) = (0.25 * air.repeat_time(), 0.75 * air.repeat_time());
             let step = 1.0 / (segment as f64 * interval);
             let corners = |off: f64| 1.0 / (48.0 * PI * PI * fade * fade * hop * (off - 2.0 * step).powi(3));
-            let (off, image) = (f - air.cutoff_frequency, 1.0 / interval - f - air.cutoff_frequency);
+            let off = f - air.cutoff_frequency;
+            let image = 1.0 / interval - f - air.cutoff_frequency;
             let hann = 2.0 / (15.0 * PI * PI * (off / step - 1.0).powi(5));
             let leak = corners(off) + corners(image) + hann + 1e-12;
             assert!(

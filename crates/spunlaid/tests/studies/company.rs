@@ -90,7 +90,9 @@ fn computing<'a>(stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunContext<'a> {
 
 /// What a run of a case alone gives, or why it gives nothing.
 fn alone(case: &Case) -> Result<Vec<Trajectory>, String> {
-    let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), Vec::new());
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let mut all = Vec::new();
     let done: Result<(), Error> = fly(case, KEPT, computing(&stop, &steps), |one| {
         all.push(one);
         Ok(())
@@ -100,7 +102,9 @@ fn alone(case: &Case) -> Result<Vec<Trajectory>, String> {
 
 /// What the points of a study give, by point.
 fn together(points: &[Point]) -> Result<Vec<Vec<Trajectory>>, String> {
-    let (stop, steps, mut all) = (AtomicBool::new(false), AtomicU64::new(0), vec![Vec::new(); points.len()]);
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let mut all = vec![Vec::new(); points.len()];
     let done: Result<(), Error> =
         fly_batches(points, &batches(points), KEPT, computing(&stop, &steps), |point, one| {
             all[point].push(one);

@@ -311,7 +311,9 @@ fn files() -> &'static Path {
         let folder = tempfile::tempdir().unwrap();
         let mut field = "x_m,y_m,z_m,u_m_s,v_m_s,w_m_s,k_m2_s2,epsilon_m2_s3\n".to_owned();
         for (i, j, k) in (0..75).map(|n| (n / 15, n / 3 % 5, n % 3)) {
-            let (x, y, z) = (0.06 * f64::from(i), 0.04 * f64::from(j - 2), 0.06 * f64::from(k - 1));
+            let x = 0.06 * f64::from(i);
+            let y = 0.04 * f64::from(j - 2);
+            let z = 0.06 * f64::from(k - 1);
             let u = 20.0 / (1.0 + 2.0 * x) - 30.0 * y * y;
             let (v, energy) = (u * y / (1.0 + x), 1.0 + x + z);
             field += &format!("{x},{y},{z},{u},{v},{z},{energy},{}\n", 60.0 * energy);

@@ -75,7 +75,10 @@ const TRIALS: u64 = 300;
 
 /// Fraction of intervals that hold the true effects 6, −2 and 0, their mean half-width, and the scatter of the effects.
 fn coverage(design: &str, replicates: u64, model: Model, noise: Noise) -> (f64, f64, f64) {
-    let (mut inside, mut all, mut widths, mut errors) = (0, 0, 0.0, 0.0);
+    let mut inside = 0;
+    let mut all = 0;
+    let mut widths = 0.0;
+    let mut errors = 0.0;
     let is_drawn = design.contains("points");
     let of_trial = |trial| {
         let mut study = three_keys(design, replicates, trial);

@@ -56,16 +56,16 @@ fn published_table1_amplitude_and_frequency() {
 
 #[test]
 fn published_table1_at_the_papers_step() {
-    let (fine, coarse) = (results(&table1(1e-6, 1.0, 8)), results(&table1(2e-5, 1.0, 8)));
+    let fine = results(&table1(1e-6, 1.0, 8));
+    let coarse = results(&table1(2e-5, 1.0, 8));
     // "Far below 1 %", and in proportion to the step.
-    let (e1, e20) = (
-        fine.number("work_error").map_or(f64::NAN, Number::value),
-        coarse.number("work_error").map_or(f64::NAN, Number::value),
-    );
+    let e1 = fine.number("work_error").map_or(f64::NAN, Number::value);
+    let e20 = coarse.number("work_error").map_or(f64::NAN, Number::value);
     assert!(e1 < 0.1, "work error {e1} %");
     assert!((e20 / e1 / 20.0 - 1.0).abs() < 0.2, "work error grows by {}", e20 / e1);
     // Same phases: the amplitude moves by less than 0.1 %.
-    let (a1, a20) = (fine.estimate("amplitude_y").mean, coarse.estimate("amplitude_y").mean);
+    let a1 = fine.estimate("amplitude_y").mean;
+    let a20 = coarse.estimate("amplitude_y").mean;
     assert!((a20 / a1 - 1.0).abs() < 1e-3, "{a1} m at 1 µs, {a20} m at 20 µs");
 }
 
@@ -234,10 +234,13 @@ replicates = 12
     );
     let (case, _) = read_case((&text, "case.toml"), &[]).unwrap();
     for threads in [1, 2] {
-        let (stop, fibre_steps, recorder) =
-            (AtomicBool::new(false), AtomicU64::new(0), RecordedSamples::default());
+        let stop = AtomicBool::new(false);
+        let fibre_steps = AtomicU64::new(0);
+        let recorder = RecordedSamples::default();
         let computing = RunContext { threads, isa: Isa::detect(), stop: &stop, done: &fibre_steps };
-        let (mut simulated, mut lost, mut order) = (Vec::new(), Vec::new(), Vec::new());
+        let mut simulated = Vec::new();
+        let mut lost = Vec::new();
+        let mut order = Vec::new();
         fly_for_checks(
             &case,
             &FinerPlans::none(Unchecked::NotAsked),

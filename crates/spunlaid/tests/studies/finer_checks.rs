@@ -226,7 +226,8 @@ fn rejects_an_error_of_the_mesh_where_no_order_is_shown() {
     let meshed = |elements| with_elements(elements, NormalLaw::JuShambaugh);
     let fine = flights(&meshed(FINE), 2);
     for (elements, truth) in [(20, -0.27), (40, 0.07)] {
-        let (check, coarse) = (mesh_checked(&meshed(elements)), flights(&meshed(elements), 2));
+        let check = mesh_checked(&meshed(elements));
+        let coarse = flights(&meshed(elements), 2);
         let frequency =
             check.changes.iter().find(|change| change.statistic.name == "frequency").expect("there");
         let error = off(&coarse, &fine, ["frequency_y", "frequency_z"]);
@@ -274,8 +275,8 @@ fn invariant_the_step_check_gives_the_error_of_the_step() {
     ] {
         let (simulated, check) = checked_at(scheme, h, 0.0);
         let instants = 1..=(check.duration / 1e-3).round() as usize;
-        let (error, change) =
-            (apart(&simulated, &converged, instants), check.path.as_ref().expect("paths").mean);
+        let error = apart(&simulated, &converged, instants);
+        let change = check.path.as_ref().expect("paths").mean;
         // The program takes the error to be at most 2.5 times the change.
         assert!(error < 2.5 * change + start, "{} at {h} s: {change:e} of {error:e}", scheme.name());
         assert!(change < 0.85 * error, "{} at {h} s: {change:e} of {error:e}", scheme.name());
@@ -444,7 +445,8 @@ fn checks_count_the_turbulence_that_they_make() {
         FinerPlans::for_case(&case).step.expect("asked for").share_of_run
     };
     let counted = |duration: f64, windows: f64| {
-        let (steps, air) = (20.0 * duration / 1e-5, windows * 3.0 * 20.0 * 128.0 * 0.3 * 9.0);
+        let steps = 20.0 * duration / 1e-5;
+        let air = windows * 3.0 * 20.0 * 128.0 * 0.3 * 9.0;
         (2.0 * steps + air) / (steps + air)
     };
     // They begin every 0.96 s, and no more than one second is compared.

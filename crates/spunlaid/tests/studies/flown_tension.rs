@@ -45,7 +45,9 @@ fn by<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> RunCont
 
 /// What a file is when everything has been simulated, and how many tensions that took.
 fn settled<T>(threads: usize, read: impl Fn(Overrides<'_>) -> Result<T, Error>) -> (T, usize) {
-    let (stop, steps, mut wanted) = (AtomicBool::new(false), AtomicU64::new(0), 0);
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let mut wanted = 0;
     let read = Resources::default().resolve_tension(
         |resources| read(Overrides::from(&[][..]).with(resources)),
         |resources| {
@@ -121,7 +123,9 @@ fn a_reader_simulates_nothing_and_reports_what_has_to_be_simulated() {
     assert_eq!(number(&case, "feed.speed"), number(&zero, "feed.speed"));
     assert!(notes.iter().any(|note| note.to_string().contains("is found when the case is simulated")));
     // The bar ends where it should, whichever round was the last.
-    let (stop, steps, most) = (AtomicBool::new(false), AtomicU64::new(0), resources.most_steps());
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let most = resources.most_steps();
     resources.fly(by(1, &stop, &steps)).unwrap();
     let done = steps.into_inner() as f64 / most as f64;
     assert!((done - 1.0).abs() < 0.05, "{done}");
@@ -131,7 +135,9 @@ fn a_reader_simulates_nothing_and_reports_what_has_to_be_simulated() {
 
 #[test]
 fn a_stop_ends_the_flights() {
-    let (stop, steps, mut resources) = (AtomicBool::new(true), AtomicU64::new(0), Resources::default());
+    let stop = AtomicBool::new(true);
+    let steps = AtomicU64::new(0);
+    let mut resources = Resources::default();
     read_case((&case(), NAME), Overrides::from(&[][..]).with(&resources)).unwrap();
     let stopped = resources.fly(by(2, &stop, &steps));
     assert!(matches!(stopped, Err(Error::Interrupted)), "{stopped:?}");

@@ -16,7 +16,8 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn identical_to_the_files_of_the_repository() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (copies, originals) = (crates.join("../spunlaid-input/src/paper/cases"), crates.join("../../cases"));
+    let copies = crates.join("../spunlaid-input/src/paper/cases");
+    let originals = crates.join("../../cases");
     let copied = files(&copies);
     assert!(copied.len() >= 9, "{copied:?}");
     for copy in copied {

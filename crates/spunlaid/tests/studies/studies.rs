@@ -25,7 +25,9 @@ fn computing<'a>(threads: usize, stop: &'a AtomicBool, steps: &'a AtomicU64) -> 
 
 fn simulated(study: &Study, threads: usize) -> Journal {
     let journal = Mutex::new(Journal::in_memory());
-    let (stop, steps, progress) = (AtomicBool::new(false), AtomicU64::new(0), Progress::default());
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let progress = Progress::default();
     run(study, &journal, computing(threads, &stop, &steps), &progress).unwrap();
     let mut journal = journal.into_inner().unwrap();
     let fibres: u64 = (0..study.points.len()).map(|point| journal.held(point)).sum();
@@ -83,8 +85,8 @@ fn identical_to_single_runs_whether_phases_are_common_or_not() {
             // The means have the same bits, too.
             let mut collector = Results::collector(0);
             flights.into_iter().for_each(|flight| collector.take(flight));
-            let (all, of_point) =
-                (collector.finish(), results_of_point(&study, &mut journal, index).unwrap());
+            let all = collector.finish();
+            let of_point = results_of_point(&study, &mut journal, index).unwrap();
             for number in &all.numbers {
                 let i = study.quantity(number.measure.name).unwrap();
                 // A number that is defined for no fibre has no mean.
@@ -126,7 +128,9 @@ fn identical_for_any_threads_and_any_packing() {
         let there: Vec<Record> = expected.iter().skip(offset).step_by(stride).cloned().collect();
         journal.add(&there).unwrap();
         let journal = Mutex::new(journal);
-        let (stop, steps, progress) = (AtomicBool::new(false), AtomicU64::new(0), Progress::default());
+        let stop = AtomicBool::new(false);
+        let steps = AtomicU64::new(0);
+        let progress = Progress::default();
         run(&study, &journal, computing(2, &stop, &steps), &progress).unwrap();
         assert_eq!(all(&mut journal.into_inner().unwrap()), expected);
         let steps_per_fibre = case_of(&study.points[0]).run.steps;

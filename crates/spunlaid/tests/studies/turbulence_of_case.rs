@@ -62,7 +62,9 @@ fn agree(one: &[f64], other: &[f64]) -> bool {
 
 /// The keys that change the turbulence of a case, and what is wrong.
 fn of_every_key(name: &str, text: &str) -> (BTreeSet<&'static str>, Vec<String>) {
-    let (text, mut changing, mut wrong) = (with_files(text), BTreeSet::new(), Vec::new());
+    let text = with_files(text);
+    let mut changing = BTreeSet::new();
+    let mut wrong = Vec::new();
     let case_with = |set: &[(String, String)]| read_case((&*text, "case.toml"), set).map(|(case, _)| case);
     let case = case_with(&[]).unwrap();
     let (air, is_field) = (drawn(&case).unwrap(), case.air.lateral != Lateral::Uniform);

@@ -244,7 +244,8 @@ struct Found {
 fn vary_every_key(webs: &[(&str, &str)]) -> Found {
     let mut found = Found::default();
     for (name, text) in webs {
-        let (web, mut known) = (web_beside_cases(text, &[]).unwrap().spec, BTreeMap::new());
+        let web = web_beside_cases(text, &[]).unwrap().spec;
+        let mut known = BTreeMap::new();
         // What is not of a layer varies once, and a simulated web, which takes long, varies only what the others
         // cannot.
         let done: BTreeSet<&str> = found.varied.iter().filter_map(|full| Some(web_key(full)?.name)).collect();

@@ -118,7 +118,8 @@ cell = \"1 mm\"
 patches = [\"2 mm\", \"10 mm\"]
 assumed = \"line.filaments_per_metre\"
 ";
-    let (spec, changes) = (read_web((text, &cases()), &[]).unwrap().spec, read(text, &[]));
+    let spec = read_web((text, &cases()), &[]).unwrap().spec;
+    let changes = read(text, &[]);
     assert_eq!(factors(&changes), [("line.filaments_per_metre", 0.5), ("line.filaments_per_metre", 2.0)]);
     let (laid, stop) = (AtomicU64::new(0), AtomicBool::new(false));
     let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &laid };

@@ -191,7 +191,9 @@ fn rejects_a_beam_that_loses_its_filaments() {
     let mut case = case();
     // Air of half a metre in a second does not carry the fibre that is fed to the belt.
     case.air.speed_factor = 0.01;
-    let (stop, steps, places) = (AtomicBool::new(false), AtomicU64::new(0), slot(&sheet, 12));
+    let stop = AtomicBool::new(false);
+    let steps = AtomicU64::new(0);
+    let places = slot(&sheet, 12);
     let window = Window { corner: [10e-3, 20e-3], sides: [10e-3; 2] };
     let beam = Beam::new(&case, &places);
     let by = RunContext { threads: 2, isa: Isa::detect(), stop: &stop, done: &steps };

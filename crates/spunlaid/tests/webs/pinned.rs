@@ -66,15 +66,17 @@ fn limit_a_web_in_its_own_turbulence_has_not_changed() {
 #[test]
 #[ignore = "slow: three webs in shared turbulence"]
 fn stat_a_changed_web_alone_in_the_room_and_beside_the_pinned_one_agree() {
-    let (web, farther, far) =
-        (line(&[]), line(&[("belt.distance", "0.115 m")]), line(&[("belt.distance", "0.13 m")]));
+    let web = line(&[]);
+    let farther = line(&[("belt.distance", "0.115 m")]);
+    let far = line(&[("belt.distance", "0.13 m")]);
     let seen = looks(2, &[&web, &farther, &far]);
     // Beside the pinned one nothing is shown of a flight.
     assert!(seen[1].1 > 0 && seen[2].1 == 0);
     for ((alone, _), (beside, _)) in seen[1..2].iter().zip(&seen[2..]) {
         let [alone, beside] = [alone, beside].map(|looks| looks.last().unwrap().changes[1]);
         // Twice the change of the distance changes the CV about twice as much.
-        let (half, error) = (0.5 * beside.difference.value, 0.5 * beside.difference.standard_error);
+        let half = 0.5 * beside.difference.value;
+        let error = 0.5 * beside.difference.standard_error;
         let off = (alone.difference.value - half) / alone.difference.standard_error.hypot(error);
         assert!(off.abs() < 3.0 && alone.in_common.unwrap() > 0.5, "{alone:?} {beside:?}");
     }

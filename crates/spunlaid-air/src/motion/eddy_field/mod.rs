@@ -286,7 +286,8 @@ fn memory(fields: u64, way: &EddyPath, room: &Room, cutoff: f64) -> f64 {
     let highest = way.stages.iter().map(|stage| stage.cutoff_frequency).fold(0.0, f64::max);
     let (mut kept, mut making) = (0.0, 0.0_f64);
     for (j, (stage, part)) in way.stages.iter().zip(room.parts(way, &lattice)).enumerate() {
-        let (of_stage, points) = (harmonics as f64 * stage.cutoff_frequency / highest, part.counts());
+        let of_stage = harmonics as f64 * stage.cutoff_frequency / highest;
+        let points = part.counts();
         let samples = samples(of_stage.ceil() as usize);
         let [youngest, oldest] = way.travels(j);
         let looked_at = samples as f64 * (1.0 / BLOCKS + (oldest - youngest) * highest / harmonics as f64);

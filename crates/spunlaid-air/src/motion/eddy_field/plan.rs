@@ -251,6 +251,8 @@ pub(super) fn projection(k: [f64; 3], is_alone: bool) -> [[f64; 3]; 3] {
     let per_square = if is_alone { 0.0 } else { 1.0 / square };
     let [x, y, z] = k;
     let less = |whole: f64, product: f64| whole - product * per_square;
-    let (xy, xz, yz) = (less(0.0, x * y), less(0.0, x * z), less(0.0, y * z));
+    let xy = less(0.0, x * y);
+    let xz = less(0.0, x * z);
+    let yz = less(0.0, y * z);
     [[less(1.0, x * x), xy, xz], [xy, less(1.0, y * y), yz], [xz, yz, less(1.0, z * z)]]
 }

@@ -129,7 +129,10 @@ struct Pass<'a> {
 /// instruction set of the kernel.
 macro_rules! stage {
     ($factor:literal, $small:ident, $roots:expr, $stride:expr, $from:expr, $into:expr) => {{
-        let (roots, stride, from, into) = ($roots, $stride, &$from[..], &mut $into[..]);
+        let roots = $roots;
+        let stride = $stride;
+        let from = &$from[..];
+        let into = &mut $into[..];
         let groups = from.len() / (stride * $factor);
         for group in 0..groups {
             let mut turns = [[0.0; 2]; $factor];

@@ -199,7 +199,8 @@ impl Wind {
         let Signal::Synthesised(windows) = &mut self.signal else { return None };
         let cells = t / self.spacing * self.cells_per_sample as f64;
         let cell = cells as u64;
-        let (s, start) = (Wide::splat(cells - cell as f64), (cell % self.cells_per_sample) as usize);
+        let s = Wide::splat(cells - cell as f64);
+        let start = (cell % self.cells_per_sample) as usize;
         let mut weights = [Wide::zero(); SPREAD];
         for (weight, (a, b)) in
             weights.iter_mut().zip(self.weights[start].iter().zip(&self.weights[start + 1]))

@@ -60,10 +60,8 @@ impl Stretches {
         let angle = std::f64::consts::FRAC_PI_2 * (local as f64 + 0.5) / self.fade as f64;
         let (new, old) = (Wide::splat(libm::sin(angle)), Wide::splat(libm::cos(angle)));
         for (into, (now, before)) in into.iter_mut().zip(self.now.iter().zip(&self.before)) {
-            let (a, b) = (
-                now.value_and_slope::<S>(local as usize),
-                before.value_and_slope::<S>((local + self.hop) as usize),
-            );
+            let a = now.value_and_slope::<S>(local as usize);
+            let b = before.value_and_slope::<S>((local + self.hop) as usize);
             *into = (new.mul_add(a.0, old * b.0).store(), new.mul_add(a.1, old * b.1).store());
         }
     }

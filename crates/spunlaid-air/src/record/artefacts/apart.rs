@@ -129,7 +129,8 @@ pub(super) fn clipped(
     is_left_out: impl Fn(usize) -> bool,
     sign: f64,
 ) -> Vec<usize> {
-    let (mut first, mut second) = ((f64::NEG_INFINITY, Vec::new()), (f64::NEG_INFINITY, 0));
+    let mut first = (f64::NEG_INFINITY, Vec::new());
+    let mut second = (f64::NEG_INFINITY, 0);
     for (i, value) in values.iter().enumerate().filter(|(i, _)| !is_left_out(*i)).map(|(i, x)| (i, sign * x))
     {
         if value > first.0 {

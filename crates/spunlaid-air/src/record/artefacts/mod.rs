@@ -120,7 +120,9 @@ impl Artefacts {
         if left_out == 0 || left_out as f64 > MOST_LEFT_OUT * samples as f64 {
             return None;
         }
-        let (mut keep, mut joints, mut at) = (vec![true; samples], 0, 0);
+        let mut keep = vec![true; samples];
+        let mut joints = 0;
+        let mut at = 0;
         for stretch in self.is_spoilt.chunk_by(|a, b| a == b) {
             let range = at..at + stretch.len();
             at = range.end;

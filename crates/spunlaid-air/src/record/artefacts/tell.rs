@@ -100,7 +100,8 @@ impl ComponentReport<'_> {
     }
 
     pub(super) fn held(&self, times: f64) -> Fault {
-        let (written, rate) = (1.0 / self.record.interval, 1.0 / (self.record.interval * times));
+        let written = 1.0 / self.record.interval;
+        let rate = 1.0 / (self.record.interval * times);
         let on_average = if times.fract() == 0.0 { "" } else { " on average" };
         let message = format!(
             "each value occurs {} times in a row{on_average}, so the true sampling rate is {} and not {}: \

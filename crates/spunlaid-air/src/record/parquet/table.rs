@@ -246,7 +246,9 @@ fn page_sizes(head: &[u8]) -> Option<(u64, u64)> {
         }
         None
     };
-    let (_kind, uncompressed, compressed) = (field()?, field()?, field()?);
+    let _kind = field()?;
+    let uncompressed = field()?;
+    let compressed = field()?;
     Some((uncompressed, compressed))
 }
 

@@ -137,7 +137,8 @@ pub fn study(program: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     };
     let table = std::fs::read_to_string(out.join("results.csv")).unwrap_or_default();
     let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
-    let (heads, cells) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default());
+    let heads = lines.next().unwrap_or_default();
+    let cells = lines.next().unwrap_or_default();
     let Some(point) = found["points"][0]["results"].as_object() else { return Outcome::Refused };
     let own = leaves(results);
     for (measure, value) in point {

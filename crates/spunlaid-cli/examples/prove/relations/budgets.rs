@@ -71,7 +71,8 @@ pub fn mass_of_a_web(_: &Program, drawn: &Drawn, results: &Json) -> Outcome {
     for layer in results["layers"].as_array().into_iter().flatten() {
         let of = |name: &str| layer[name].as_f64().unwrap_or(f64::NAN);
         let fed = of("filaments") * of("linear_density_kg_m") * of("feed_speed_m_s");
-        let (wanted, found) = (fed / (width * of("belt_speed_m_s")), of("basis_weight_kg_m2"));
+        let wanted = fed / (width * of("belt_speed_m_s"));
+        let found = of("basis_weight_kg_m2");
         if (found / wanted - 1.0).abs() > 1e-6 {
             return Outcome::Broken(format!("a layer weighs {found}, and is fed with {wanted} kg/m²"));
         }

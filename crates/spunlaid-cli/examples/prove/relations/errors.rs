@@ -128,7 +128,8 @@ pub(super) fn pairs(
         let mut deviations = Vec::new();
         for (name, own) in ours.iter().filter(|(name, _)| is_compared(name)) {
             let Some(other) = others.get(name) else { continue };
-            let (error, degrees) = (own.error.hypot(other.error), own.degrees.min(other.degrees));
+            let error = own.error.hypot(other.error);
+            let degrees = own.degrees.min(other.degrees);
             deviations.extend(deviation(name, own.value, other.value, error, degrees, what));
         }
         Some(deviations)

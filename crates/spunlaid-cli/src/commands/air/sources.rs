@@ -40,7 +40,8 @@ pub(super) fn sources(air: &Air, invocation: &Invocation) -> Result<(), Failure>
         figures,
     )?;
     let done = AtomicU64::new(0);
-    let (steps, replicates) = (case.run.steps * case.run.replicates, case.run.replicates);
+    let steps = case.run.steps * case.run.replicates;
+    let replicates = case.run.replicates;
     let label = format!("simulating {}", counted(replicates, "fibre"));
     let fly = || Sources::fly(case, &curtain, control(air.threads, &done));
     let sources = progress::follow(&done, steps, &label, quiet, fly)?;

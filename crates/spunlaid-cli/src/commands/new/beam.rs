@@ -17,7 +17,8 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
     };
     let of_hole = Dimension::MassFlow.pretty(throughput);
     let of_all = format!("of the whole web: {times}{holes_per_metre} holes/m × {of_hole}");
-    let (belt, web) = (speed(belt_speed), Dimension::BasisWeight.pretty(flow / belt_speed));
+    let belt = speed(belt_speed);
+    let web = Dimension::BasisWeight.pretty(flow / belt_speed);
     let weight = match (value(&given.belt_speed), value(&given.basis_weight)) {
         _ if number > 1 => String::new(),
         (Some(speed), _) => {

@@ -93,10 +93,8 @@ impl<'a> NewMelt<'a> {
         let material = line.polymer.material(false);
         let melt = match (value(melt_flow_rate), value(viscosity)) {
             (_, Some(viscosity)) => {
-                let (viscosity, at) = (
-                    Dimension::DynamicViscosity.pretty_to(viscosity, GIVEN as usize),
-                    Dimension::Temperature.pretty(material.viscosity_temperature),
-                );
+                let viscosity = Dimension::DynamicViscosity.pretty_to(viscosity, GIVEN as usize);
+                let at = Dimension::Temperature.pretty(material.viscosity_temperature);
                 format!("material.viscosity = \"{viscosity}\"   # at {at}")
             }
             (Some(rate), _) => format!("melt_flow_rate = {}", significant(rate, GIVEN)),

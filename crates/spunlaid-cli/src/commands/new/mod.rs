@@ -84,7 +84,9 @@ fn web(path: &Path, numbers: &LineNumbers) -> Result<String, Failure> {
 /// Writes a study beside the file that it varies.
 fn study(path: &Path, case: &str) -> Result<String, Failure> {
     let study = path.with_file_name(format!("{}_study.toml", super::stem(path, "case")));
-    let (base, shown, is_new) = (path.display(), study.display(), !path.exists());
+    let base = path.display();
+    let shown = study.display();
+    let is_new = !path.exists();
     if is_new {
         write_new(path, case)?;
     }

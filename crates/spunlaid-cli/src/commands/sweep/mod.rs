@@ -19,7 +19,9 @@ use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
 
 pub(crate) fn sweep(sweep: &Sweep, invocation: &Invocation) -> Result<(), Failure> {
-    let (output, points, replicates) = (&sweep.output, sweep.points, sweep.replicates);
+    let output = &sweep.output;
+    let points = sweep.points;
+    let replicates = sweep.replicates;
     let read = |resources: &Resources| {
         let set = overrides(&sweep.set).with(resources);
         read_study(&sweep.study, StudyChanges { points, replicates, set })

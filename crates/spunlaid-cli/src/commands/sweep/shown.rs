@@ -61,7 +61,9 @@ pub(super) fn state<'a>(
     let load = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
     move || {
         let (points, of_points) = (load(&progress.points_done), study.points.len());
-        let (done, fibres, noun) = (load(&progress.fibres_done), load(&progress.fibres), study.noun());
+        let done = load(&progress.fibres_done);
+        let fibres = load(&progress.fibres);
+        let noun = study.noun();
         let mut words = format!("points {points}/{of_points}, {noun}s {done}/{fibres}");
         // Fibres that were finished before the program began are not of its work.
         let finished = done - if fibres > 0 { *before.get_or_insert(done) } else { done };

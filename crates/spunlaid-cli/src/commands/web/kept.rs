@@ -34,7 +34,8 @@ impl Kept {
         if !log.keys().is_empty() || !is_whole {
             let torn = if is_whole { "" } else { "; what is torn or damaged is simulated again" };
             let count = log.keys().len() as u64;
-            let (simulations, are) = (counted(count, "simulation"), if count == 1 { "is" } else { "are" });
+            let simulations = counted(count, "simulation");
+            let are = if count == 1 { "is" } else { "are" };
             delivery.line(&format!("going on: {simulations} of earlier commands {are} kept{torn}"));
         }
         Some(Self { file, log })

@@ -24,7 +24,9 @@ use std::time::Instant;
 use trials::Trials;
 
 pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), Failure> {
-    let (file, output, threads) = (&arguments.file, &arguments.output, arguments.threads);
+    let file = &arguments.file;
+    let output = &arguments.output;
+    let threads = arguments.threads;
     let read = |resources: &Resources| read_web(file, overrides(&arguments.set).with(resources));
     let web = settled(threads, output.quiet, read)?;
     web.notes.iter().for_each(say::note);
@@ -37,7 +39,9 @@ pub(crate) fn web(arguments: &args::Web, invocation: &Invocation) -> Result<(), 
     // Before anything is simulated, because the file may change meanwhile.
     let trials = Trials::read(arguments, &web.spec)?;
 
-    let (started, laid, follow) = (Instant::now(), AtomicU64::new(0), flying(output.quiet));
+    let started = Instant::now();
+    let laid = AtomicU64::new(0);
+    let follow = flying(output.quiet);
     let by = control(threads, &laid);
     let kept = if web.spec.flies() { Kept::open(&delivery) } else { None };
     let flyer = Flyer::new(by.threads, by.stop, &follow).keeping(kept.as_ref().map(|kept| &kept.log));

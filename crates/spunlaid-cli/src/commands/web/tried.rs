@@ -24,7 +24,9 @@ pub(super) fn try_changes(
     delivery: &mut Delivery<'_>,
 ) -> Result<Option<Advice>, Failure> {
     let label = format!("trying {} of {of}", counted(changes.len() as u64, noun));
-    let (begun, done, spec) = (Instant::now(), AtomicU64::new(0), &web.file.spec);
+    let begun = Instant::now();
+    let done = AtomicU64::new(0);
+    let spec = &web.file.spec;
     let (all, by) = (steps(spec, &changes), RunContext { done: &done, ..by });
     let work = || advise(spec, &web.simulated.web, &web.findings, changes, judged_by, kept, by);
     match progress::follow(&done, all, &label, delivery.is_quiet(), work) {

@@ -117,7 +117,9 @@ impl<'a> EffectsFit<'a> {
         }
         let mut fit = Self { study, points, factors: spans, terms, inverse: Vec::new() };
         if fit.points.len() <= fit.terms.len() {
-            let (points, keys, needed) = (fit.points.len(), factors.len(), fit.terms.len() + 2);
+            let points = fit.points.len();
+            let keys = factors.len();
+            let needed = fit.terms.len() + 2;
             return Err(Refusal::TooFewPoints { points, keys, needed });
         }
         fit.inverse = match inverse(fit.gram()) {

@@ -138,7 +138,10 @@ impl Ranking {
 
 /// Adjusted R² of the straight lines; None if there are too few points to know it.
 fn explained(fits: &[EffectsFit<'_>], solved: &[Solution], measure: usize) -> Option<f64> {
-    let (mut from_lines, mut from_mean, mut free, mut all) = (0.0, 0.0, 0.0, 0.0);
+    let mut from_lines = 0.0;
+    let mut from_mean = 0.0;
+    let mut free = 0.0;
+    let mut all = 0.0;
     for (fit, solution) in fits.iter().zip(solved) {
         let lines = fit.terms.iter().filter(|term| term.is_main()).count() as f64;
         let points = fit.points.len() as f64;

@@ -77,7 +77,9 @@ struct FittedCoefficients {
 impl FittedCoefficients {
     fn read(fit: &EffectsFit<'_>, journal: &mut Journal) -> Result<Result<Self, Refusal>, Error> {
         let zeros = || vec![vec![0.0; fit.size()]; fit.study.quantities.len()];
-        let (mut xy, mut of_replicates, mut weights) = (zeros(), Vec::new(), Vec::new());
+        let mut xy = zeros();
+        let mut of_replicates = Vec::new();
+        let mut weights = Vec::new();
         let mut replicated = true;
         for &point in &fit.points {
             let results = results_of_point(fit.study, journal, point)?;
@@ -172,7 +174,8 @@ impl Rest {
         let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };
         let mut rest = vec![none; fit.study.quantities.len()];
         for &point in &fit.points {
-            let (row, results) = (fit.row(point), results_of_point(fit.study, journal, point)?);
+            let row = fit.row(point);
+            let results = results_of_point(fit.study, journal, point)?;
             let solved = fit.solve(&row);
             let leverage = dot(&row, &solved);
             for (m, rest) in rest.iter_mut().enumerate() {

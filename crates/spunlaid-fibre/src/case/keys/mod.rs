@@ -130,7 +130,9 @@ pub const fn row_of(name: &str) -> &'static Key {
 }
 
 const fn is_same(one: &str, other: &str) -> bool {
-    let (one, other, mut i) = (one.as_bytes(), other.as_bytes(), 0);
+    let one = one.as_bytes();
+    let other = other.as_bytes();
+    let mut i = 0;
     while i < one.len() && i < other.len() && one[i] == other[i] {
         i += 1;
     }

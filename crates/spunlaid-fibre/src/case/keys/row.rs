@@ -323,7 +323,9 @@ impl<T> Key<T> {
     /// The same key of another input: its values, its words and its relations.
     pub const fn of_input<U>(&self, access: AccessTo<U>) -> Key<U> {
         let Self { name, kind, varies, usual, omission, meaning, synonyms, label, .. } = *self;
-        let (read_last, words, relations) = (self.read_last, self.words, self.relations);
+        let read_last = self.read_last;
+        let words = self.words;
+        let relations = self.relations;
         let new = NewKey { name, kind, varies, usual }.access(access);
         Key { omission, meaning, synonyms, label, read_last, words, relations, ..new }
     }

@@ -13,7 +13,9 @@ use spunlaid_ground::{Register, Vec3, Wide};
 #[inline(always)]
 pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Chain, h: f64) {
     let Chain { position, velocity, constants: c, tensions: t, laying, .. } = chain;
-    let (position, velocity, c) = (&**position, &**velocity, &*c);
+    let position = &**position;
+    let velocity = &**velocity;
+    let c = &*c;
     let nodes = position.len();
     let elements = nodes - 1;
     let step = h;
@@ -27,7 +29,9 @@ pub(super) fn predict_and_eliminate<S: Register, const FED: bool>(chain: &mut Ch
     let mut lower = (Vec3::zero(), Vec3::zero());
     let none = Weight { x: Wide::zero(), across: Wide::zero() };
     let (mut mobility_below, mut weights) = (none, (none, none));
-    let (mut below, mut here, mut residual) = (Vec3::zero(), Vec3::zero(), Wide::zero());
+    let mut below = Vec3::zero();
+    let mut here = Vec3::zero();
+    let mut residual = Wide::zero();
     let (mut value, mut slope) = (Wide::zero(), Wide::zero());
     for i in (0..nodes).rev() {
         let link = &mut t.links[i];

@@ -97,7 +97,8 @@ impl Chain {
         let nodes = self.nodes()[lane];
         let off = |j: usize, tension: &Lanes| {
             let c = &c.element;
-            let (stiffness, rest_length) = (c.axial_stiffness.0[lane], c.rest_length.0[lane]);
+            let stiffness = c.axial_stiffness.0[lane];
+            let rest_length = c.rest_length.0[lane];
             let length = (self.position[j + 1].lane(lane) - self.position[j].lane(lane)).norm();
             let held = self.is_held(j, lane) && self.is_held(j + 1, lane);
             if held {
@@ -132,7 +133,8 @@ impl Chain {
         let mut last = (0.0, 0.0);
         for j in 0..nodes - 1 {
             let element = &c.element;
-            let (stiffness, rest_length) = (element.axial_stiffness.0[lane], element.rest_length.0[lane]);
+            let stiffness = element.axial_stiffness.0[lane];
+            let rest_length = element.rest_length.0[lane];
             let [upper, lower] = [j, j + 1].map(|i| weight(i, stiffness));
             let edge = self.position[j + 1].lane(lane) - self.position[j].lane(lane);
             let length = edge.norm();

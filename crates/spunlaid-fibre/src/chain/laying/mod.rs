@@ -153,7 +153,8 @@ impl Chain {
         let scale = |stiffness: Lanes| {
             Lanes::from_fn(|lane| stiffness.0[lane] / former.stiffness.0[lane] * c.stiffness.0[lane])
         };
-        let (root, second) = (scale(former.root_stiffness), scale(former.second_stiffness));
+        let root = scale(former.root_stiffness);
+        let second = scale(former.second_stiffness);
         let kept = |new: Lanes, old: Lanes| Lanes::from_fn(|i| if old.0[i] == 0.0 { 0.0 } else { new.0[i] });
         let tail = former.tail.iter().map(|old| {
             let node = c.between;

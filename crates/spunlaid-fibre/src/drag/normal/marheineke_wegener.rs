@@ -68,7 +68,8 @@ mod tests {
         for join in [PIECES.0, PIECES.1].map(f64::ln) {
             let h = 1e-5;
             let rise = log(join + h) - log(join - h);
-            let (below, above) = (log(join - h) - log(join - 2.0 * h), log(join + 2.0 * h) - log(join + h));
+            let below = log(join - h) - log(join - 2.0 * h);
+            let above = log(join + 2.0 * h) - log(join + h);
             // Rounding of logarithms of some 1e-15, and h times a curvature below 0.2, over slopes of h.
             assert!((below - above).abs() < 0.2 * 4.0 * h * h, "{}", (below - above) / h);
             assert!((rise - below - above).abs() < 0.2 * 4.0 * h * h, "gap of {}", rise - below - above);

@@ -28,7 +28,8 @@ impl Register for Avx512 {
     #[inline(always)]
     fn load_rows([a, b, c, d, e, f, g, h]: [&[f64; 4]; WIDTH]) -> [Self; 4] {
         unsafe {
-            let ([l0, l1, l2, l3], [h0, h1, h2, h3]) = (columns([a, b, c, d]), columns([e, f, g, h]));
+            let [l0, l1, l2, l3] = columns([a, b, c, d]);
+            let [h0, h1, h2, h3] = columns([e, f, g, h]);
             [
                 Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l0), h0)),
                 Self(_mm512_insertf64x4::<1>(_mm512_castpd256_pd512(l1), h1)),

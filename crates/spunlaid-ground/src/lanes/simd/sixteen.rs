@@ -138,7 +138,10 @@ mod x86 {
         let mut order = [[[0; 16]; 2]; 3];
         let mut at = 0;
         while at < 48 {
-            let (signal, component, register, place) = (at / 3, at % 3, at / 16, at % 16);
+            let signal = at / 3;
+            let component = at % 3;
+            let register = at / 16;
+            let place = at % 16;
             order[register][0][place] = (signal + 16 * (component % 2)) as i32;
             order[register][1][place] = if component == 2 { 16 + signal as i32 } else { place as i32 };
             at += 1;
@@ -213,7 +216,9 @@ mod tests {
         fn call<S: Register>(self) -> Self::Output {
             let [a, b, c] = &self.0;
             let [a, b, c] = [S::F32x16::load(a), S::F32x16::load(b), S::F32x16::load(c)];
-            let (mut triples, mut halves, mut numbers) = ([f16::ZERO; 48], [f16::ZERO; 16], [0.0; 16]);
+            let mut triples = [f16::ZERO; 48];
+            let mut halves = [f16::ZERO; 16];
+            let mut numbers = [0.0; 16];
             S::F32x16::store_interleaved([a, b, c], &mut triples);
             a.mul(b).sub(c).add(S::F32x16::splat(0.125)).store_halves(&mut halves);
             S::F32x16::load_halves(&halves).store(&mut numbers);

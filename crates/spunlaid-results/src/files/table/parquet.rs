@@ -191,7 +191,8 @@ impl Parquet {
     /// Writes a group of rows, each column of which is packed on a thread.
     fn write_group(&mut self) -> Result<(), ParquetError> {
         let threads = if self.rows < FEW { 1 } else { available_parallelism().map_or(1, usize::from) };
-        let (schema, properties) = (self.writer.schema_descr(), self.writer.properties());
+        let schema = self.writer.schema_descr();
+        let properties = self.writer.properties();
         let columns = &self.columns;
         let packed =
             par_map(threads, columns.len(), |i| columns[i].pack(schema.column(i), properties.clone()));

@@ -57,7 +57,8 @@ fn both<T>(
         let [a, b] = parts.map(|(json, name)| number(&json[declared.entry()], name));
         let values = known(declared.entry(), [a?, b?]);
         let unit = declared.unit.readable(values[0].value);
-        let (label, column) = (format!("{}{of}", declared.label), format!("{}{ending}", declared.entry()));
+        let label = format!("{}{of}", declared.label);
+        let column = format!("{}{ending}", declared.entry());
         Some(measure(label, column, unit, values.map(Ok), None))
     };
     measures.iter().filter_map(in_common).collect()

@@ -257,8 +257,8 @@ fn of_layer(layer: &LaidLayer, scan: &Web) -> Vec<Cause> {
     let pitch = widest.map(|pitch| {
         let left = layer.left(pitch);
         let share = if left < UNSEEN { format!("less than {}", per_cent(UNSEEN)) } else { per_cent(left) };
-        let (json, words) =
-            (json!({"layer": layer.name, "pitch_m": pitch, "left": left}), "of their wave is left");
+        let json = json!({"layer": layer.name, "pitch_m": pitch, "left": left});
+        let words = "of their wave is left";
         Cause {
             what: format!("Holes{of} {} apart in a row", millimetres(pitch)),
             words: format!("{share} {words}: exp(−2π²σ²/p²) with σ {}", millimetres(layer.sigma)),

@@ -73,7 +73,8 @@ fn compare_webs(first: &Web, other: &Web) -> Result<Comparison, Failure> {
     }
     let of_patch = |side: f64, [whose, end]: [&str; 2], values: [Result<WebNumber, String>; 2]| {
         let side = significant(side * 1e3, 3);
-        let (label, column) = (format!("{whose} over patches of {side} mm"), format!("cv_{side}_mm{end}"));
+        let label = format!("{whose} over patches of {side} mm");
+        let column = format!("cv_{side}_mm{end}");
         measure(label, column, PERCENT, values, None)
     };
     let mut sides: Vec<f64> = first.sides().collect();

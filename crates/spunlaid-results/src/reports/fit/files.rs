@@ -127,7 +127,8 @@ pub fn value_and_interval(key: &FittedKey) -> [String; 2] {
             // At an end of the range the interval may go on.
             let mark =
                 |end: IntervalEnd, mark: &'static str| if end == IntervalEnd::OfRange { mark } else { "" };
-            let (less, more) = (mark(key.ends[0], " or less"), mark(key.ends[1], " or more"));
+            let less = mark(key.ends[0], " or less");
+            let more = mark(key.ends[1], " or more");
             format!("{}{less} to {}{more}", pretty(*low), pretty(*high))
         }
         Err(reason) => format!("none: {reason}"),

@@ -40,7 +40,8 @@ impl Contents for RecordFolder<'_> {
 
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let Self { name, record, analysis, remarks } = *self;
-        let (figures, air) = (record_figures(record, analysis), air_block(&record.file, analysis));
+        let figures = record_figures(record, analysis);
+        let air = air_block(&record.file, analysis);
         let warnings: Vec<String> = analysis.warnings.iter().map(ToString::to_string).collect();
         let files = |staging: &Staging<'_>| {
             write_curves(staging, analysis)?;

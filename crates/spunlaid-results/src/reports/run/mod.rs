@@ -102,7 +102,9 @@ pub fn fly(
     let mut tables = tables.transpose()?;
     let recorder = flights.as_ref().map(|flights| flights as &dyn Recorder);
     let recorded = Recorded { recorder, ..keep };
-    let (mut collector, mut replicates, mut landed_well) = (Results::collector(KEPT), 0, 0);
+    let mut collector = Results::collector(KEPT);
+    let mut replicates = 0;
+    let mut landed_well = 0;
     let simulated = fly_for_checks(
         case,
         plans,
@@ -212,7 +214,8 @@ impl Contents for RunFolder {
         let Self { case, results, .. } = self;
         let input = maker.keep(Input::Case(case))?;
         if self.drawn.get().is_none() {
-            let (Making { threads, stop, .. }, fibre_steps) = (maker.making, &AtomicU64::new(0));
+            let Making { threads, stop, .. } = maker.making;
+            let fibre_steps = &AtomicU64::new(0);
             let computing = RunContext { threads, isa: Isa::detect(), stop, done: fibre_steps };
             let drawn = run_figures(case, results, &turbulence_spectrum(case, computing)?);
             let _ = self.drawn.set(drawn);

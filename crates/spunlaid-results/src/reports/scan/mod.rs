@@ -36,7 +36,8 @@ pub struct ScanFolder {
 impl ScanFolder {
     /// * `started` – when the scan began to be read
     pub fn new(name: String, file: String, findings: Findings, started: Instant) -> Self {
-        let (fabric, performance) = (of_scan(&findings), Performance::measure(started, 1, Isa::detect()));
+        let fabric = of_scan(&findings);
+        let performance = Performance::measure(started, 1, Isa::detect());
         let notes = findings.notes.iter().map(ToString::to_string).collect();
         Self { name, file, findings, fabric, notes, performance }
     }

@@ -88,7 +88,9 @@ pub fn scan_report<'a>(
 /// What is known of the CV over patches; where it is assumed, nothing.
 fn judged(findings: &Findings, PatchFindings { patch_cv, interval, .. }: &PatchFindings) -> Judged {
     let reported = findings.assumption.is_none().then_some((patch_cv.cv, patch_cv.standard_error));
-    let (patch, of_map, chance) = (patch_cv.patch, patch_cv.cv, None);
+    let patch = patch_cv.patch;
+    let of_map = patch_cv.cv;
+    let chance = None;
     Judged { patch, of_map, reported, interval: interval.ok().filter(|_| reported.is_some()), chance }
 }
 

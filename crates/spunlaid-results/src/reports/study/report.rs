@@ -296,7 +296,8 @@ fn most_even(study: &Study, results: &[PointResults]) -> Option<String> {
         return None;
     }
     let order = |a: &usize, b: &usize| results[*a].mean(quantity).total_cmp(&results[*b].mean(quantity));
-    let (best, worst) = ((0..results.len()).min_by(order)?, (0..results.len()).max_by(order)?);
+    let best = (0..results.len()).min_by(order)?;
+    let worst = (0..results.len()).max_by(order)?;
     let words = |point: usize| {
         let values = study.inputs().zip(&study.points[point].values);
         let values =

@@ -166,8 +166,8 @@ fn air(spec: &WebSpec) -> Vec<String> {
 fn cabin(air: &Air) -> Option<String> {
     let velocity = air.velocity_at_slot()?;
     let cabin = air.cabin().unwrap_or_else(|| Cabin::of_speed(velocity, air.speed_coefficient, air.density));
-    let (pressure, velocity) =
-        (Dimension::Pressure.pretty_to(cabin.pressure, 3), Dimension::Velocity.pretty_to(velocity, 3));
+    let pressure = Dimension::Pressure.pretty_to(cabin.pressure, 3);
+    let velocity = Dimension::Velocity.pretty_to(velocity, 3);
     let pair = match air.cabin_pressure {
         Some(_) => format!("{pressure} in the cabin above that under the belt: {velocity} at the slot"),
         None => format!("{velocity} at the slot: about {pressure} in the cabin above that under the belt"),
@@ -198,7 +198,8 @@ fn in_one_air(spec: &WebSpec) -> Vec<String> {
     let flights = spec.planned_flights();
     let size = |size: f64| Dimension::Length.pretty(size);
     let flight = |(number, (flight, layer)): (usize, (&PlannedFlight, &LayerSpec))| {
-        let (all, [width, length]) = (layer.filaments.count(&spec.sheet), flight.sheet.map(size));
+        let all = layer.filaments.count(&spec.sheet);
+        let [width, length] = flight.sheet.map(size);
         let of = if spec.layers.len() > 1 { format!(" of layer {}", number + 1) } else { String::new() };
         match flight.is_few {
             true => format!(

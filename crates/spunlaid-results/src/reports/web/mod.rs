@@ -84,7 +84,9 @@ impl WebFolder {
         let fabric = file.spec.fabric(&simulated.web, &findings, by.threads);
         let performance = Performance::measure(started, by.threads, by.isa).with_flights(&findings);
         let notes = [Diagnostic::notes_of_results(&file.notes), notes(&simulated, &findings)];
-        let (advice, assumed_values, awaited) = (None, None, false);
+        let advice = None;
+        let assumed_values = None;
+        let awaited = false;
         Self {
             name,
             file,
@@ -159,7 +161,8 @@ impl Contents for WebFolder {
     fn make(&self, maker: &Maker<'_>) -> Result<Page, Failure> {
         let Self { simulated: FlownWeb { web, .. }, findings, .. } = self;
         let spec = &self.file.spec;
-        let (input, Making { threads, stop, .. }) = (maker.keep(Input::Web(spec))?, maker.making);
+        let input = maker.keep(Input::Web(spec))?;
+        let Making { threads, stop, .. } = maker.making;
         let by = RunContext { threads, isa: Isa::detect(), stop, done: &AtomicU64::new(0) };
         let strands = match findings.laid.simulated.is_empty() {
             true => strands(web, spec.window(), by)?,

@@ -287,8 +287,9 @@ fn statistics(
     }
     let share_of_run = takes(&flights, &|one| one.run.duration());
     let mut flights = flights.into_iter();
-    let (coarse, fine, finest) =
-        (flights.next(), flights.next().unwrap_or_else(|| case.clone()), flights.next());
+    let coarse = flights.next();
+    let fine = flights.next().unwrap_or_else(|| case.clone());
+    let finest = flights.next();
     let instants = fine.run.steps / fine.run.output_steps;
     if duration < spin_up || instants < FEWEST && case.line.is_none() {
         return Err(Unchecked::TooShort);

@@ -36,7 +36,9 @@ impl<'a> Merged<'a> {
             }
         };
         let cells = (0..cells.count()).map(&mut cell).collect();
-        let (sums, of_replicates, lost) = (HashMap::new(), Default::default(), Vec::new());
+        let sums = HashMap::new();
+        let of_replicates = Default::default();
+        let lost = Vec::new();
         Self { fitting, cells, sums, of_replicates, lost }
     }
 
@@ -63,7 +65,8 @@ impl<'a> Merged<'a> {
             let per_volume = per_instant * self.fitting.across[1] / cell.volume;
             let sp = -per_velocity * per_volume;
             let su = |i: usize, force: f64| force * per_volume - sp * cell.velocity[i];
-            let (heat_per_volume, sh_per_kelvin) = (heat * per_volume, -per_kelvin * per_volume);
+            let heat_per_volume = heat * per_volume;
+            let sh_per_kelvin = -per_kelvin * per_volume;
             let sh = heat_per_volume - sh_per_kelvin * of_air;
             let terms = [su(0, *x), su(1, *y), su(2, *z), sp, sh, sh_per_kelvin, heat_per_volume];
             let [sum, squares] = self.sums.entry(*number).or_default();
@@ -76,7 +79,8 @@ impl<'a> Merged<'a> {
             force.iter_mut().zip([x, y, z]).for_each(|(sum, term)| *sum += term * per_instant);
         }
         let [outside, heat_outside] = sums.outside.map(|sum| sum * per_instant);
-        let (above, by_momentum) = (sums.above_belt * per_instant, sums.by_momentum * filaments_per_metre);
+        let above = sums.above_belt * per_instant;
+        let by_momentum = sums.by_momentum * filaments_per_metre;
         let at_belt = sums.at_belt / sums.instants as f64;
         let [x, y, z] = force;
         self.of_replicates

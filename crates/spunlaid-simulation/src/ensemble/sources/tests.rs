@@ -83,7 +83,9 @@ fn line(placed: PlacedField, replicates: u64) -> Case {
     case.fibre =
         Fibre { diameter: 18e-6, density: 910.0, youngs_modulus: 2e9, root: Root::Clamped, ..Fibre::UNKNOWN };
     case.fibre.span(WAY, 4e-3);
-    let (feed_speed, belt_speed, kept_length) = (50.0, 3.0, 0.03);
+    let feed_speed = 50.0;
+    let belt_speed = 3.0;
+    let kept_length = 0.03;
     case.line = Some(Line {
         feed_speed,
         distance: WAY,
@@ -221,9 +223,12 @@ fn invariant_the_sources_lie_along_the_axes_of_the_field() {
 #[test]
 fn identical_drag_of_the_elements_and_of_the_laws() {
     let case = line(lattice([30, 10, 0]), 1);
-    let (law, mut flight) = (case.strand().drag, Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap());
+    let law = case.strand().drag;
+    let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap();
     flight.advance(1500);
-    let (mut births, mut off, mut sum) = (0, 0.0, 0.0);
+    let mut births = 0;
+    let mut off = 0.0;
+    let mut sum = 0.0;
     for step in 1500..1530 {
         let fed = flight.chain().fed();
         let (snapshot, relative) = see(&mut flight, step);

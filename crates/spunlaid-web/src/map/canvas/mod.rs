@@ -342,7 +342,8 @@ mod tests {
             canvas.draw(&[[1e-3, 5.5e-3], [-1e-3, 5.5e-3]], 2e-3, |_| quanta);
             canvas.draw(&[[4.5e-3, 1e-3], [4.5e-3, -1e-3]], 2e-3, |_| quanta);
             let laid = canvas.finish().unwrap();
-            let (on, cut) = (laid.map.total(), (laid.cut / laid.map.quantum).round() as u64);
+            let on = laid.map.total();
+            let cut = (laid.cut / laid.map.quantum).round() as u64;
             let beyond = if edges == Edges::Periodic { [3, 0] } else { [2, 1] };
             assert_eq!([on, cut], beyond.map(|halves| halves * u64::from(quanta) / 2), "{edges:?}");
         }

@@ -41,16 +41,20 @@ impl Task for Draw<'_, '_> {
     #[inline(always)]
     fn call<S: Register>(self) {
         let Self { pens, part, points } = self;
-        let (per_cell, advance) = (Wide::<S>::splat(1.0 / part.canvas.cell), Wide::splat(pens.advance));
+        let per_cell = Wide::<S>::splat(1.0 / part.canvas.cell);
+        let advance = Wide::splat(pens.advance);
         let mut ink = Ink::<S>::new(part);
         let pieces = Pieces::new(Wide::load(&pens.quanta), pens.parts);
         let column = Wide::load(&pens.at[0]);
         let mut row = Wide::load(&pens.at[1]);
         for pair in points.windows(2) {
             let [from, to] = [&pair[0], &pair[1]];
-            let (md, cd) = (Wide::load(&from[0]) * per_cell, Wide::load(&from[1]) * per_cell);
-            let (next_md, next_cd) = (Wide::load(&to[0]) * per_cell, Wide::load(&to[1]) * per_cell);
-            let (at, by) = ([column + cd, row + md], [next_cd - cd, next_md - md - advance]);
+            let md = Wide::load(&from[0]) * per_cell;
+            let cd = Wide::load(&from[1]) * per_cell;
+            let next_md = Wide::load(&to[0]) * per_cell;
+            let next_cd = Wide::load(&to[1]) * per_cell;
+            let at = [column + cd, row + md];
+            let by = [next_cd - cd, next_md - md - advance];
             let longest = by[0].abs().max(by[1].abs());
             if !pens.is_bounded && longest.any_above(pens.parts as f64) {
                 ink.draw_each(at, by, longest.store(), pens, part);
@@ -207,7 +211,9 @@ impl<S: Register> Ink<S> {
         is_far: bool,
         part: &mut CanvasPart<'_>,
     ) {
-        let (zero, one, shift) = (Wide::<S>::zero(), Wide::<S>::splat(1.0), Wide::<S>::splat(TWO_52));
+        let zero = Wide::<S>::zero();
+        let one = Wide::<S>::splat(1.0);
+        let shift = Wide::<S>::splat(TWO_52);
         let cell = [at[0].floor(), at[1].floor()];
         let x = Crossing::place(at[0], cell[0], by[0]);
         let y = Crossing::place(at[1], cell[1], by[1]);

@@ -123,7 +123,9 @@ impl Subsample<'_> {
         });
         let sheet = [self.sheet.width, self.sheet.length];
         let lost = self.rows.iter().flatten().filter(|curve| curve.is_none()).count() as u64;
-        let (filaments, pitch, blocks_across) = (count as u64, self.pitch(), self.blocks[0]);
+        let filaments = count as u64;
+        let pitch = self.pitch();
+        let blocks_across = self.blocks[0];
         let area = sheet[0] * sheet[1];
         let mut estimate = SubsampleEstimate {
             filaments,
@@ -348,7 +350,8 @@ impl Subsample<'_> {
         sides: &[usize],
     ) -> Result<Vec<Known>, Error> {
         let none = || vec![Known::default(); sides.len()];
-        let (cell, largest) = (self.sheet.cell, sides.iter().copied().max().unwrap_or(1));
+        let cell = self.sheet.cell;
+        let largest = sides.iter().copied().max().unwrap_or(1);
         let curves = NEIGHBOURS.map(|further| {
             let number = reference + further;
             let turns = (number / row.len()) as f64;

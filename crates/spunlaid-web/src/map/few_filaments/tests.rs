@@ -322,7 +322,9 @@ fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
         let filled = FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0 };
         simulated.estimate(Some(&filled), 2).unwrap().cvs[0]
     };
-    let (alone, right, wrong) = (simulated.estimate(None, 2).unwrap().cvs[0], filled_as(480), filled_as(6));
+    let alone = simulated.estimate(None, 2).unwrap().cvs[0];
+    let right = filled_as(480);
+    let wrong = filled_as(6);
     assert!(wrong.cv > alone.cv + 2.0 * alone.by_pitch, "{alone:?} {wrong:?}");
     assert!(wrong.by_pitch > 0.8 * (wrong.cv - alone.cv), "{alone:?} {wrong:?}");
     assert!(right.by_pitch < alone.by_pitch, "{alone:?} {right:?}");
@@ -371,7 +373,9 @@ fn analytic_products_of_patches_are_those_of_their_cells() {
                 let cells = |row: usize| (column..column + side).map(move |c| at(row, first + c as i64));
                 (row..row + side).flat_map(cells).sum()
             };
-            let (mut expected, mut mass, mut taken) = (0.0, 0.0, 0.0);
+            let mut expected = 0.0;
+            let mut mass = 0.0;
+            let mut taken = 0.0;
             for row in (0..=rows - side).step_by(step) {
                 taken += 1.0;
                 for column in (0..=columns - side).step_by(step) {
@@ -411,7 +415,9 @@ fn the_error_of_waves_is_that_of_patches_half_as_large() {
 /// Blocks against the patches of each, one by one: the mean square of their deviations from the mean of all.
 #[test]
 fn analytic_blocks_are_the_mean_squares_of_their_patches() {
-    let (columns, rows, side) = (6, 9, 2);
+    let columns = 6;
+    let rows = 9;
+    let side = 2;
     let cells: Vec<u32> = (0..columns * rows).map(|i| (10 + i * i * 5 % 13) as u32).collect();
     let map = Map { columns, rows, cell: 1e-3, quantum: 1.0, closed: [true, false], cells };
     // Around the web in all columns, and along it at eight positions.

@@ -103,7 +103,9 @@ fn parsed(bytes: &[u8], name: &str, pixel: Option<f64>) -> Result<Picture, FileE
     };
     let raw = orientation::upright(raw);
     let RawPicture { values, columns, rows, full_scale, weight_of_black, colour, more, numbered, .. } = raw;
-    let (transparent, clipped, coding) = (raw.transparent, raw.clipped, raw.coding);
+    let transparent = raw.transparent;
+    let clipped = raw.clipped;
+    let coding = raw.coding;
     if transparent == values.len() {
         let remedy = "save the scan without transparency";
         return Err(Fault::new("has no pixel that is not transparent", remedy).into());

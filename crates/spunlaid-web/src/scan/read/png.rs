@@ -31,7 +31,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<RawPicture, Fault> {
         let (levels, full) = (levels.chunks_exact(2).map(level), u16::MAX.into());
         (pixels(levels, channels, Extra::Opacity, Some(full)), full)
     } else {
-        let (levels, full) = (levels.iter().map(|level| f64::from(*level)), u8::MAX.into());
+        let levels = levels.iter().map(|level| f64::from(*level));
+        let full = u8::MAX.into();
         (pixels(levels, channels, Extra::Opacity, Some(full)), full)
     };
     let Pixels { values, transparent, clipped } = found;

@@ -168,7 +168,8 @@ fn clearest(profile: &[f64], profiles: &Profiles, noise: &Noise, known: &[ScanSt
             let times = height.abs() / own.error;
             let is_better = best.as_ref().is_none_or(|(most, _)| times > *most);
             if is_better && !is_rest(place, sigma, amplitude) {
-                let (sigma_range, standard_error) = ([sigma; 2], own.error / norm.sqrt());
+                let sigma_range = [sigma; 2];
+                let standard_error = own.error / norm.sqrt();
                 let found = ScanStreak { place, sigma, sigma_range, amplitude, standard_error, chance: 1.0 };
                 best = Some((times, found));
             }

@@ -157,7 +157,8 @@ impl Noise {
         for block in 0..self.blocks.len() {
             for place in (0..bins).step_by((bins / 40).max(1)) {
                 let noisy = |i: usize| {
-                    let (own, at) = (&self.scales[i], profiles.scales[i].nearest(place as f64));
+                    let own = &self.scales[i];
+                    let at = profiles.scales[i].nearest(place as f64);
                     heights[i] + own.error / own.variance.sqrt() * own.heights[block][at]
                 };
                 let noisy: Vec<f64> = (0..self.scales.len()).map(noisy).collect();

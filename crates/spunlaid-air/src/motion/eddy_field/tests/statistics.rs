@@ -97,7 +97,8 @@ fn analytic_the_spectrum_and_the_coherence_are_right_in_each_band() {
         .collect();
     let hann: Vec<f64> = waves.iter().map(|[cos, _]| 1.0 - cos).collect();
     // Power, and products of what lies apart along z, at each frequency and component.
-    let (mut power, mut both) = (vec![[0.0; 3]; SAMPLES / 2], vec![[0.0; 3]; SAMPLES / 2]);
+    let mut power = vec![[0.0; 3]; SAMPLES / 2];
+    let mut both = vec![[0.0; 3]; SAMPLES / 2];
     for window in 0..WINDOWS {
         let from = window as f64 * SAMPLES as f64 * spacing;
         field.make(from..from + SAMPLES as f64 * spacing, 2);

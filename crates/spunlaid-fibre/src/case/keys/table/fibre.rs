@@ -30,10 +30,8 @@ pub(super) const KEYS: &[Key] = &[
             get: |case| case.line.is_none().then_some(Value::Number(case.fibre.length)),
             set: |case, value| {
                 if case.line.is_some() {
-                    let (other, remedy) = (
-                        "[feed]",
-                        "a fed fibre has no length of its own; leave it out, or leave out [feed] and [belt]",
-                    );
+                    let other = "[feed]";
+                    let remedy = "a fed fibre has no length of its own; leave it out, or leave out [feed] and [belt]";
                     return Err(Fault::excludes(other, remedy));
                 }
                 case.fibre.length = number(value)?;

@@ -58,8 +58,8 @@ pub fn air_block(file: &str, analysis: &Analysis) -> String {
         env!("CARGO_PKG_VERSION"),
     );
     for ((key, interval, dimension, origin), value) in lines.iter().zip(&values) {
-        let (low, high) =
-            (pretty(*dimension, interval, interval.low), pretty(*dimension, interval, interval.high));
+        let low = pretty(*dimension, interval, interval.low);
+        let high = pretty(*dimension, interval, interval.high);
         let ends = if low == high { String::new() } else { format!("{low} to {high}; ") };
         text.push_str(&format!("{:<34} # {ends}{}\n", format!("{key} = {value}"), one_line(origin)));
     }

@@ -39,7 +39,8 @@ pub(super) fn along_fibre(case: &Case) -> Figure {
     .line(Series::new("mean", GREEN), mean);
     let between = |quantity: fn(&LocalAir) -> f64, scale: f64, unit: &str| {
         let values = || places.iter().map(|(_, air)| quantity(air) * scale);
-        let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
+        let least = values().fold(f64::INFINITY, f64::min);
+        let most = values().fold(0.0, f64::max);
         let least = if most - least <= 1e-9 * most { most } else { least };
         format!("{} {unit}", range(least, most))
     };

@@ -108,7 +108,9 @@ fn significant_of(value: f64) -> f64 {
 
 /// What was simulated, in three sentences.
 pub(super) fn case(case: &Case) -> String {
-    let (fibre, air, run) = (&case.fibre, &case.air, &case.run);
+    let fibre = &case.fibre;
+    let air = &case.air;
+    let run = &case.run;
     let support = match fibre.root {
         Root::Pinned => "held at one end, free to turn there",
         Root::Clamped => "clamped at one end",

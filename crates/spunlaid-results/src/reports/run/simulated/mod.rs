@@ -165,7 +165,8 @@ impl FlightRecords {
         let (results, scratch) = (staging.folder(), staging.scratch());
         let name = results.file_name().unwrap_or_default().to_string_lossy();
         let later = [staging.place("energy.parquet").1, staging.place(SHAPE).1];
-        let (version, sum) = (env!("CARGO_PKG_VERSION"), Experiment::from(case.clone()).checksum());
+        let version = env!("CARGO_PKG_VERSION");
+        let sum = Experiment::from(case.clone()).checksum();
         let identity = format!("spunlaid-simulated version={version} case={sum:08x} {keep:?}");
         // Flights another case stay until that case goes on.
         let own = (identity.bytes()).fold(0_u32, |own, byte| own.wrapping_mul(31).wrapping_add(byte.into()));

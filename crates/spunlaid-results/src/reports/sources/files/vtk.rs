@@ -29,7 +29,9 @@ fn unstructured_grid(case: &Case, sources: &Sources) -> Option<Vec<u8>> {
     };
     let points: Vec<f64> =
         cells.points().map(|at| at * placed.unit).flat_map(|at| [at.x, at.y, at.z]).collect();
-    let (mut connectivity, mut offsets, mut of_cell) = (Vec::new(), Vec::new(), Vec::new());
+    let mut connectivity = Vec::new();
+    let mut offsets = Vec::new();
+    let mut of_cell = Vec::new();
     for (corners, cell) in cells.bodies() {
         connectivity.extend(corners.iter().map(|corner| i64::from(*corner)));
         offsets.push(connectivity.len() as i64);

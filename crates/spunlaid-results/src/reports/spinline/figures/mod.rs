@@ -247,7 +247,8 @@ fn influences_figure(prefix: &str, influences: &[Influence]) -> Figure {
     let panel = |by_kelvin: bool, heading: &'static str, factor: f64, decimals: usize| {
         let row = |influence: &Influence| {
             let effect = influence.on(OfFilament::Diameter).map(|effect| in_unit(&effect.difference, factor));
-            let (name, detail) = (influence.change.setting.words.to_owned(), String::new());
+            let name = influence.change.setting.words.to_owned();
+            let detail = String::new();
             EffectRow { name, detail, effects: vec![effect] }
         };
         let changed =
@@ -264,7 +265,8 @@ fn influences_figure(prefix: &str, influences: &[Influence]) -> Figure {
         by small changes of the model: d ln d / d ln x, and the change for 10 K. Blue is finer, orange is \
         thicker.{others} These are slopes: they hold for small changes."
     );
-    let (name, title) = (format!("{prefix}_influences"), "What decides the diameter".to_owned());
+    let name = format!("{prefix}_influences");
+    let title = "What decides the diameter".to_owned();
     EffectsFigure { name, title, panels }.figure(table(influences), caption)
 }
 

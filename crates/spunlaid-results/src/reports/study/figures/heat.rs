@@ -111,7 +111,9 @@ struct Heat {
 impl Heat {
     /// The map, so many pixels wide.
     fn picture(&self, width: f64) -> Picture {
-        let (left, top, right) = (LEFT, TOP, width - BESIDE);
+        let left = LEFT;
+        let top = TOP;
+        let right = width - BESIDE;
         let bottom = top + (right - left) * RATIO;
         let mut picture = Picture::new(width, bottom + BELOW, &self.title);
         let (rows, columns) = (self.up.len(), self.along.len());
@@ -144,7 +146,9 @@ impl Heat {
     /// The colour scale.
     fn draw_scale(&self, picture: &mut Picture, right: f64, (top, bottom): (f64, f64)) {
         let (least, most) = self.ends;
-        let (left, width, steps) = (right + 24.0, 16.0, 64);
+        let left = right + 24.0;
+        let width = 16.0;
+        let steps = 64;
         let height = (bottom - top) / f64::from(steps);
         for k in 0..steps {
             let y = bottom - f64::from(k + 1) * height;
@@ -171,7 +175,9 @@ fn rectangle(picture: &mut Picture, (x, y): (f64, f64), (w, h): (f64, f64), fill
 fn colour(share: f64) -> Colour {
     let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
     let below = (place.floor() as usize).min(COLOURS.len() - 2);
-    let (a, b, rest) = (COLOURS[below], COLOURS[below + 1], place - below as f64);
+    let a = COLOURS[below];
+    let b = COLOURS[below + 1];
+    let rest = place - below as f64;
     let mixed = |a: f64, b: f64| (a + (b - a) * rest).round() as u8;
     Colour([mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2)])
 }

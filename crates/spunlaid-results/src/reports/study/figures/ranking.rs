@@ -87,7 +87,7 @@ pub(super) fn figure(study: &Study, rankings: &[Ranking], group: &QuantityGroup)
             table.add(&series, [[effect.difference.value * group.unit.per_si, half]]);
         }
     }
-    let (name, title) =
-        (format!("{}_ranking", group.figure.name), format!("Effects on the {}", group.figure.words));
+    let name = format!("{}_ranking", group.figure.name);
+    let title = format!("Effects on the {}", group.figure.words);
     EffectsFigure { name, title, panels: vec![panel] }.figure(table, caption)
 }

@@ -28,7 +28,9 @@ pub fn write_json(
     // By the columns of the results; empty if the factors cannot be ranked.
     let ranking: Json = rankings.of_measures.iter().map(ranking).collect();
     let refusal = rankings.refusal.as_ref().map(ToString::to_string);
-    let (version, design, common) = (env!("CARGO_PKG_VERSION"), study.design.name(), study.common_phases);
+    let version = env!("CARGO_PKG_VERSION");
+    let design = study.design.name();
+    let common = study.common_phases;
     writeln!(out, "{{\n\"schema_version\": {SCHEMA_VERSION},\n\"spunlaid_version\": \"{version}\",")?;
     write!(out, "\"design\": \"{design}\",\n\"common_phases\": {common},\n\"points\": [")?;
     for (index, point_results) in results.iter().enumerate() {

@@ -134,7 +134,8 @@ impl Lattice {
     /// Passes on the pixels in which a cell lies, with the part of a pixel that it covers.
     fn give(&self, cell: usize, mut take: impl FnMut(usize, f64)) {
         let place = |cell: usize| (cell as f64 * self.cell - self.from) / self.pixel;
-        let (begin, end) = (place(cell).max(0.0), place(cell + 1).min(self.count as f64));
+        let begin = place(cell).max(0.0);
+        let end = place(cell + 1).min(self.count as f64);
         let mut at = begin as usize;
         while at < self.count && (at as f64) < end {
             let share = end.min((at + 1) as f64) - begin.max(at as f64);

@@ -160,7 +160,9 @@ mod tests {
     /// Waves of 40 mm along the machine direction are clouds for patches of 10 mm: their CV follows the factor.
     #[test]
     fn analytic_the_clouds_of_a_picture_follow_its_factor() {
-        let (columns, rows, cell) = (200, 200, 1e-3);
+        let columns = 200;
+        let rows = 200;
+        let cell = 1e-3;
         let wave = |row: usize| 1.0 + 0.1 * (row as f64 * std::f64::consts::TAU / 40.0).sin();
         let cells = (0..rows).flat_map(|row| vec![(1e6 * wave(row)) as u32; columns]).collect();
         let map = Map { columns, rows, cell, quantum: 1.0, closed: [false; 2], cells };

@@ -75,7 +75,9 @@ pub(in super::super) const KEYS: &[Key] = &[
                 let Value::Content(Content::Field(field)) = value else {
                     return Err(read_with_case());
                 };
-                let (field, axis, unit) = (field.clone(), Axis::ALL[0], 1.0);
+                let field = field.clone();
+                let axis = Axis::ALL[0];
+                let unit = 1.0;
                 let root = PlacedField::middle_of_inlet(&field, axis, unit);
                 let (length_constant, time_constant) = (LENGTH_CONSTANT, TIME_CONSTANT);
                 let machine_direction = Axis::ALL[1];
@@ -184,7 +186,8 @@ pub(in super::super) const KEYS: &[Key] = &[
             get: |case| speed_factor(case).filter(|_| case.air.cabin_pressure.is_none()),
             set: |case, value| {
                 if case.air.is_uniform() {
-                    let (needed, remedy) = ("air.profile or air.field", "change air.velocity");
+                    let needed = "air.profile or air.field";
+                    let remedy = "change air.velocity";
                     return Err(Fault::needs(needed, remedy));
                 }
                 (case.air.speed_factor, case.air.cabin_pressure) = (number(value)?, None);

@@ -38,7 +38,8 @@ fn highest(air: &Air) -> Option<f64> {
 /// `U/(4 L)`.
 fn by_taylor(air: &mut Air) -> Result<(), Fault> {
     if !air.is_uniform() || air.from_flow.length_scale {
-        let (needed, remedy) = ("air.velocity and air.length_scale", "write a frequency, or leave it out");
+        let needed = "air.velocity and air.length_scale";
+        let remedy = "write a frequency, or leave it out";
         return Err(Fault::needs(needed, remedy));
     }
     // NaN where either is missing, which has been reported.

@@ -78,7 +78,9 @@ pub(super) fn pack(case: &Case, line: Line, results: &Results) -> Result<Option<
     let simulated: Vec<&Trajectory> = results.trajectories.iter().filter(|t| !t.shapes.is_empty()).collect();
     let Some(first) = simulated.first() else { return Ok(None) };
     let shapes = &first.shapes;
-    let (longest, mut deflection, mut first_root) = (shapes.most_nodes(), 0.0_f64, None);
+    let longest = shapes.most_nodes();
+    let mut deflection = 0.0_f64;
+    let mut first_root = None;
     for shape in shapes.iter() {
         let position = shape?.position;
         first_root.get_or_insert((position.len() as u64).saturating_sub(1));

@@ -74,8 +74,8 @@ fn choose(
         if followed < stride {
             let first = total - ((most - 1) * followed + 1);
             instants = (first..total).step_by(followed).collect();
-            let (first, last) =
-                (shapes.get(first)?.unwrap_or_default().time, shapes.last().unwrap_or_default().time);
+            let first = shapes.get(first)?.unwrap_or_default().time;
+            let last = shapes.last().unwrap_or_default().time;
             remarks.push(format!("The animation shows the last {} of {}.", time(last - first), time(last)));
         } else {
             instants = even(total, most);
