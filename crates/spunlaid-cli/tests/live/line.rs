@@ -222,6 +222,7 @@ fn rejects_files_without_a_page_and_says_what_shows_them() {
 }
 
 #[test]
+#[ignore = "slow: webs with two seeds"]
 fn identical_confirmation_and_change_of_a_line_with_the_other_seed() {
     let live = start();
     let mut page = live.page();
@@ -337,6 +338,7 @@ fn of_two_layers() -> String {
 }
 
 #[test]
+#[ignore = "slow: webs of two layers, in the page and in the program"]
 fn identical_numbers_of_a_line_of_two_layers_with_a_knob_and_a_tab_of_each() {
     let live = start_with(&of_two_layers());
     let mut page = live.page();
