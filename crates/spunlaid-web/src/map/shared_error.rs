@@ -212,7 +212,7 @@ mod tests {
                 let expected = variance * variance
                     / (by_neighbours * by_neighbours / degrees
                         + by_positions * by_positions / (parts.len() as f64 - 1.0));
-                let found = SharedError::of(&parts, groups);
+                let found = SharedError::of(&parts, groups).unwrap();
                 assert!((found.standard_error / variance.sqrt() - 1.0).abs() < 1e-12, "{found:?} {variance}");
                 assert!((found.degrees / expected - 1.0).abs() < 1e-12, "{found:?} {expected}");
             };
