@@ -271,6 +271,7 @@ impl Weights {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::map::lattice::Chance;
@@ -278,7 +279,9 @@ mod tests {
     const OF_CV: f64 = 0.04;
 
     /// Six blocks, in each of which so many patches lie in classes below and above the mean.
-    fn weights() -> Weights {
+    ///
+    /// * `sides` – numbers of blocks across and along
+    fn weights(sides: [usize; 2]) -> Weights {
         let counts = [[6, 1, 3], [2, 7, 1], [4, 4, 2], [1, 3, 6], [5, 0, 5], [2, 5, 3]];
         let block = |counts: &[u32; 3]| {
             let mut classes = vec![0; CLASSES];
@@ -289,7 +292,7 @@ mod tests {
         };
         let chance = Chance { closed: [true, false], streaks: true };
         let deviations = Some(Deviations { by_chance: OF_CV, of_map: 0.02 });
-        Weights::new(counts.iter().map(block).collect(), Lattice { sides: [3, 2], chance }, deviations)
+        Weights::new(counts.iter().map(block).collect(), Lattice { sides, chance }, deviations)
     }
 
     fn close(found: f64, expected: f64) {
@@ -299,7 +302,7 @@ mod tests {
     /// Twenty of sixty patches lie in each class: what lies below an edge is a line within it.
     #[test]
     fn analytic_what_patches_of_three_classes_weigh() {
-        let weights = weights();
+        let weights = weights([3, 2]);
         for (edge, below) in [
             (-3.0, 0.0),
             (80.0, 0.0),
@@ -331,22 +334,25 @@ mod tests {
     }
 
     /// Correlations of the blocks against all pairs of them, around the web and along it, and what they make of the
-    /// sampling error of a fraction: He₁ to He₄ by their closed forms, and no terms beyond where the correlations are small.
+    /// sampling error of a fraction: He₁ to He₄ by their closed forms.
     #[test]
     fn analytic_the_sampling_error_of_a_fraction_of_a_normal_field() {
-        let mut weights = weights();
-        let variance = (weights.deviation() / 100.0).powi(2);
-        let correlation = |across: usize, along: usize| {
-            let at = |i: usize| (i % 3, i / 3);
-            let pair = |i: usize| {
-                weights.means[i] * weights.means[(at(i).0 + across) % 3 + 3 * ((at(i).1 + along) % 2)]
+        for [columns, rows] in [[3, 2], [2, 3], [6, 1]] {
+            let weights = weights([columns, rows]);
+            let variance = (weights.deviation() / 100.0).powi(2);
+            let correlation = |across: usize, along: usize| {
+                let other =
+                    |i: usize| (i % columns + across) % columns + columns * ((i / columns + along) % rows);
+                let products = (0..6).map(|i| weights.means[i] * weights.means[other(i)]);
+                products.sum::<f64>() / 6.0 / variance
             };
-            (0..6).map(pair).sum::<f64>() / 6.0 / variance
-        };
-        for (power, found) in (2..).zip(weights.powers) {
-            let all = (0..6).map(|i| correlation(i % 3, i / 3).powi(power)).sum::<f64>() / 6.0;
-            assert!((found / all - 1.0).abs() < 1e-9, "{power}: {found} {all}");
+            for (power, found) in (2..).zip(weights.powers) {
+                let all =
+                    (0..6).map(|i| correlation(i % columns, i / columns).powi(power)).sum::<f64>() / 6.0;
+                assert!((found / all - 1.0).abs() < 1e-9, "{power}: {found} {all}");
+            }
         }
+        let mut weights = weights([6, 1]);
         weights.powers = [0.0; POWERS];
         weights.powers[..4].copy_from_slice(&[0.5, 0.3, 0.2, 0.1]);
         let deviation = weights.deviation();
@@ -362,11 +368,14 @@ mod tests {
             close(weights.of_normal(edge), of_normal(edge));
         }
         // At least that of the blocks; of a rare fraction no more than the fraction, and of a common one than the rest.
-        let by_blocks = |edge: f64| weights.by_blocks(edge).unwrap_or(f64::NAN);
-        for (edge, part) in [(80.1, 0.1 / 3.0), (99.5, 0.5), (125.9, 0.1 / 3.0)] {
+        for (edge, part) in
+            [(80.1, 0.1 / 3.0), (80.9, 0.3), (99.5, 0.5), (125.2, 0.8 / 3.0), (125.9, 0.1 / 3.0)]
+        {
             let least = (of_normal(edge) * weights.density(edge)).min(part);
-            close(weights.error(edge).unwrap_or(f64::NAN), by_blocks(edge).max(least));
+            let expected = weights.by_blocks(edge).map(|error| error.max(least));
+            close(weights.error(edge).unwrap_or(-1.0), expected.unwrap_or(-1.0));
         }
+        let by_blocks = |edge: f64| weights.by_blocks(edge).unwrap();
         // A quantile moves by the error of the fraction over the density, and with the deviations of the map.
         let Known::Value(_, Some(error)) = weights.quantile(0.5) else { panic!("no error") };
         let own = (by_blocks(99.5) / weights.density(99.5)).max(of_normal(99.5)) / 100.0;
@@ -376,8 +385,7 @@ mod tests {
         let influence =
             [0.65, 0.55, 0.6, 0.25, 0.5, 0.45].iter().enumerate().map(|(i, part)| of_block(i, *part));
         let expected = weights.lattice.error_of_mean(&influence.collect::<Vec<_>>(), &weights.means);
-        close(by_blocks(99.5), expected.unwrap_or(f64::NAN));
-        assert!(expected.is_some());
+        close(by_blocks(99.5), expected.unwrap());
         weights.powers[0] = 0.0;
         assert_eq!(weights.of_normal(70.0), 0.0);
     }

@@ -477,12 +477,10 @@ fn analytic_straight_filaments_that_never_meet() {
         }
         let on_map = patch_cv(&map(12), 1).unwrap();
         assert_eq!(found.by_chance.is_some(), on_map.standard_error.is_some());
-        assert!(
-            estimate.blocks[0].len() == 6
-                && estimate.blocks[0].iter().all(|block| (block - 7.0).abs() < 1e-9)
-        );
+        assert!(estimate.blocks[0].iter().all(|block| (block - 7.0).abs() < 1e-9));
+        let blocks = estimate.blocks[0].len() as f64;
         assert_eq!((estimate.filaments, estimate.lost, estimate.sheet), (12, 0, [WIDTH, LENGTH]));
-        // Filled in to 32 and to 16: CV² of 2 and of 5, which differ alike in each of six blocks.
+        // Filled in to 32 and to 16: CV² of 2 and of 5, which differ alike in each block.
         let at_random = |square: f64| if i == 2 { (95.0 - square) / 48.0 } else { 0.0 };
         let [cv, half] = [2.0, 5.0].map(|square| (square + at_random(square)).sqrt());
         let filled = |patches| FilledMaps { of_all: map(32), of_every_second: map(16), patches };
@@ -490,15 +488,15 @@ fn analytic_straight_filaments_that_never_meet() {
         let found = estimate.cvs[0];
         close(found.cv, cv);
         close(found.of_halves, half / cv - 1.0);
-        close(found.by_pitch, (half - cv).max(1.5 / 6_f64.sqrt() / cv).hypot(0.02 * cv));
+        close(found.by_pitch, (half - cv).max(1.5 / blocks.sqrt() / cv).hypot(0.02 * cv));
         close(found.own, [0.0, 2.0, at_random(2.0)][i]);
         close(found.few, 7_f64.sqrt());
         assert!(estimate.blocks[0].iter().all(|block| (block - 2.0).abs() < 1e-9));
         // The error of waves is that of the variance over these patches, or by how much the two maps differ in them.
         let of_variance = 2.0 * found.by_pitch / found.cv;
         let [of_all, of_half] = [32, 16].map(|count| Clouds::measure(&map(count)).unwrap());
-        for ((band, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
-            assert_eq!(*error, apart.max(of_variance), "{band:?}");
+        for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
+            close(*error, apart.max(of_variance));
         }
         // Over patches that filled maps do not give, CV² of all has more than theirs.
         let estimate = twelve.estimate(Some(&filled(1.0..2.0)), 1).unwrap();
@@ -506,8 +504,8 @@ fn analytic_straight_filaments_that_never_meet() {
         close(estimate.cvs[0].cv, all[i].sqrt());
         let of_variance =
             (2.0 * estimate.cvs[0].by_pitch / estimate.cvs[0].cv).hypot(estimate.cvs[0].beyond_filling / 2.0);
-        for ((band, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
-            assert_eq!(*error, apart.max(of_variance), "{band:?}");
+        for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
+            close(*error, apart.max(of_variance));
         }
     }
     // Filled maps that agree: in a slot the simulated ones contradict them beyond their own error of 2 %.
