@@ -6,7 +6,7 @@ use super::picture::Picture;
 use super::spots::{Spots, spots};
 use crate::map::Map;
 use spunlaid_ground::Fault;
-use spunlaid_ground::units::shortest;
+use spunlaid_ground::units::{rounded, shortest};
 
 /// What the values of a picture mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,7 +174,7 @@ fn transmitted(
             format!(
                 "is no darker than the lamp without web: its mean grey level is {}, \
             and that of the lamp {}",
-                shortest(libm::exp(mean_log)),
+                shortest(rounded(libm::exp(mean_log), 4)),
                 shortest(white)
             ),
             "give the level of \

@@ -132,9 +132,10 @@ fn error_of_mesh(case: &Case) -> Vec<String> {
         let parts = case.air.length_scale / case.fibre.rest_length();
         let (_, cost) =
             OF_STARTER.iter().rev().find(|(least, _)| parts >= 0.9 * least).unwrap_or(&OF_STARTER[0]);
+        let parts = significant(parts, 2);
+        let elements = if parts == "1" { "element" } else { "elements" };
         lines.push(format!(
-            "  {} elements to an eddy; in the case of `spunlaid new`, about as many made {cost}",
-            significant(parts, 2)
+            "  {parts} {elements} per eddy; in the case of `spunlaid new`, about as many made {cost}"
         ));
     }
     lines
