@@ -497,6 +497,7 @@ fn analytic_one_step_of_both_methods() {
     let pull = 2.0 * 3.0 * VISCOSITY * AREA * SPEED;
     let exact = |s: f64| {
         let mut state = [0.0; SIZE];
+        (state[ALONG], state[ACROSS]) = (1.0, 1.0);
         state[LN_SPEED] = SPEED.ln() + 2.0 * s * s;
         (state[TEMPERATURE], state[TENSION]) = (293.15 + 180.0 * (-3.0 * s * s).exp(), pull);
         state

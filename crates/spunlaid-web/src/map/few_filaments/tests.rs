@@ -496,7 +496,8 @@ fn analytic_straight_filaments_that_never_meet() {
         let of_variance = 2.0 * found.by_pitch / found.cv;
         let [of_all, of_half] = [32, 16].map(|count| Clouds::measure(&map(count)).unwrap());
         for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
-            close(*error, apart.max(of_variance));
+            // A comb of filaments has octaves without waves.
+            close(error.min(1e9), apart.max(of_variance).min(1e9));
         }
         // Over patches that filled maps do not give, CV² of all has more than theirs.
         let estimate = twelve.estimate(Some(&filled(1.0..2.0)), 1).unwrap();
@@ -505,7 +506,8 @@ fn analytic_straight_filaments_that_never_meet() {
         let of_variance =
             (2.0 * estimate.cvs[0].by_pitch / estimate.cvs[0].cv).hypot(estimate.cvs[0].beyond_filling / 2.0);
         for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
-            close(*error, apart.max(of_variance));
+            // A comb of filaments has octaves without waves.
+            close(error.min(1e9), apart.max(of_variance).min(1e9));
         }
     }
     // Filled maps that agree: in a slot the simulated ones contradict them beyond their own error of 2 %.
