@@ -62,6 +62,7 @@ fn figures_have_the_formats_and_the_width_that_are_asked_for() {
 }
 
 #[test]
+#[ignore = "slow: every command that draws figures"]
 fn every_command_that_draws_figures_writes_pdf_and_a_paragraph_of_methods() {
     let desk = Desk::new();
     let pdf = ["--figures", "pdf", "--figure-width", "two-columns"];

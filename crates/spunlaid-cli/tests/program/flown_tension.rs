@@ -72,6 +72,7 @@ fn interrupted_while_it_flies_for_the_tension_nothing_is_left() {
 }
 
 #[test]
+#[ignore = "slow: tensions from flights, twice"]
 fn tensions_fly_in_as_many_threads_as_are_asked_for() {
     let desk = slow();
     // For each that flies one waits; one waits for Ctrl-C, and one reports how far it is.

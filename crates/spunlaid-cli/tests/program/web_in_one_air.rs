@@ -167,6 +167,7 @@ fn a_few_filaments_in_one_air_lay_a_web_of_any_size() {
 
 /// Twelve filaments 25 mm apart know nothing of the 900 for which they stand. Such a web was said to vary by 0 %.
 #[test]
+#[ignore = "slow: three webs in shared turbulence"]
 fn a_web_of_too_few_filaments_has_no_number_and_says_how_many_tell_it() {
     let desk = Desk::with_case(
         &FED.replace("duration = \"40 ms\"", "duration = \"120 ms\"\nspin_up = \"10 ms\"")
