@@ -35,8 +35,9 @@ pub struct Clouds {
     longest: f64,
     /// Errors of the variance in some bands of wavelength, as a part of it.
     filling: Vec<BandError>,
-    /// Error of every variance by that of the mean basis weight, as a part of it.
-    of_weight: f64,
+    /// Error of every variance by that of the mean basis weight, as a part of it; None if nothing says how far off the
+    /// variances of the map are.
+    of_weight: Option<f64>,
 }
 
 /// From the shortest to the longest wave of a band [m], and how far its variance may be off, as a part of it.
@@ -142,7 +143,7 @@ impl Clouds {
             from,
             longest: LONG * shorter as f64 * map.cell,
             filling: Vec::new(),
-            of_weight: 0.0,
+            of_weight: Some(0.0),
         };
         let window: Vec<f64> = (0..side).map(|i| hann(i, side)).collect();
         let tiles: Vec<usize> = (0..across * along).step_by(stride).collect();
@@ -202,9 +203,9 @@ impl Clouds {
         let variance = short.standard_error.unwrap_or(0.0).powi(2) + of_long;
         let known =
             (short.mean == 0.0 || short.standard_error.is_some()) && 2.0 * mean * mean >= DEGREES * variance;
-        let of_all = self.error_of_filling(shortest, longest).hypot(self.of_weight);
-        let error = || variance.sqrt().hypot(mean * of_all);
-        Estimate { mean, standard_error: known.then(error), values: Vec::new() }
+        let of_filling = self.error_of_filling(shortest, longest);
+        let error = |of_weight: f64| variance.sqrt().hypot(mean * of_filling.hypot(of_weight));
+        Estimate { mean, standard_error: self.of_weight.filter(|_| known).map(error), values: Vec::new() }
     }
 
     /// With what filling filaments in may have done to bands of wavelength.
@@ -213,8 +214,9 @@ impl Clouds {
     }
 
     /// With the error of the mean basis weight, as a fraction of it. Independent filaments that are one per cent more
-    /// have one per cent less variance over the square of their mean.                            theory.md (103b)
-    pub(crate) fn with_error_of_weight(self, of_weight: f64) -> Self {
+    /// have one per cent less variance over the square of their mean. None if nothing says how far off the variances
+    /// are, as where too few filaments were simulated.                                          theory.md (103b)
+    pub(crate) fn with_error_of_weight(self, of_weight: Option<f64>) -> Self {
         Self { of_weight, ..self }
     }
 
@@ -514,7 +516,7 @@ mod tests {
             close(texture.mean, if direction == 0 { across } else { 1.0 - across });
             assert!(texture.standard_error.unwrap() < 1e-6, "{texture:?}");
             // One per cent of weight is one per cent of a variance, and half of that of its root.
-            let (index, error) = clouds.clone().with_error_of_weight(0.01).cloudiness(2e-3, 6.4e-3);
+            let (index, error) = clouds.clone().with_error_of_weight(Some(0.01)).cloudiness(2e-3, 6.4e-3);
             close(index, (POWER * 5.0 / 6.0).sqrt());
             close(error.unwrap(), 0.005 * index);
             let octaves = clouds.octaves();

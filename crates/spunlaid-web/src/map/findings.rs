@@ -235,6 +235,9 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
     let worst = laid.few().max_by(|a, b| off(a).total_cmp(&off(b)));
     let filling = worst.map_or_else(Vec::new, |few| few.octaves.clone());
     let of_weight = error_of_weight.filter(|_| evidence == Evidence::Known).unwrap_or(0.0);
+    // A map of too few filaments has clouds that say as little as its CVs.
+    let are_too_few = !patches.is_empty() && patches.iter().all(|patch| patch.warning.is_some());
+    let of_weight = Some(of_weight).filter(|_| !are_too_few);
     let clouds = Clouds::at(&map, &places, by.threads)
         .map(|clouds| clouds.with_filling(filling).with_error_of_weight(of_weight));
     let autocorrelation = autocorrelation(&map, lags, by.threads);

@@ -66,6 +66,16 @@ fn identical_the_usual_web_flies_four_times_as_many_where_the_first_do_not_tell(
     assert!((usual.pitch - 0.5e-3).abs() < 1e-12 && (first.pitch - 2e-3).abs() < 1e-12);
 }
 
+/// The clouds of the map had errors where the CV had none, and twice the variance of those of all filaments.
+#[test]
+fn clouds_of_too_few_filaments_have_no_error() {
+    let findings = found(&format!("{WEB}simulated = 500\n"));
+    assert!(findings.patches.iter().all(|patch| patch.warning.is_some()));
+    let clouds = findings.clouds.unwrap();
+    let errors = clouds.octaves().into_iter().filter_map(|(_, variance)| variance.standard_error);
+    assert_eq!(errors.collect::<Vec<_>>(), [0.0; 0]);
+}
+
 /// Its row in other words, on a longer way and a longer sheet.
 fn line(line: &str, web: &str) -> String {
     let (before, after) = WEB.split_once("[line]").unwrap();
