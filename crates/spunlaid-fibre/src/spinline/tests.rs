@@ -579,8 +579,8 @@ fn analytic_air_between_the_rows_of_a_table() {
     );
 }
 
-/// Roots of functions that are straight, curved, flat at the root, steep and infinite at an end, to the wanted error and
-/// with at most so many evaluations.
+/// Roots of functions that are straight, curved, flat at the root, steep and infinite at an end, to the wanted error
+/// and with at most so many evaluations.
 #[test]
 fn analytic_roots_between_two_places() {
     type Curve = fn(f64) -> f64;

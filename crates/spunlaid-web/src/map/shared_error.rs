@@ -236,7 +236,8 @@ mod tests {
         // The line over the length takes one of the twelve cells.
         let near = 20.0 * 12.0 / (12.0 - 40.0 / 12.0 - 1.0);
         check(parts(&four, &alike, &[4.0, -4.0, 0.0]), &[0, 1, 2, 3], near, 4.0, own);
-        // What turns from stretch to stretch has a negative variance by positions, −1 of each, of which half of that by neighbours counts.
+        // What turns from stretch to stretch has a negative variance by positions, −1 of each, of which half of that
+        // by neighbours counts.
         check(parts(&four, &[1.0, -1.0], &[0.0; 2]), &[0, 1, 2, 3], 6.4, 64.0 / 15.0 - 2.0, -3.2);
     }
 }

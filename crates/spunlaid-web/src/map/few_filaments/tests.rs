@@ -402,8 +402,8 @@ fn analytic_products_of_patches_are_those_of_their_cells() {
 #[test]
 fn the_error_of_waves_is_that_of_patches_half_as_large() {
     let of_patches = [(1e-3, 0.1), (2e-3, 0.2), (10e-3, 0.3)];
-    // Half means of 0.71, 1.34, 1.56, 4.24 and 4.6 mm: 1.41 mm is as far from 1 as from 2 mm, and 4.47 mm from 2 as from
-    // 10 mm.
+    // Half means of 0.71, 1.34, 1.56, 4.24 and 4.6 mm: 1.41 mm is as far from 1 as from 2 mm, and 4.47 mm from 2 as
+    // from 10 mm.
     for (from, expected) in
         [(1e-3, 0.1), (1.9e-3, 0.1), (2.2e-3, 0.2), (6e-3, 0.2), (6.5e-3, 0.3), (32e-3, 0.3)]
     {
