@@ -122,9 +122,9 @@ impl Repeats {
         // A row may be missing at some places.
         let fewer = usual.checked_sub(1).map_or(0, |fewer| self.places[fewer]);
         let each = usual > 0 && fewer <= 1.max(count / 100) && fewer + self.places[usual] == count;
-        let anew = count + 1 < place_of.len()
+        let begins = count + 1 < place_of.len()
             && place_of.iter().zip((0..count as u32).cycle()).all(|(place, number)| *place == number);
-        if !each && !anew {
+        if !each && !begins {
             return Ok(());
         }
         let speed = |node: &Node| {

@@ -56,8 +56,8 @@ pub(crate) struct Supports {
 impl Supports {
     #[inline(always)]
     pub(crate) fn start(work: &WorkDone) -> Self {
-        let anew = |sum: WorkSum| WorkSum { before: Lanes::ZERO, ..sum };
-        Self { feed: anew(work.feed), belt: anew(work.belt) }
+        let restarted = |sum: WorkSum| WorkSum { before: Lanes::ZERO, ..sum };
+        Self { feed: restarted(work.feed), belt: restarted(work.belt) }
     }
 
     /// Adds the work of the force that holds node `i` and returns it, zero in the lanes where the node is free.

@@ -105,11 +105,11 @@ impl Session {
         let refused = Answer::rejected;
         let read = document.read().map_err(refused)?;
         let (since, waits) = (self.now(), read.case.waits_for_flights());
-        let anew = self.fibres.become_of(read.case).map_err(|error| refused(diagnostics(&error)))?;
+        let is_replaced = self.fibres.become_of(read.case).map_err(|error| refused(diagnostics(&error)))?;
         (self.document, self.notes, self.trouble) = (document, read.warnings, None);
         // A search for the tension of the case before is of no use any more.
         self.search = waits.then(|| TensionSearch::begin(&self.document));
-        if anew {
+        if is_replaced {
             self.since = since;
             self.restart_statistics();
         } else {

@@ -201,7 +201,7 @@ fn identical_a_map_that_is_laid_and_one_that_is_measured() {
 }
 
 /// Straight fibres at random leave `exp(−τd)` bare: drawn with their true width, in squares of 2 mm, and as the map
-/// reports it, whose patches vary by chance only.
+/// reports it, whose patches vary by sampling error only.
 #[test]
 #[ignore = "slow: many webs of straight fibres"]
 fn stat_the_bare_area_of_straight_fibres_at_random() {

@@ -78,10 +78,10 @@ pub struct LayerFilaments<'a> {
 /// * `number` – of the defect in its layer
 pub fn holes(layer: LayerFilaments<'_>, number: usize, defect: &Defect) -> Vec<(usize, f64)> {
     let LayerFilaments { sheet, seed, number: layer, filaments } = layer;
-    let nozzles = sorted_nozzles(sheet, seed, layer, filaments);
+    let of_layer = sorted_holes(sheet, seed, layer, filaments);
     let is_of_row = |row: u64| defect.row.is_none_or(|wanted| wanted == row);
-    let in_rows = nozzles.iter().enumerate().filter(|(_, nozzle)| is_of_row(nozzle.row));
-    let mut holes: Vec<(usize, f64)> = in_rows.map(|(i, nozzle)| (i, nozzle.at[0])).collect();
+    let in_rows = of_layer.iter().enumerate().filter(|(_, hole)| is_of_row(hole.row));
+    let mut holes: Vec<(usize, f64)> = in_rows.map(|(i, hole)| (i, hole.at[0])).collect();
     match (defect.from, defect.to) {
         (Some(from), None) => {
             let far = |hole: &(usize, f64)| (hole.1 - from).abs();
@@ -148,13 +148,13 @@ const DEPTHS: u64 = 6;
 /// * `seed` – of the web
 /// * `number` – of the layer
 pub fn inlets(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Inlet> {
-    let nozzles = sorted_nozzles(sheet, seed, number, filaments).into_iter();
-    nozzles.map(|Nozzle { at: [z, y], .. }| Inlet { y, z }).collect()
+    let holes = sorted_holes(sheet, seed, number, filaments).into_iter();
+    holes.map(|Hole { at: [z, y], .. }| Inlet { y, z }).collect()
 }
 
 /// Where a filament comes from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Nozzle {
+pub(super) struct Hole {
     /// Its place in cross and in machine direction [m].
     pub(super) at: [f64; 2],
     /// The number of its row, from 1.
@@ -162,11 +162,11 @@ pub(super) struct Nozzle {
 }
 
 /// The holes of a layer, in order across the web. See [`inlets`].
-pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Nozzle> {
+pub(super) fn sorted_holes(sheet: &Sheet, seed: u64, number: usize, filaments: &Filaments) -> Vec<Hole> {
     let random = |kind| stream([seed, (number as u64) << 48 | 1 << 47, 0, kind]);
     let count = filaments.count(sheet);
-    let single = |at: [f64; 2]| Nozzle { at, row: 1 };
-    let mut nozzles: Vec<Nozzle> = match filaments {
+    let single = |at: [f64; 2]| Hole { at, row: 1 };
+    let mut holes: Vec<Hole> = match filaments {
         Filaments::AtRandom { .. } => {
             let mut random = random(PLACES);
             (0..count).map(|_| single([uniform(&mut random) * sheet.width, 0.0])).collect()
@@ -179,11 +179,11 @@ pub(super) fn sorted_nozzles(sheet: &Sheet, seed: u64, number: usize, filaments:
         Filaments::Rows(rows) => {
             let of_row = |(row, of): (u64, &Row)| {
                 let of = *of;
-                (0..of.filaments).map(move |i| Nozzle { at: [of.offset + of.pitch * i as f64, of.md], row })
+                (0..of.filaments).map(move |i| Hole { at: [of.offset + of.pitch * i as f64, of.md], row })
             };
             (1..).zip(rows).flat_map(of_row).collect()
         }
     };
-    nozzles.sort_by(|one, other| one.at[0].total_cmp(&other.at[0]));
-    nozzles
+    holes.sort_by(|one, other| one.at[0].total_cmp(&other.at[0]));
+    holes
 }

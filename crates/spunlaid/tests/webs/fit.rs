@@ -55,7 +55,7 @@ fn identical_from_the_journal_with_values_within_their_intervals() {
     }
     assert!(found.misfit[1] < found.misfit[0] && found.trials.len() as u64 * 12 == journal.total());
     let again = fitted(&file, &scan, false, 12, &mut journal).unwrap();
-    assert_eq!(format!("{:?}", found.keys), format!("{:?}", again.keys), "nothing is laid anew");
+    assert_eq!(format!("{:?}", found.keys), format!("{:?}", again.keys), "nothing is laid again");
 }
 
 /// A key that changes nothing of what is compared is named, and the others are found all the same.

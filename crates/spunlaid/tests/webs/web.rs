@@ -92,7 +92,7 @@ fn single_fibres_of_two_seeds_have_none_in_common() {
     assert!(!first.iter().any(|value| second.contains(value)), "{first:?} {second:?}");
 }
 
-/// Nozzles at an even pitch leave no streaks, and the expected CV accounts for it; so do holes that stand far apart.
+/// Holes at an even pitch leave no streaks, and the expected CV accounts for it; so do holes that stand far apart.
 #[test]
 fn rows_of_nozzles_have_the_unevenness_that_is_expected_of_them() {
     for (pitch, count) in [(0.25e-3, 2000), (50e-3, 10)] {

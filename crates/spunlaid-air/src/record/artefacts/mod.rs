@@ -1,19 +1,19 @@
 //! What is no velocity in a record: numbers for missing values, dropouts, clipped, frozen and held values, spikes.
 
 mod apart;
+mod component_report;
 mod equal;
 mod spikes;
-mod tell;
 
 use super::rows::fill;
 use super::{LONGEST_GAP, Record};
 use apart::{Apart, apart, clipped};
+use component_report::ComponentReport;
 use equal::{Equal, equal};
 use spikes::spikes;
 use spunlaid_ground::Fault;
 use spunlaid_ground::statistics::quantile;
 use std::ops::Range;
-use tell::ComponentReport;
 
 /// Largest share of a record that may be left out.
 const MOST_LEFT_OUT: f64 = 0.5;
@@ -48,22 +48,22 @@ impl Artefacts {
             let Some(robust) = Robust::new(values) else { continue };
             let factor = record.reading.factors.get(i).copied().unwrap_or(1.0);
             let apart = apart(values, &robust, factor);
-            let teller = ComponentReport { record, name: &component.name, values };
+            let report = ComponentReport { record, name: &component.name, values };
             if let Some((group, written)) =
                 apart.iter().find_map(|group| Some((group, group.sentinel.as_ref()?)))
             {
-                return Err((component.name.as_str(), teller.sentinel(&group.samples, written)));
+                return Err((component.name.as_str(), report.sentinel(&group.samples, written)));
             }
-            all.faults.extend(apart.iter().map(|group| teller.dropouts(group)));
-            let spoilt = all.look(&robust, &teller, &apart);
+            all.faults.extend(apart.iter().map(|group| report.dropouts(group)));
+            let spoilt = all.look(&robust, &report, &apart);
             all.spoil(values.len(), spoilt);
         }
         Ok(all)
     }
 
     /// Looks for what does not lie apart; returns all stretches that are no velocities.
-    fn look(&mut self, robust: &Robust, teller: &ComponentReport<'_>, apart: &[Apart]) -> Vec<Range<usize>> {
-        let values = teller.values;
+    fn look(&mut self, robust: &Robust, report: &ComponentReport<'_>, apart: &[Apart]) -> Vec<Range<usize>> {
+        let values = report.values;
         let mut is_left_out = vec![false; values.len()];
         let mut spoilt: Vec<Range<usize>> = Vec::new();
         for i in apart.iter().flat_map(|group| &group.samples) {
@@ -75,7 +75,7 @@ impl Artefacts {
             let clipped = clipped(values, robust, |i| is_left_out[i], sign);
             if let Some(first) = clipped.first() {
                 extremes.push(values[*first]);
-                self.faults.push(teller.clipping(clipped.len(), values[*first]));
+                self.faults.push(report.clipping(clipped.len(), values[*first]));
             }
         }
         let is_apart = |x: f64| apart.iter().any(|group| group.values.0 <= x && x <= group.values.1);
@@ -83,24 +83,24 @@ impl Artefacts {
         match equal(values, robust, |x| extremes.contains(&x) || is_apart(x)) {
             Equal::Usual => {}
             Equal::Frozen(stretches) => {
-                self.faults.push(teller.frozen(&stretches));
+                self.faults.push(report.frozen(&stretches));
                 stretches.iter().flat_map(Clone::clone).for_each(|i| is_left_out[i] = true);
                 spoilt.extend(stretches);
             }
             Equal::Held(times) => {
                 is_staircase = true;
-                self.faults.push(teller.held(times));
+                self.faults.push(report.held(times));
             }
             Equal::Irregular(share, explained) => {
                 is_staircase = true;
-                self.faults.push(teller.irregular(share, explained));
+                self.faults.push(report.irregular(share, explained));
             }
         }
         let rest: Vec<usize> = (0..values.len()).filter(|i| !is_left_out[*i]).collect();
         let left: Vec<f64> = rest.iter().map(|i| values[*i]).collect();
         let found = if is_staircase { Vec::new() } else { spikes(&left, robust) };
         let found: Vec<usize> = found.into_iter().map(|i| rest[i]).collect();
-        self.faults.extend(teller.spikes(&found, robust));
+        self.faults.extend(report.spikes(&found, robust));
         spoilt.extend(found.into_iter().map(|i| i..i + 1));
         spoilt
     }
