@@ -352,7 +352,7 @@ try {
   lines = await checkLine(browser, { program, folder, expect, start, open, print, shot, wait, computed, isRed });
   lines = [...lines, ...(await checkMistakes(browser)), ...(await checkKeyboard(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
 } catch (error) {
-  failures.push(`the check itself: ${error.message}`);
+  failures.push(`the check itself: ${error.stack}`);
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true, force: true });
