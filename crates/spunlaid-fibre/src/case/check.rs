@@ -7,7 +7,7 @@ use super::step::{FEEDING, StepLimit};
 use crate::body::Root;
 use crate::chain::Scheme;
 use crate::line::Contact;
-use spunlaid_air::{FileContent, Flow, Lateral, Measured};
+use spunlaid_air::{FileContent, Flow, Lateral, Measured, PlacedField};
 use spunlaid_ground::{Diagnostic, Dimension, Fault, error};
 
 impl Case {

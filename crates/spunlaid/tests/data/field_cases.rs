@@ -76,7 +76,9 @@ fn rejects_a_root_from_which_the_air_does_not_move_all_along_the_fibre() {
             && !error.contains("NaN"),
         "{error}"
     );
-    assert!(read(&folder, "turning.csv", &[("air.field_root", "[0 m, 50 mm, 100 mm]")]).is_ok());
+    let aside = ("air.field_root", "['0 m', '50 mm', '100 mm']");
+    let (_, notes) = read(&folder, "turning.csv", &[aside]).unwrap();
+    assert_eq!(with(&notes, &["it blows across"]).len(), 1, "{notes:?}");
 }
 
 #[test]
