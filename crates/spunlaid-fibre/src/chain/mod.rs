@@ -6,6 +6,9 @@ pub mod forces;
 pub(crate) mod implicit;
 pub(crate) mod laying;
 pub mod work;
+#[cfg(test)]
+#[allow(clippy::expect_used)]
+pub(crate) mod tests;
 
 use self::constants::Constants;
 use self::laying::LayingState;

@@ -12,6 +12,9 @@
 //!                                                                         theory.md (59) to (62)
 
 mod landing;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;
 
 use super::Chain;
 use super::constants::{Constants, Friction, Node};
