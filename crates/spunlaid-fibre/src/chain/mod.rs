@@ -5,10 +5,9 @@ pub(crate) mod explicit;
 pub mod forces;
 pub(crate) mod implicit;
 pub(crate) mod laying;
-pub mod work;
 #[cfg(test)]
-#[allow(clippy::expect_used)]
 pub(crate) mod tests;
+pub mod work;
 
 use self::constants::Constants;
 use self::laying::LayingState;

@@ -29,7 +29,7 @@ pub(crate) fn strand(elements: usize, root: Root) -> FibreParameters {
         ..Fibre::UNKNOWN
     };
     let share = |factor| Share { factor, growth: Growth::Power(0.5) };
-    let drag = ElementDrag { along: share(1e-4), across: share(3e-4) };
+    let drag = ElementDrag { along: share(2e-6), across: share(6e-6) };
     FibreParameters { fibre, drag, gravity: 9.81, damping: 0.0 }
 }
 
@@ -102,7 +102,7 @@ pub(crate) fn energies(chain: &Chain, lane: usize) -> [f64; 3] {
     [(0..nodes).map(moves).sum(), inner().map(stretches).sum(), inner().map(bends).sum()]
 }
 
-/// Numbers that agree in all lanes to a part of the largest of them.
+/// Numbers that agree in each lane to a part of it.
 pub(crate) fn agree(found: Lanes, expected: impl Fn(usize) -> f64, tolerance: f64) {
     for lane in 0..WIDTH {
         let (found, expected) = (found.0[lane], expected(lane));

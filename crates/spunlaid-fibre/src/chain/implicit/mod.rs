@@ -18,6 +18,8 @@ mod accelerations;
 mod corrections;
 mod iterations;
 mod motion;
+#[cfg(test)]
+mod tests;
 
 use super::forces::{ElementBlock, force_pass};
 use super::work::{Supports, WorkDone, WorkRegisters};

@@ -13,8 +13,7 @@
 
 mod landing;
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests;
+pub(super) mod tests;
 
 use super::Chain;
 use super::constants::{Constants, Friction, Node};

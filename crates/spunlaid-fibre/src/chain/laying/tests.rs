@@ -107,7 +107,9 @@ fn invariant_births_and_the_clamp_enter_what_they_add_to_the_energy() {
             assert!(carried(&chain)[2].0.iter().zip(before.0).all(|(now, before)| *now != before));
             // Born above the former root, stretched as the element below is.
             let stretch = |lane: usize| match scheme {
-                Scheme::ImplicitTension => former.tensions.tension[0].0[lane] / (1e6 * PI * 1e-6 / 4.0 / SPACING),
+                Scheme::ImplicitTension => {
+                    former.tensions.tension[0].0[lane] / (1e6 * PI * 1e-6 / 4.0 / SPACING)
+                }
                 _ => (former.position[1].lane(lane) - former.position[0].lane(lane)).norm() - SPACING,
             };
             agree(chain.position[0].x, |lane| former.position[0].x.0[lane] - SPACING - stretch(lane), 1e-12);
@@ -150,7 +152,7 @@ fn analytic_a_node_that_lands_keeps_its_velocity_until_it_touches_the_belt() {
 
 /// Lets nodes land in some lanes at the end of a step, each after a part of it. What that takes of the energies is
 /// entered.
-fn land(chain: &mut Chain, nodes: &[usize], lanes: &[usize], step: u64) {
+pub(in crate::chain) fn land(chain: &mut Chain, nodes: &[usize], lanes: &[usize], step: u64) {
     let nodes: Vec<(usize, Lanes)> = nodes
         .iter()
         .map(|node| {
@@ -218,7 +220,8 @@ fn analytic_nodes_land_move_with_the_belt_and_leave() {
     for (lane, most, left) in [(0, 5, 1.0), (4, 5, 2.0), (5, 5, 0.0)] {
         let fallen = |i: usize| chain.position[i].x.0[lane] - laying(&chain).origin[i].x.0[lane];
         // The last node has half of the others' weight.
-        let work = weight * (0.5 * fallen(most) * f64::min(left, 1.0) + fallen(4) * f64::max(left - 1.0, 0.0));
+        let work =
+            weight * (0.5 * fallen(most) * f64::min(left, 1.0) + fallen(4) * f64::max(left - 1.0, 0.0));
         assert!((laying(&chain).carried.gravity_work.0[lane] - work).abs() < 1e-12 * weight * HEIGHT);
     }
 }
@@ -272,7 +275,8 @@ fn analytic_nodes_begin_and_end_to_slide() {
         chain.slide(H);
         for lane in 0..WIDTH {
             let inverse = chain.constants.node(4, 6).inverse_mass.0[lane];
-            let expected = if slides && lane < 6 { 1.0 / mass } else { held.constants.node(4, 6).inverse_mass.0[lane] };
+            let expected =
+                if slides && lane < 6 { 1.0 / mass } else { held.constants.node(4, 6).inverse_mass.0[lane] };
             assert!((inverse - expected).abs() <= 1e-12 * expected, "{lane}: {inverse} {expected}");
         }
         // Pressed by 9.5 mN less 0.5 mN the friction is 5 mN: it stops 5 mN H/m within a step.
