@@ -29,6 +29,9 @@ impl SpinSpec {
             Ok(libm::log(titre / changed.solve()?.linear_density))
         };
         let mut near = (0.0, miss(0.0)?);
+        if near.1 == 0.0 {
+            return Ok(1.0);
+        }
         let step = libm::log(STEP).copysign(-near.1);
         loop {
             let next = near.0 + step;

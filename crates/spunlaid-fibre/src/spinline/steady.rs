@@ -324,7 +324,7 @@ fn stations(filament: &Filament<'_>, shot: &Shot, frozen: f64) -> Vec<Station> {
 
 /// The largest strain rate [1/s] and its distance from the die [m]: of many places in each step, and then by
 /// thirds between the neighbours of the best.
-fn largest_strain_rate(filament: &Filament<'_>, shot: &Shot) -> (f64, f64) {
+pub(super) fn largest_strain_rate(filament: &Filament<'_>, shot: &Shot) -> (f64, f64) {
     let mut hint = 0;
     let mut rate = |step: &super::integration::Step, s: f64| {
         let distance = (s * s).max(1e-14 * filament.line.length);
@@ -355,7 +355,7 @@ fn largest_strain_rate(filament: &Filament<'_>, shot: &Shot) -> (f64, f64) {
 }
 
 /// By how much the balances of momentum and of energy over the whole line fail [-].      theory.md (96), (97)
-fn residuals(filament: &Filament<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
+pub(super) fn residuals(filament: &Filament<'_>, hit: &Hit, stations: &[Station]) -> (f64, f64) {
     let (line, end, material) = (filament.line, &hit.shot.end, &filament.line.material);
     let mass_flow = line.throughput;
     let accelerated = mass_flow * (libm::exp(end[LN_SPEED]) - filament.die_speed());

@@ -7,6 +7,7 @@ use super::shot::{Outcome, Shot, shoot};
 use super::*;
 use std::f64::consts::PI;
 
+mod lines;
 mod numerics;
 
 /// No friction between filament and air.
