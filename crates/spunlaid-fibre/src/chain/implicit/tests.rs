@@ -43,13 +43,14 @@ impl Task for OneStep<'_> {
         match (is_implicit, chain.laying.is_some()) {
             (true, true) => step::<S, true>(chain, &air, stride, work, &mut block),
             (true, false) => step::<S, false>(chain, &air, stride, work, &mut block),
-            _ => explicit::step::<S, false, false>(chain, &air, stride, work, &mut block),
+            (false, true) => explicit::step::<S, true, true>(chain, &air, stride, work, &mut block),
+            (false, false) => explicit::step::<S, false, false>(chain, &air, stride, work, &mut block),
         }
     }
 }
 
 fn take_step(chain: &mut Chain, work: &mut WorkDone, damped: bool, is_implicit: bool) {
-    let drift = if is_implicit { H } else { 0.0 };
+    let drift = if is_implicit || chain.laying.is_some() { H } else { 0.0 };
     let stride = Stride { kick: H, drift, damped, split: true };
     Isa::detect().run(OneStep { chain, work, stride, is_implicit });
 }
@@ -414,6 +415,13 @@ fn analytic_a_step_of_a_fed_fibre_is_that_of_the_equations() {
 /// forces, which is what they add to the energy of motion. Lanes that do not need them stay as they are.
 #[test]
 fn analytic_iterations_end_at_the_lengths_of_the_tensions_and_enter_their_work() {
+    for off in [[0.0, 0.05, 0.051, 1.0, 1.0, 0.3, 0.2, 9.0], [0.1; WIDTH]] {
+        iterates(Lanes(off));
+    }
+}
+
+/// * `off` – by how much elements are said to be off
+fn iterates(off: Lanes) {
     let strand = strand(9, Root::Clamped);
     let line = line(Contact::Friction { coefficient: 0.5, suction: 0.0 }, 0.05);
     let mut chain = chain(&strand, Some(line), Scheme::ImplicitTension);
@@ -426,13 +434,12 @@ fn analytic_iterations_end_at_the_lengths_of_the_tensions_and_enter_their_work()
     }
     let before = chain.clone();
     let mut work = WorkDone::default();
-    let off = Lanes::from_fn(|lane| [0.0, 0.05, 0.051, 1.0, 1.0, 0.3, 0.2, 9.0][lane]);
     let h = 4.0 * H;
     chain.iterate(&off, h, true, &mut work);
     let mut most = 0;
     for lane in 0..WIDTH {
         let mut expected = Plain { h, ..Plain::of(&before, lane) };
-        let iterations = if lane < 2 { 0 } else { expected.iterate() };
+        let iterations = if off.0[lane] <= 0.05 { 0 } else { expected.iterate() };
         most = most.max(iterations);
         let found = Plain::of(&chain, lane);
         agree("position", &parts(&found.position), &parts(&expected.position), 1e-7);
@@ -483,10 +490,25 @@ fn analytic_the_element_that_is_furthest_off() {
     }
     chain.position[9].y = chain.position[8].y + Lanes::splat(3.0 * SPACING);
     chain.tensions.tension[4].0[5] = 0.2 * SPACING * STIFFNESS;
-    for (lane, expected) in [(0, 0.5), (5, 0.3)] {
+    // An element of which one end is held counts.
+    (chain.position[8].y.0[3], chain.position[9].y.0[3]) = (9.4 * SPACING, 12.4 * SPACING);
+    for (lane, expected, number) in [(0, 0.5, 4), (3, 0.9, 7), (5, 0.3, 4)] {
         let (off, element) = chain.furthest_off(lane);
-        assert!((off - expected).abs() < 1e-12 && element == 4, "{off} {element}");
+        assert!((off - expected).abs() < 1e-12 && element == number, "{off} {element}");
     }
     chain.tensions.worst[0] = (0.7, 1);
     assert_eq!(chain.furthest_off(0), (0.7, 1));
+}
+
+/// In the air no node is looked at as one that the belt may hold.
+#[test]
+fn analytic_nothing_lands_in_the_air() {
+    for scheme in [Scheme::ImplicitTension, Scheme::Leapfrog] {
+        let mut chain = chain(&strand(9, Root::Clamped), Some(line(Contact::Stick, 0.05)), scheme);
+        chain.position.iter_mut().for_each(|at| at.x = at.x - Lanes::splat(0.01));
+        crumple(&mut chain, 0.1);
+        take_step(&mut chain, &mut WorkDone::default(), false, scheme == Scheme::ImplicitTension);
+        chain.feed_and_lay(1, H);
+        assert_eq!((chain.constants.tail.len(), chain.in_air()), (1, [10; WIDTH]));
+    }
 }

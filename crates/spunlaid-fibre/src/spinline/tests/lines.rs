@@ -197,6 +197,39 @@ fn analytic_the_drag_factor_of_a_titre() {
     }
 }
 
+/// A filament of 10 m/s in air that gets faster from 5 m/s by 20 m/s in each metre: they are equally fast at 0.25 m, and
+/// the heat transfer has a cusp there where little air crosses, by a tenth of the speed over eight.
+#[test]
+fn analytic_the_place_where_filament_and_air_are_equally_fast() {
+    for (cross, is_sharp) in [(0.12, true), (0.13, false), (-0.13, false)] {
+        let table = AirTable {
+            distance: vec![0.0, 2.0],
+            velocity: vec![5.0, 45.0],
+            cross_velocity: vec![cross; 2],
+            temperature: vec![300.0; 2],
+        };
+        let mut line = isothermal(1e-6);
+        line.throughput *= 1000.0;
+        line.air = Surroundings::Behind(table);
+        let filament = Filament { gravity: 0.0, forces: 0.0, ..Filament::new(&line, NONE, &line.air) };
+        let state = filament.at_die(1e-15).unwrap();
+        let speed = state[LN_SPEED].exp();
+        assert!((speed - 10.0).abs() < 1e-9);
+        let mut stepper = super::super::integration::Stepper::new(&filament, 1e-15);
+        for (start, length, expected) in [(0.3, 0.4, Some(0.2)), (0.2, 0.25, None), (0.55, 0.1, None)] {
+            let step = stepper.step(start, length, &state);
+            let found = stepper.cusp(&step);
+            assert_eq!(found.map(|(_, sharp)| sharp), expected.map(|_| is_sharp), "{start}");
+            if let (Some((found, _)), Some(expected)) = (found, expected) {
+                assert!((found - expected).abs() < 1e-9, "{found}");
+            }
+        }
+        // That it starts there is no new cusp.
+        let step = stepper.step(0.5, 0.1, &state);
+        assert!(stepper.cusp(&step).is_none());
+    }
+}
+
 /// A surface pulls with half of its tension times the circumference, and the melt needs more than that.
 #[test]
 fn analytic_the_tension_at_the_die_exceeds_that_of_the_surface() {
