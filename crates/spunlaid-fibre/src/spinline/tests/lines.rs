@@ -170,6 +170,31 @@ fn analytic_draw_ratio_is_speed_over_speed_at_the_die() {
     close(PI / 4.0 * solution.final_diameter.powi(2) * 905.0, solution.linear_density, 1e-12);
 }
 
+/// Stations at the squares of the parts of the root of the length, at the point where the filament becomes solid, and
+/// nowhere else in air that does not change.
+#[test]
+fn analytic_stations_are_even_in_the_root_of_the_distance() {
+    let solution = melt_spinning().solve().unwrap();
+    let distances: Vec<f64> = solution.stations.iter().map(|station| station.distance).collect();
+    assert_eq!(distances.len(), 402);
+    assert!(distances.contains(&solution.solidification.distance) && distances.is_sorted());
+    for i in [0, 1, 57, 200, 400] {
+        let expected = 0.8 * (i as f64 / 400.0).powi(2);
+        assert!(distances.iter().any(|distance| (distance - expected).abs() < 1e-15), "{expected}");
+    }
+}
+
+/// (98): 4.25e-9/Pa at 400 K, in proportion to 1/T, of polyester, and 0.9e-9/Pa at every temperature of polypropylene.
+#[test]
+fn analytic_birefringence_and_known_crystals() {
+    let [pet, pp] = [Polymer::Pet, Polymer::Pp].map(|polymer| polymer.material(false));
+    close(pet.birefringence(1e6, 400.0), 4.25e-3, 1e-12);
+    close(pet.birefringence(2e6, 320.0), 8.5e-3 * 1.25, 1e-12);
+    close(pp.birefringence(3e6, 320.0), 2.7e-3, 1e-12);
+    let known = Polymer::ALL.map(|polymer| polymer.material(true).crystals.is_known());
+    assert_eq!(known, [true, true, true, false, false]);
+}
+
 /// A factor on the drag gives a titre, and the titre gives the factor; what cannot be reached is named.
 #[test]
 fn analytic_the_drag_factor_of_a_titre() {
