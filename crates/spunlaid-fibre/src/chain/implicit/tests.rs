@@ -207,7 +207,8 @@ fn forces(strand: &FibreParameters, chain: &Chain, lane: usize) -> [Vec<V>; 2] {
     [all, drag]
 }
 
-/// `Σ k |Δω|²` of the angular velocities `t × dt/dt` of neighbouring elements, with `EI/l` and twice that at a clamped root.
+/// `Σ k |Δω|²` of the angular velocities `t × dt/dt` of neighbouring elements, with `k = EI/l` and twice that at a
+/// clamped root.
 fn dissipated(strand: &FibreParameters, chain: &Chain, lane: usize) -> f64 {
     let plain = Plain::of(chain, lane);
     let v = |i: usize| plain.velocity[i] + (plain.velocity[i] - plain.earlier[i]) * 0.5;
@@ -402,8 +403,8 @@ fn analytic_a_step_of_a_fibre_of_fixed_length_is_that_of_the_equations() {
     }
 }
 
-/// A fed chain at the belt: its end lies there, held or sliding, the node above it lands in the step in lanes 4 to 7, and
-/// in the last lanes elements are so far from their lengths that the corrections are iterated.
+/// A fed chain at the belt: its end lies there, held or sliding; the node above it lands in lanes 4 to 7. In some lanes
+/// elements are so far from their lengths that the corrections are iterated.
 #[test]
 fn analytic_a_step_of_a_fed_fibre_is_that_of_the_equations() {
     let suction = 5e-4 / (1e-3 * SPACING);

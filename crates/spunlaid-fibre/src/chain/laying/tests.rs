@@ -140,8 +140,8 @@ fn invariant_a_birth_above_a_single_element() {
     assert_eq!((chain.elements(), chain.fed()), (2, 2));
 }
 
-/// theory.md (61) of a node 2 mm above the belt: lanes in which it passes the belt within the step, touches it at its end
-/// and stays above it.
+/// theory.md (61) of a node 2 mm above the belt: lanes in which it passes the belt within the step, touches it at its
+/// end and stays above it.
 #[test]
 fn analytic_a_node_that_lands_keeps_its_velocity_until_it_touches_the_belt() {
     let mut chain = fed(5, Root::Clamped, Scheme::ImplicitTension, 0.03);
@@ -368,7 +368,7 @@ fn analytic_friction_on_a_node_that_slides() {
     }
 }
 
-/// Three times as stiff, twice as heavy and of other weight: the tensions and what the clamp has reached go with it, what
+/// Three times as stiff, twice as heavy and of other weight: the tensions and the springs of the clamp go with it, what
 /// the belt holds stays held, and what has left stays without mass.
 #[test]
 fn analytic_a_fed_fibre_that_becomes_another_one() {
