@@ -61,7 +61,8 @@ fn solved(mut rows: Vec<Vec<f64>>, mut side: Vec<f64>) -> Vec<f64> {
     for column in 0..size {
         let pivot =
             (column..size).max_by(|a, b| rows[*a][column].abs().total_cmp(&rows[*b][column].abs())).unwrap();
-        (rows.swap(column, pivot), side.swap(column, pivot));
+        rows.swap(column, pivot);
+        side.swap(column, pivot);
         for row in (0..size).filter(|row| *row != column) {
             let factor = rows[row][column] / rows[column][column];
             (0..size).for_each(|k| rows[row][k] -= factor * rows[column][k]);
@@ -265,12 +266,12 @@ fn expected(strand: &FibreParameters, chain: &Chain, line: Option<Line>, lane: u
         0.5 * MASS * s * s / (1.0 + s)
     };
     let mut rows = vec![vec![0.0; nodes]; nodes];
-    for i in 0..nodes {
-        rows[i][i] = if plain.mobility[i].y > 0.0 { plain.mass[i] } else { 1.0 };
+    for (i, row) in rows.iter_mut().enumerate() {
+        row[i] = if plain.mobility[i].y > 0.0 { plain.mass[i] } else { 1.0 };
         for (j, other) in [(i.wrapping_sub(1), i.wrapping_sub(1)), (i, i + 1)] {
             if j < count && plain.mobility[i].y > 0.0 {
-                rows[i][i] += share(j);
-                rows[i][other] -= share(j);
+                row[i] += share(j);
+                row[other] -= share(j);
             }
         }
     }

@@ -222,7 +222,7 @@ fn analytic_the_drag_factor_of_a_titre() {
     }
 }
 
-/// A filament of 10 m/s in air that gets faster from 5 m/s by 20 m/s in each metre: they are equally fast at 0.25 m. The
+/// A filament of 10 m/s in air that has 5 m/s and gains 20 m/s in each metre: they are equally fast at 0.25 m. The
 /// cusp is sharp if eight times the cross velocity is less than a tenth of the speed.
 #[test]
 fn analytic_the_place_where_filament_and_air_are_equally_fast() {
