@@ -159,6 +159,19 @@ fn identical_a_state_that_is_followed_and_sought() {
     assert!(follow(&filament, 4.0 * sought.tension, false).is_none());
 }
 
+/// The speed alone of a line next to a known one is that of its state.
+#[test]
+fn identical_speed_of_a_line_next_to_a_known_one() {
+    let spec = melt_spinning();
+    let near = spec.solve().unwrap();
+    assert!(near.has_low_birefringence);
+    let line = Spinline { throughput: 1.01 * spec.spinline.throughput, ..spec.spinline.clone() };
+    let expected = line.solve(spec.drag.along).unwrap();
+    close(line.final_speed_near(spec.drag.along, &near).unwrap(), expected.final_speed, 1e-6);
+    let pet = Spinline { polymer: PolymerSource::Known(Polymer::Pet), ..line };
+    assert!(!pet.has_low_birefringence());
+}
+
 #[test]
 fn analytic_draw_ratio_is_speed_over_speed_at_the_die() {
     let solution = melt_spinning().solve().unwrap();
