@@ -116,6 +116,8 @@ mod tests {
         // Air and polymer differ a little from those at 20.5 °C.
         assert!(((temperature - OF_AIR) / expected - 1.0).abs() < 3e-3, "{temperature} {expected}");
         assert!((heat / (per_kelvin * (1.0 - expected)) - 1.0).abs() < 3e-3, "{heat}");
+        let transfer = filament.cool(OF_AIR + 1.0, 0.2, [along, across]).per_kelvin;
+        assert!((transfer / (share * per_kelvin) - 1.0).abs() < 3e-3, "{transfer}");
     }
 
     /// What a spinline goes on to do is what its filament does below it.

@@ -134,10 +134,12 @@ fn invariant_births_and_the_clamp_enter_what_they_add_to_the_energy() {
 /// A chain of one element has no node that bends but its root.
 #[test]
 fn invariant_a_birth_above_a_single_element() {
-    let mut chain = fed(1, Root::Clamped, Scheme::ImplicitTension, 0.03);
-    crumple(&mut chain, 0.5);
-    is_entered(&mut chain, |chain| chain.give_birth(4.0 * H));
-    assert_eq!((chain.elements(), chain.fed()), (2, 2));
+    for root in [Root::Clamped, Root::Pinned] {
+        let mut chain = fed(1, root, Scheme::ImplicitTension, 0.03);
+        crumple(&mut chain, 0.5);
+        is_entered(&mut chain, |chain| chain.give_birth(4.0 * H));
+        assert_eq!((chain.elements(), chain.fed()), (2, 2));
+    }
 }
 
 /// theory.md (61) of a node 2 mm above the belt: lanes in which it passes the belt within the step, touches it at its
