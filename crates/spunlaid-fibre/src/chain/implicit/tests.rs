@@ -260,7 +260,7 @@ fn expected(strand: &FibreParameters, chain: &Chain, line: Option<Line>, lane: u
     let friction: Vec<V> = (0..nodes).map(friction).collect();
     let across = |i: usize| V { x: 0.0, ..friction[i] };
     (0..nodes).for_each(|i| others[i] += across(i));
-    // The step takes the share of the element below, where (51) has that of the element itself.
+    // The step takes the term of the element below, where (51) has that of the element itself.
     let share = |j: usize| {
         let j = (j + 1).min(count - 1);
         let s = H * H * plain.tension[j] / (plain.edge(j).norm() * MASS);
@@ -452,7 +452,7 @@ fn analytic_iterations_end_at_the_lengths_of_the_tensions_and_enter_their_work()
     }
 }
 
-/// * `off` – by how much elements are said to be off
+/// * `off` – by how much elements are off, as reported by the step
 fn iterates(off: Lanes) {
     let strand = strand(9, Root::Clamped);
     let line = line(Contact::Friction { coefficient: 0.5, suction: 0.0 }, 0.05);

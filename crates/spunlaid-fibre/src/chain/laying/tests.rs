@@ -288,7 +288,7 @@ fn analytic_nodes_begin_and_end_to_slide() {
     // The largest friction is half of the suction and what the node is pressed with.
     for (pressed, slides) in [(9.4e-3, true), (9.6e-3, false)] {
         let mut chain = start();
-        // What a force was that another node has felt in this place is forgotten as the first node lands there.
+        // The force on another node that had this position in the list is forgotten when the first node lands there.
         chain.tensions.belt_force.iter_mut().for_each(|force| *force = Vec3::splat(Vec3::new(1.0, 2.0, 3.0)));
         land(&mut chain, &[4], &(0..6).collect::<Vec<_>>(), 10);
         let zero: Vec<bool> =

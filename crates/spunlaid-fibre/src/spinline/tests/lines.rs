@@ -238,7 +238,7 @@ fn analytic_the_drag_factor_of_a_titre() {
 /// A filament of 10 m/s in air that has 5 m/s and gains 20 m/s in each metre: they are equally fast at 0.25 m. The
 /// cusp is sharp if eight times the cross velocity is less than a tenth of the speed.
 #[test]
-fn analytic_the_place_where_filament_and_air_are_equally_fast() {
+fn analytic_the_position_where_filament_and_air_are_equally_fast() {
     for (cross, is_sharp) in [(0.12, true), (0.13, false), (-0.13, false)] {
         let table = AirTable {
             distance: vec![0.0, 2.0],
