@@ -274,7 +274,8 @@ fn stat_thin_places_of_normal_weights() {
         thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 10 && i < 500 { 0.0 } else { 1.0 }), 10, KNOWN)
             .unwrap();
     let [.., Known::Value(number, Some(error))] = rare.lighter else { panic!("{rare:?}") };
-    assert!(number * 0.01 < 1.0 && error * 0.01 >= (number * 0.01).sqrt(), "{number} {error}");
+    let least = (number * 0.01).sqrt();
+    assert!(number * 0.01 < 1.0 && (1.0..1.5).contains(&(error * 0.01 / least)), "{number} {error}");
     // Weights at the edge of a class are no thick places: 1.3 of the mean, and nothing above.
     let steps =
         thin_places(&map([100, 100], 1e-3, |i| if i % 100 < 50 { 0.7 } else { 1.29 }), 2, KNOWN).unwrap();
@@ -653,7 +654,7 @@ fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
         defects: vec![StreakSource { missing, spread: 5e-3, until: 1.0 }],
     };
     let keys = FabricKeys {
-        thickness: Some(2e-3),
+        thickness: Some(10e-3),
         measured_opacity: Some(0.35),
         opacity_weight: Some(0.5 * weight),
         ..FabricKeys::USUAL
@@ -689,11 +690,11 @@ fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
     let bare = found.bare.unwrap();
     close(bare.value(), libm::exp(-covered));
     let air = found.air.unwrap();
-    close(air.solid, kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 2e-3);
+    close(air.solid, kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 10e-3);
     let Known::Between(ends) = air.permeability else { panic!("{air:?}") };
     let speed = |factor: f64| {
         let one = |diameter: f64, solid: f64| factor * air_through::davies(diameter, solid);
-        air_speed(&kinds, 1.0, 2e-3, 200.0, one)
+        air_speed(&kinds, 1.0, 10e-3, 200.0, one)
     };
     assert!(ends[0] <= speed(0.5) && speed(2.0) <= ends[1] && ends[1] < 6.0 * ends[0], "{ends:?}");
     assert_eq!(air.spread.map(Known::value), Some(0.0));
