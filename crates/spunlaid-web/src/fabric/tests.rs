@@ -623,7 +623,8 @@ fn analytic_the_columns_that_are_sold() {
 /// its formula.
 #[test]
 fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
-    let map = map([300, 200], 1e-3, |_| 1.0);
+    // 20 g/m².
+    let map = Map { quantum: 2e-14, ..map([300, 200], 1e-3, |_| 1.0) };
     let weight = map.basis_weight();
     let kinds = [(16e-6, 910.0, 0.6), (28e-6, 1300.0, 0.4)].map(|(diameter, density, share)| Filaments {
         diameter,
@@ -641,7 +642,7 @@ fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
         reported: Some(PatchCv { patch, cv: 0.2, standard_error: Some(0.01) }),
         off: Some(0.0),
     };
-    let missing = vec![(0.25, 1e-7)];
+    let missing = vec![(0.25, 1e-8)];
     let laid = Laid {
         map: &map,
         margins: [30e-3, 20e-3],
@@ -654,7 +655,7 @@ fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
         defects: vec![StreakSource { missing, spread: 5e-3, until: 1.0 }],
     };
     let keys = FabricKeys {
-        thickness: Some(10e-3),
+        thickness: Some(0.2e-3),
         measured_opacity: Some(0.35),
         opacity_weight: Some(0.5 * weight),
         ..FabricKeys::USUAL
@@ -690,21 +691,21 @@ fn analytic_the_fabric_of_a_uniform_web_of_two_kinds_of_filaments() {
     let bare = found.bare.unwrap();
     close(bare.value(), libm::exp(-covered));
     let air = found.air.unwrap();
-    close(air.solid, kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 10e-3);
+    close(air.solid, kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 0.2e-3);
     let Known::Between(ends) = air.permeability else { panic!("{air:?}") };
     let speed = |factor: f64| {
         let one = |diameter: f64, solid: f64| factor * air_through::davies(diameter, solid);
-        air_speed(&kinds, 1.0, 10e-3, 200.0, one)
+        air_speed(&kinds, 1.0, 0.2e-3, 200.0, one)
     };
     assert!(ends[0] <= speed(0.5) && speed(2.0) <= ends[1] && ends[1] < 6.0 * ends[0], "{ends:?}");
     assert_eq!(air.spread.map(Known::value), Some(0.0));
     let says = |found: &Fabric, words: &str| found.notes.iter().any(|note| note.contains(words));
     assert!(says(&found, "neck-in is not known") && !says(&found, "air permeability"), "{:?}", found.notes);
     assert!(says(&sold, "needs the thickness of the fabric"), "{:?}", sold.notes);
-    let dense = of(FabricKeys { thickness: Some(0.1e-3), ..keys });
-    let solid = (100.0 * kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 0.1e-3).round();
+    let dense = of(FabricKeys { thickness: Some(50e-6), ..keys });
+    let solid = (100.0 * kinds.iter().map(|of| of.basis_weight / of.density).sum::<f64>() / 50e-6).round();
     assert!(
-        says(&dense, &format!("fabric.thickness = 100 µm fibre would fill {solid} %")),
+        says(&dense, &format!("fabric.thickness = 50 µm fibre would fill {solid} %")),
         "{:?}",
         dense.notes
     );

@@ -552,7 +552,10 @@ mod tests {
                 };
                 let clouds = Clouds::measure(&waved(size, closed, wave)).unwrap();
                 let length = 1e-3 / (f64::from(across) / columns).hypot(f64::from(along) / rows);
-                let found = clouds.variance(0.6 * length, 1.8 * length).mean / POWER;
+                let variance = clouds.variance(0.6 * length, 1.8 * length);
+                // One wave says nothing of others.
+                assert!(variance.standard_error.is_none() || closed != [true; 2], "{variance:?}");
+                let found = variance.mean / POWER;
                 assert!((found - 1.0).abs() < within, "{size:?} {closed:?} {across} {along}: {found}");
                 let next = clouds.variance(1.8 * length, 4.0 * length).mean / POWER;
                 assert!(next < within, "{size:?} {closed:?} {across} {along}: {next}");

@@ -314,8 +314,10 @@ mod tests {
             .zip(weights)
             .map(|(angles, weight)| {
                 let mut sample = Sample::new(2.0 * weight);
+                // A filament without pieces counts for nothing; it comes behind the others.
+                sample.filaments = vec![Vec::new(); 3];
                 for (number, angle) in angles.iter().enumerate() {
-                    sample.filaments.push(vec![DirectionSums::default()]);
+                    sample.filaments[number] = vec![DirectionSums::default()];
                     // A piece without length has no direction.
                     sample.add(number, 0, [0.0, 0.0]);
                     sample.add(number, 0, [3.0 * libm::cos(*angle), 3.0 * libm::sin(*angle)]);
