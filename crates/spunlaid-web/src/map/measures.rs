@@ -164,8 +164,8 @@ mod tests {
     /// The number of each measure of a patch, with those of its errors.
     fn numbers(found: &PatchFindings) -> Vec<(&'static str, Option<f64>)> {
         let of = |measure: &OfPatch| match measure.formula {
-            Known(number) => (measure.column, number(found)),
-            _ => (measure.column, None),
+            Known(number) => (measure.entry(), number(found)),
+            _ => (measure.entry(), None),
         };
         PATCH_MEASURES
             .iter()
