@@ -269,7 +269,7 @@ mod tests {
         assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
 
-    /// Paths of 8 mm across in a row, in two rows at the same places, or at random.
+    /// Paths of 8 mm across in a row, in two rows at the same positions, or at random.
     fn layer(filaments: Filaments) -> Layer {
         Layer {
             linear_density: 2e-7,
@@ -330,7 +330,7 @@ mod tests {
             let by_hand = (0.946_41 / (4000.0 * 12.5 * 10e-3_f64)).sqrt();
             assert!((straight / by_hand - 1.0).abs() < if edges == Edges::Periodic { 1e-5 } else { 0.01 });
         }
-        // At random places each layer has what its single fibres have.
+        // At random positions each layer has what its single fibres have.
         let layer = layer(Filaments::AtRandom { per_metre: 2000.0 });
         let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
         let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };

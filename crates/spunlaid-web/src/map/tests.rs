@@ -1,4 +1,4 @@
-//! Webs of which places, weights and defects follow by hand.
+//! Webs whose positions, weights and defects follow by hand.
 
 #![allow(clippy::unwrap_used)]
 
@@ -62,7 +62,7 @@ fn analytic_what_layers_of_a_web_weigh_and_where_they_are_fed() {
 /// On a third of the width lie a third of the filaments, a Poisson number, whose streaks are as wide as a filament
 /// lies: `e^(−k²σ²)` of the wave k.
 #[test]
-fn analytic_streaks_of_filaments_at_random_places() {
+fn analytic_streaks_of_filaments_at_random_positions() {
     let at_random = |per_metre: f64, linear_density: f64| Layer {
         linear_density,
         ..layer(Filaments::AtRandom { per_metre })
@@ -84,7 +84,7 @@ fn analytic_streaks_of_filaments_at_random_places() {
     assert_eq!(web(vec![layer(rows())]).places(0.1), Places::Fixed);
 }
 
-/// Of holes with a defect at random the number is binomial, each with its missing mass; of filaments at random places
+/// Of holes with a defect at random the number is binomial, each with its missing mass; of filaments at random positions
 /// so is the number of those that lie where the defect is.
 #[test]
 fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
@@ -92,7 +92,7 @@ fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let of = |filaments: Filaments, defect: Defect| Layer { defects: vec![defect], ..layer(filaments) };
     let at_random = Filaments::AtRandom { per_metre: 500.0 };
     let alone = |layer: Layer| web(vec![layer]).variance_by_defects();
-    let binomial = |share: f64, missing: f64| share * (1.0 - share) * missing * missing;
+    let binomial = |part: f64, missing: f64| part * (1.0 - part) * missing * missing;
     close(alone(of(rows(), defect)), 20.0 * binomial(0.2, 0.75 / 20.0));
     close(alone(of(rows(), Defect { row: Some(2), ..defect })), 10.0 * binomial(0.2, 0.75 / 20.0));
     // After 25 ms it is so on the first 300 of 400 mm; after 0.2 s on none.
@@ -104,9 +104,9 @@ fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let of_half = Defect { from: Some(0.0), to: Some(0.15), share: 1.0, ..defect };
     close(alone(of(rows(), of_half)), 0.0);
     let inlets = inlets(&web(Vec::new()).sheet, 5, 0, &at_random);
-    let share = inlets.iter().filter(|inlet| inlet.z <= 0.15).count() as f64 / 150.0;
-    assert!((0.3..0.7).contains(&share));
-    close(alone(of(at_random.clone(), of_half)), 150.0 * binomial(share, 0.75 / 150.0));
+    let part = inlets.iter().filter(|inlet| inlet.z <= 0.15).count() as f64 / 150.0;
+    assert!((0.3..0.7).contains(&part));
+    close(alone(of(at_random.clone(), of_half)), 150.0 * binomial(part, 0.75 / 150.0));
     // Layers add up, by the squares of their fractions of the mass, and so do defects.
     let both = web(vec![of(rows(), defect), layer(at_random)]).variance_by_defects();
     close(both, (20.0_f64 / 170.0).powi(2) * 20.0 * binomial(0.2, 0.75 / 20.0));
@@ -154,9 +154,9 @@ fn analytic_holes_that_a_defect_names() {
     assert_eq!(depositor.quanta_at(Some(titre), 0.35), (whole / 2, 0.5));
 }
 
-/// Holes that have a defect, places and depths are drawn apart for each seed, layer and defect.
+/// Holes that have a defect, positions and depths are drawn apart for each seed, layer and defect.
 #[test]
-fn stat_holes_places_and_depths_at_random() {
+fn stat_holes_positions_and_depths_at_random() {
     const COUNT: f64 = 3000.0;
     let sheet = web(Vec::new()).sheet;
     let [at_random, slot] =

@@ -300,7 +300,7 @@ mod tests {
         assert_eq!(nearest_to_seen([1e-3, 4e-3, 24e-3, 50e-3].into_iter()), Some(2));
     }
 
-    /// Sixteen equal waves on 96 × 112 cells, of whose places 64 × 64 are looked at: thirty-two with those of the other
+    /// Sixteen equal waves on 96 × 112 cells, of whose positions 64 × 64 are looked at: thirty-two with those of the other
     /// sense, so that the variance scatters by 2/31 of its square. What the mean of a sheet varies is added.
     #[test]
     fn analytic_the_error_of_the_cv_of_equal_waves() {

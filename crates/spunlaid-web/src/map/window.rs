@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn analytic_places_as_a_window_sees_them() {
+    fn analytic_positions_as_a_window_sees_them() {
         let wholes = [-3.0, -2.5, -1.0, -0.25, 0.0, 0.25, 1.0, 1.75];
         assert_eq!(wholes.map(floor), [-3, -3, -1, -1, 0, 0, 1, 1]);
         let close =
@@ -167,13 +167,13 @@ mod tests {
         close(ring.seen([0.0649, 0.1199]), [0.0599, 0.1149]);
         close(ring.seen([0.0651, 0.1201]), [-0.0399, -0.0849]);
         // Within 4 mm of it, and a cell before and behind.
-        for (place, is_near) in [
+        for (position, is_near) in [
             ([0.0011, 0.02], true),
             ([0.0009, 0.02], false),
             ([0.0289, 0.0389], true),
             ([0.02, 0.0391], false),
         ] {
-            assert_eq!(cut.nears(place, 4e-3), is_near, "{place:?}");
+            assert_eq!(cut.nears(position, 4e-3), is_near, "{position:?}");
         }
         for ([from, to], is_beside) in
             [([0.0, 0.0039], false), ([0.0, 0.0041], true), ([0.0359, 0.05], true), ([0.0361, 0.05], false)]

@@ -1,4 +1,4 @@
-//! What is reported of a map is what its cells say, by sums that anybody would write.
+//! What is reported of a map follows from its cells, by sums that anybody would write.
 
 use super::Outcome;
 use crate::draw::Drawn;
@@ -75,7 +75,7 @@ pub fn map_of_a_web(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
         return off("basis weight", weight, map.mean());
     }
     let side = |of: &Json| (number(&of["patch_m"]) / cell).round() as usize;
-    // On a sheet of another web of filaments at random places there is another number of them, by a Poisson number.
+    // On a sheet of another web of filaments at random positions there is another number of them, by a Poisson number.
     let is_at_random = drawn.base.name == "web" && drawn.value("line.slot_gap").is_none();
     let of_mean = if is_at_random { 1.0 / number(&results["layers"][0]["filaments"]) } else { 0.0 };
     for patch in web["patches"].as_array().into_iter().flatten() {
@@ -98,7 +98,7 @@ pub fn map_of_a_web(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
             |edge: f64| patches.partition_point(|weight| *weight < edge) as f64 / patches.len() as f64;
         let what = |name: &str| format!("{name} over {} m", of["patch_m"]);
         let area = number(&of["patch_m"]).powi(2);
-        for (name, share) in [
+        for (name, part) in [
             ("lighter_than_50_percent_per_m2", below(0.5)),
             ("lighter_than_70_percent_per_m2", below(0.7)),
             ("lighter_than_80_percent_per_m2", below(0.8)),
@@ -106,11 +106,11 @@ pub fn map_of_a_web(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
         ] {
             // Where none is found, there is a bound. Rounding moves some patches over an edge.
             let found = of[name]["value"].as_f64().unwrap_or(0.0) * area;
-            if (found - share).abs() > 1e-3 * share + 4.0 / patches.len() as f64 {
-                return off(&what(name), found / area, share / area);
+            if (found - part).abs() > 1e-3 * part + 4.0 / patches.len() as f64 {
+                return off(&what(name), found / area, part / area);
             }
         }
-        for (name, share) in [
+        for (name, part) in [
             ("weight_of_1_percent", 0.01),
             ("weight_of_5_percent", 0.05),
             ("median_weight", 0.5),
@@ -120,8 +120,8 @@ pub fn map_of_a_web(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
             // It is found in classes of a hundredth of the mean.
             let found = number(&of[name]["value"]);
             let [least, most] = [-0.0101, 0.0101].map(|by| below(found + by));
-            if !(least..=most).contains(&share) {
-                return off(&what(name), found, patches[(share * patches.len() as f64) as usize]);
+            if !(least..=most).contains(&part) {
+                return off(&what(name), found, patches[(part * patches.len() as f64) as usize]);
             }
         }
     }

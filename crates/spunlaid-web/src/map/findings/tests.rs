@@ -142,7 +142,7 @@ fn analytic_what_samples_of_layers_say_together() {
         few.clone().map(|few| SubsampleEstimate { area: 2.0 * few.area, ..few })
     };
     check(of(&piece.each_ref().map(levels)), cv, first.hypot(second) / cv, by_pitch);
-    // A map of the whole sheet has what its places do, and lacks what is filled in.
+    // A map of the whole sheet has what its positions do, and lacks what is filled in.
     let of_whole = (0.09 + filling + beyond).sqrt();
     check(of(&whole), of_whole, 0.3 * 0.05 / of_whole, by_pitch * cv / of_whole);
     check(
@@ -219,7 +219,7 @@ fn findings_are_warned_of_with_their_numbers() {
     let of_few = LayerFlown { lost: 3, ..simulated(Some(few.clone())) };
     assert_eq!(lost(&web, &laid(vec![of_all, of_few])), [WebWarning::Lost { filaments: 10, of: 160 }]);
     assert_eq!(lost(&web, &laid(vec![simulated(None), simulated(None)])), []);
-    // 0.016 by chance and 0.012 by the pitch are a tenth of the CV.
+    // A sampling error of 0.016 and one of 0.012 by the pitch are a tenth of the CV.
     let reached = SubsampleCv { by_chance: Some(0.016), by_pitch: 0.012, ..sample(1.0) };
     let wanted = |wanted: f64| {
         let few = SubsampleEstimate { wanted: Some(wanted), ..estimate(reached, [0.1, 0.2]) };
@@ -242,7 +242,7 @@ fn charged_layers(laid: &LaidWeb) -> Vec<WebWarning> {
     charged(laid)
 }
 
-/// What is said of a map in which filaments are filled in: on a whole sheet, and on pieces of another one.
+/// Warnings of a map in which filaments are filled in: on a whole sheet, and on pieces of another one.
 #[test]
 fn a_map_that_is_not_as_even_as_its_web_is_warned_of() {
     let web = web();
@@ -331,7 +331,7 @@ fn analytic_a_web_within_its_edges() {
     let by_defects = 200.0 * 0.2 * 0.8 * (0.75_f64 / 200.0).powi(2);
     close(error.unwrap_or(0.0), 51e-3 * (crossed + by_defects).sqrt());
     close(found.fibre_length, 200.0 * 2.0);
-    // Without patches that fit nothing can be said.
+    // A web on which no patches fit is refused.
     web.sheet.patches = vec![6e-3];
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
     let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
@@ -368,7 +368,7 @@ fn the_cv_of_a_sample_is_that_of_its_evidence() {
     let has_error = |found: &Findings| {
         found.clouds.as_ref().and_then(|clouds| clouds.variance(4e-3, 6e-3).standard_error).is_some()
     };
-    // Nothing says how far off the clouds of too few filaments are.
+    // How far off the clouds of too small a sample are is not known.
     assert!(!has_error(&found) && has_error(&of(two([0.1, 0.1]))));
     let doubted = found.patches[0];
     assert_eq!(doubted.warning, Some(SubsampleWarning::Neighbours(0.1)));
