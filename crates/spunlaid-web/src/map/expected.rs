@@ -412,6 +412,6 @@ mod tests {
             assert_eq!(effect.difference.degrees, 1.0);
         }
         let alone = ExpectedCv::alone(10e-3, 0.3, None);
-        assert!(alone.effect_to(&[alone.clone()]).unwrap().difference.standard_error.is_nan());
+        assert!(alone.effect_to(std::slice::from_ref(&alone)).unwrap().difference.standard_error.is_nan());
     }
 }

@@ -270,7 +270,9 @@ mod tests {
     fn analytic_curves_are_seen_from_their_straight_traces() {
         let one_air = OneAir { groups: vec![0, 0], memory: 1.0 };
         let curve = |side: f64, pieces: usize| -> Vec<[f64; 2]> {
-            let point = |i: usize| [7.0 - 0.5 * 2e-3 * i as f64, 3.0 + if i % 2 == 0 { side } else { -side }];
+            let point = |i: usize| {
+                [7.0 - 0.5 * 2e-3 * i as f64, 3.0 + if i.is_multiple_of(2) { side } else { -side }]
+            };
             (0..=pieces).map(point).collect()
         };
         let of = |curves: &[Vec<[f64; 2]>]| Curves::new(2e-3, 0.5, curves.to_vec(), one_air.clone());

@@ -373,7 +373,7 @@ mod tests {
     #[test]
     fn analytic_directions_of_curves_that_were_simulated() {
         let groups = vec![0, 1, 2, 3, 4, 5, 6, 7];
-        let along = |number: usize, i: usize| i < 8 || number % 4 == 0 && i < 12;
+        let along = |number: usize, i: usize| i < 8 || number.is_multiple_of(4) && i < 12;
         let curve = |number: usize| {
             let mut at = [0.0, 0.0];
             let mut points = vec![at];
@@ -394,7 +394,7 @@ mod tests {
         let found = orientation_of(vec![layer(row(), Fibres::Flown(Arc::new(simulated)))]);
         let close =
             |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
-        let cos_squared = |number: usize| if number % 4 == 0 { 0.75 } else { 0.5 };
+        let cos_squared = |number: usize| if number.is_multiple_of(4) { 0.75 } else { 0.5 };
         assert_eq!(found.cos_squared.values, (0..8).map(cos_squared).collect::<Vec<f64>>());
         close(found.cos_squared.mean, 0.5625);
         // Against the sense of the machine direction, 180 degrees, and of the cross direction, 270 degrees.
