@@ -324,8 +324,10 @@ mod tests {
             assert!((of(&closed, place, [round - 7e-3, round]) - half).abs() < 1e-12);
         }
         // Bands near either edge are not taken for sampling error, of 19 the first two and the last two.
-        let near = |map: &Map| beside(&Bands::new(map), 0.0, 14, &[source(0.0, 1.0, 1.0)]).len();
-        assert_eq!([near(&open), near(&closed)], [17, 15]);
+        for place in [0.0, round] {
+            let near = |map: &Map| beside(&Bands::new(map), 0.0, 14, &[source(place, 1.0, 1.0)]).len();
+            assert_eq!([near(&open), near(&closed)], [17, 15]);
+        }
     }
 
     /// Bands that are a tenth heavier or lighter along the whole web, two of each by turns: a dip must exceed 1.96

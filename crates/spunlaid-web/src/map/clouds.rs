@@ -593,6 +593,13 @@ mod tests {
     #[test]
     fn a_sheet_without_fibre_or_of_few_cells_has_no_clouds() {
         let flat = waved([16, 40], [true; 2], |_, _| 0.0);
+        // Of four tiles the two without a wave, which are lighter than the mean, have no direction.
+        let half = waved(
+            [32, 32],
+            [true; 2],
+            |column, _| if column < 16 { -0.1 } else { turns(column as f64 / 4.0) },
+        );
+        assert!(Clouds::measure(&half).is_some_and(|clouds| clouds.texture_md().values.len() == 2));
         assert!(Clouds::measure(&flat).is_some_and(|clouds| clouds.texture_md().mean.is_nan()));
         assert!(Clouds::measure(&waved([15, 40], [true; 2], |_, _| 0.0)).is_none());
         assert!(Clouds::measure(&waved([16, 40], [true; 2], |_, _| -1.0)).is_none());

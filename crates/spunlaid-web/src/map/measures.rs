@@ -211,6 +211,23 @@ mod tests {
                 assert!(is_same, "{column}: {number:?} {wanted:?}");
             }
         };
+        // Tables have what is expected of known filaments, or what independent ones would give.
+        let is_shown = |evidence: Evidence, column: &str| {
+            let patch = PatchFindings {
+                map,
+                single_fibres,
+                straight_fibres: 0.1,
+                evidence,
+                few: None,
+                warning: None,
+                of_map: 0.19,
+            };
+            PATCH_MEASURES.iter().any(|measure| measure.entry() == column && (measure.is_shown)(&patch))
+        };
+        for (evidence, is_known) in [(Evidence::Known, true), (Evidence::AllInOneAir, false)] {
+            assert_eq!(is_shown(evidence, "cv_one_fibre"), is_known);
+            assert_eq!(is_shown(evidence, "cv_independent"), !is_known);
+        }
         let (cv, error, degrees) = (Some(0.2), Some(0.05), Some(8.0));
         check(of(Evidence::Known, None), [cv, error, degrees, None, None, None, None, None, Some(0.15)]);
         let known = of(Evidence::Known, None);

@@ -39,7 +39,11 @@ impl Map {
 fn sums(numbers: &[f64], length: usize, count: usize) -> Vec<f64> {
     let of_line = |line: &[f64]| {
         let mut sum: f64 = (0..count).map(|i| line[i % length]).sum();
-        let mut next = |i: usize| std::mem::replace(&mut sum, sum + line[(i + count) % length] - line[i]);
+        let mut next = |i: usize| {
+            let own = sum;
+            sum += line[(i + count) % length] - line[i];
+            own
+        };
         (0..length).map(&mut next).collect::<Vec<f64>>()
     };
     numbers.chunks_exact(length).flat_map(of_line).collect()

@@ -475,6 +475,12 @@ fn analytic_straight_filaments_that_never_meet() {
         ] {
             close(found, expected);
         }
+        // Over patches of two cells: two positions of 96 with half of a patch, and all of its mass on the sheet.
+        let maps = [None, Some(0), Some(1)].map(|half| twelve.map(half).unwrap());
+        let products = &twelve.products(&maps, &[2], 1).unwrap()[0];
+        products.means.iter().zip([48.0, 0.0, 0.0, 0.0]).for_each(|(found, wanted)| close(*found, wanted));
+        products.pairs.iter().flatten().for_each(|pair| close(pair[5], 1.0));
+        assert_eq!(products.pairs.len(), 6);
         let on_map = patch_cv(&map(12), 1).unwrap();
         assert_eq!(found.by_chance.is_some(), on_map.standard_error.is_some());
         assert!(estimate.blocks[0].iter().all(|block| (block - 7.0).abs() < 1e-9));

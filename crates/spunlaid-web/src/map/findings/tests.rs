@@ -331,6 +331,17 @@ fn analytic_a_web_within_its_edges() {
     let by_defects = 200.0 * 0.2 * 0.8 * (0.75_f64 / 200.0).powi(2);
     close(error.unwrap_or(0.0), 51e-3 * (crossed + by_defects).sqrt());
     close(found.fibre_length, 200.0 * 2.0);
+    // Of filaments at random positions the number varies on the 70 mm between the edges, and not on the sheet.
+    let mut at_random = web.clone();
+    at_random.layers[0].filaments = Filaments::AtRandom { per_metre: 1000.0 };
+    at_random.layers[0].defects.clear();
+    let uniform = LaidWeb { map: Map { cells: vec![9; 20_000], ..laid.map.clone() }, ..laid.clone() };
+    let found = find_of(&at_random, Some(uniform));
+    close(found.margins[0], 15e-3);
+    close(found.error_of_weight.unwrap_or(0.0), (0.3 / 70.0_f64).sqrt());
+    // Layers of 10 km of fibre on a square metre, by the squares of their fractions of the mass.
+    let by_hand = ((0.5625 + 0.0625) * 0.946_41 / (1e4 * PATCH)).sqrt();
+    assert!((straight(&self::web(), PATCH) / by_hand - 1.0).abs() < 1e-5);
     // A web on which no patches fit is refused.
     web.sheet.patches = vec![6e-3];
     let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
