@@ -84,8 +84,8 @@ fn analytic_streaks_of_filaments_at_random_positions() {
     assert_eq!(web(vec![layer(rows())]).places(0.1), Places::Fixed);
 }
 
-/// Of holes with a defect at random the number is binomial, each with its missing mass; of filaments at random positions
-/// so is the number of those that lie where the defect is.
+/// Of holes with a defect at random the number is binomial, each with its missing mass. So is, of filaments at random
+/// positions, the number of those that lie where the defect is.
 #[test]
 fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let defect = Defect { share: 0.2, titre: 0.25, ..Defect::USUAL };

@@ -300,8 +300,8 @@ mod tests {
         assert_eq!(nearest_to_seen([1e-3, 4e-3, 24e-3, 50e-3].into_iter()), Some(2));
     }
 
-    /// Sixteen equal waves on 96 × 112 cells, of whose positions 64 × 64 are looked at: thirty-two with those of the other
-    /// sense, so that the variance scatters by 2/31 of its square. What the mean of a sheet varies is added.
+    /// Sixteen equal waves on 96 × 112 cells, of whose positions 64 × 64 are looked at. With those of the other sense
+    /// they are thirty-two, so that the variance scatters by 2/31 of its square. The variance of the mean is added.
     #[test]
     fn analytic_the_error_of_the_cv_of_equal_waves() {
         let wave = |i: usize, x: usize, y: usize| {

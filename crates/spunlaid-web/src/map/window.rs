@@ -182,7 +182,7 @@ mod tests {
         }
     }
 
-    /// A filament that goes out over the edge of the sheet and comes in at the other one, and one that stops for a while.
+    /// A filament goes out over an edge of the sheet, comes in at the other one, and stops for a while.
     #[test]
     fn analytic_the_parts_of_a_filament_in_a_window() {
         let on = WindowOnSheet::new(
