@@ -373,7 +373,7 @@ try {
   await check("dark", 390);
   if (options.web) await checkWithoutScripts();
 } catch (error) {
-  failures.push(`the check itself: ${error.message}`);
+  failures.push(`the check itself: ${error.stack}`);
 } finally {
   await browser.close();
 }

@@ -222,8 +222,8 @@ async function checkKeyboard(browser) {
     await slider.focus();
     for (let i = 0; i < 10; i++) {
       await page.keyboard.press("ArrowRight");
-      await wait(60);
     }
+    await wait(600);
     const notch = Number(await slider.inputValue());
     expect(notch === first + 10, `ten arrow keys from notch ${first} lead to ${notch}`);
   }
@@ -352,7 +352,7 @@ try {
   lines = await checkLine(browser, { program, folder, expect, start, open, print, shot, wait, computed, isRed });
   lines = [...lines, ...(await checkMistakes(browser)), ...(await checkKeyboard(browser)), ...(await checkFixed(browser)), ...(await checkFed(browser))];
 } catch (error) {
-  failures.push(`the check itself: ${error.message}`);
+  failures.push(`the check itself: ${error.stack}`);
 } finally {
   await browser.close();
   rmSync(folder, { recursive: true, force: true });

@@ -1,6 +1,6 @@
 //! Makes a case from the written values, the files that they name and the defaults of the other keys.
 
-use super::data::DataFiles;
+use super::data::{DataFiles, Layouts};
 use super::written_values::{WrittenValues, sorted};
 use spunlaid_air::{FieldLayout, Flow, RecordLayout};
 use spunlaid_fibre::case::keys::{self, Content, DataFile, Key, Kind, Omission, Value};
@@ -146,7 +146,7 @@ fn load(
     paths: &[PathBuf],
     key_values: &WrittenValues,
 ) -> Result<(Content, Vec<Diagnostic>), FileError> {
-    let layouts = (record_layout(key_values), field_layout(key_values));
+    let layouts = Layouts { record: record_layout(key_values), field: field_layout(key_values) };
     let (mut all, mut remarks): (Option<Content>, Vec<Diagnostic>) = (None, Vec::new());
     for path in paths {
         let (content, of_file) = files.read(kind, path, &layouts)?;

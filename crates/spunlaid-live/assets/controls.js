@@ -20,7 +20,10 @@ function labelled(place, label) {
 const TITLES = { spinline: "Spinline", fibre: "Fibre", feed: "Feed", belt: "Belt", air: "Air", drag: "Drag", run: "Computation" };
 
 class Controls {
-  /** `set(key, value, written)` is called when something is changed; `written` is whether it was written into a box. */
+  /**
+   * `set(key, value, written)` is called when something is changed, and returns the stamp of its answer; `written` is
+   * whether it was written into a box.
+   */
   constructor(form, set) {
     Object.assign(this, { form, set, controls: new Map() });
     form.addEventListener("submit", (e) => e.preventDefault());
@@ -83,7 +86,9 @@ class Controls {
       const slider = element("input", { type: "range", min: 0, max: NOTCHES, step: 1, id });
       slider.setAttribute("aria-labelledby", name.id);
       slider.dataset.key = setting.key;
-      slider.addEventListener("input", () => this.set(setting.key, this.value(control.setting, Number(slider.value))));
+      slider.addEventListener("input", () => {
+        control.stamp = this.set(setting.key, this.value(control.setting, Number(slider.value)));
+      });
       row.append(slider);
       control.slider = slider;
     }
@@ -120,8 +125,14 @@ class Controls {
       control.slider.setAttribute("aria-valuetext", text);
       // The program rounds to three digits. A slider that went back by that would stick under the arrow keys.
       const isThere = Math.abs(this.value(control.setting, Number(control.slider.value)) - si) <= ROUNDED * Math.abs(si);
-      if (control.slider !== this.held && !isThere) control.slider.value = this.notch(control.setting, si);
+      // What arrives before the answer to its last change is about an earlier one.
+      if (control.slider !== this.held && !control.stamp && !isThere) control.slider.value = this.notch(control.setting, si);
     }
+  }
+
+  /** The program has answered a change, or with no stamp, it will answer none of them. */
+  answered(stamp) {
+    for (const control of this.controls.values()) if (!stamp || control.stamp === stamp) control.stamp = null;
   }
 
   /** Marks a value that was written and cannot be simulated, and says why beside it. The box keeps it. */

@@ -11,15 +11,18 @@ const controls = new Controls(byId("settings"), change);
 controls.watch(() => byId("refused").hidden || controls.show(page.state.values));
 const asked = new Map();
 
-/** Asks for a change and remembers when; `written` is whether it was written into a box. */
+/** Asks for a change, remembers when and returns its stamp; `written` is whether it was written into a box. */
 function change(key, value, written = false) {
-  asked.set(link.set(key, value), { at: performance.now(), generation: null, key, value, written });
+  const stamp = link.set(key, value);
+  asked.set(stamp, { at: performance.now(), generation: null, key, value, written });
   if (asked.size > 100) asked.delete(asked.keys().next().value);
+  return stamp;
 }
 
 const link = new Link({
   open() {
     [page.connected, page.moved] = [true, false];
+    controls.answered();
     status();
   },
   closed() {
@@ -39,6 +42,7 @@ const link = new Link({
   },
   applied({ stamp, generation }) {
     const change = asked.get(stamp);
+    controls.answered(stamp);
     if (change) {
       change.generation = generation;
       controls.accept(change.key);
@@ -47,7 +51,11 @@ const link = new Link({
   },
   refused({ about, problems: all }) {
     const written = about.is === "setting" ? asked.get(about.stamp) : null;
-    if (written) asked.delete(about.stamp);
+    if (written) {
+      asked.delete(about.stamp);
+      controls.answered(about.stamp);
+      if (!controls.held) controls.show(page.state.values);
+    }
     if (written?.written) return controls.refuse(written.key, written.value, all.map(({ text }) => text).join(" "));
     if (about.is === "name") return saved(all.map(({ text }) => text).join(" "), true);
     refusal(all);

@@ -17,16 +17,18 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Finds the values. See spunlaid.fit, which calls it. Returns the text of fit.json and what it says in sentences.
 ///
-/// * `vary` – names of the keys, and of those that have a range its ends
+/// * `names` – of the keys that are varied; `low`, `high` – ends of the ranges of those that have one
 /// * `out` – the folder of the results, with figures as asked; without one, nothing is kept when it is interrupted
 #[pyfunction]
-#[pyo3(signature = (path, to, vary, changes, spectrum, webs, out, figures, threads = None, progress = None))]
+#[pyo3(signature = (path, to, names, low, high, changes, spectrum, webs, out, figures, threads = None, progress = None))]
 #[expect(clippy::too_many_arguments, reason = "the function of Python has them by name")]
 pub(crate) fn find_fit(
     py: Python<'_>,
     path: PathBuf,
     to: PathBuf,
-    vary: (Vec<String>, Bound<'_, PyAny>, Bound<'_, PyAny>),
+    names: Vec<String>,
+    low: &Bound<'_, PyAny>,
+    high: &Bound<'_, PyAny>,
     changes: &Bound<'_, PyAny>,
     spectrum: bool,
     webs: u64,
@@ -36,8 +38,7 @@ pub(crate) fn find_fit(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<(String, Vec<String>)> {
     let changes = overrides(changes)?;
-    let (names, low, high) = vary;
-    let ends = overrides(&low)?.into_iter().zip(overrides(&high)?);
+    let ends = overrides(low)?.into_iter().zip(overrides(high)?);
     let ranges: BTreeMap<String, String> =
         ends.map(|((key, low), (_, high))| (key, format!("{low}..{high}"))).collect();
     let vary = names

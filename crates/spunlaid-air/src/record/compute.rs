@@ -2,7 +2,7 @@
 
 use super::analysis::{BLOCKS, SpectrumSettings, block_time};
 use super::artefacts::Artefacts;
-use super::doubts::warnings;
+use super::doubts::{AnalysisWithout, warnings};
 use super::flat::FlatPart;
 use super::interval::{error, jackknife};
 use super::jackknife::{Blocks, Estimates};
@@ -53,7 +53,11 @@ pub fn analyse_fluctuation(record: &Record, settings: &Settings) -> Result<Analy
     let rest = mended.as_ref().and_then(|mended| {
         check(&mended.record, settings).and_then(|()| statistics(&mended.record, settings)).ok()
     });
-    let without = mended.zip(rest.as_ref()).map(|(mended, rest)| (mended.left_out, mended.joints, rest));
+    let without = mended.zip(rest.as_ref()).map(|(mended, analysis)| AnalysisWithout {
+        samples: mended.left_out,
+        joints: mended.joints,
+        analysis,
+    });
     analysis.warnings = warnings(record, &analysis, artefacts, without);
     Ok(analysis)
 }

@@ -57,22 +57,32 @@ fn filled(record: &Record) -> Option<Fault> {
     (filled > 0).then(|| Fault::plain(message))
 }
 
+/// An analysis without the samples that are no velocities.
+#[derive(Clone, Copy)]
+pub(super) struct AnalysisWithout<'a> {
+    /// Number of these samples.
+    pub(super) samples: usize,
+    /// Number of places where others were joined in place of them.
+    pub(super) joints: usize,
+    pub(super) analysis: &'a Analysis,
+}
+
 /// All warnings about a record and its analysis, with what to do about each.
 ///
-/// * `without` – the number of samples that are no velocities, of places where others were joined in their place, and
-///   the analysis without them, if there is one; doubts about the air are those about it
+/// * `without` – the analysis without the samples that are no velocities, if there is one; warnings about the air are
+///   then about it
 pub(super) fn warnings(
     record: &Record,
     analysis: &Analysis,
     artefacts: Artefacts,
-    without: Option<(usize, usize, &Analysis)>,
+    without: Option<AnalysisWithout<'_>>,
 ) -> Vec<Fault> {
     let mut warnings = Vec::new();
     warnings.extend(record.reading.doubt.clone());
     warnings.extend(filled(record).filter(|_| record.filled_share() > MUCH_FILLED));
     warnings.extend(artefacts.faults);
-    warnings.extend(without.and_then(|(samples, joints, rest)| results_without(samples, joints, rest)));
-    let analysis = without.map_or(analysis, |(.., rest)| rest);
+    warnings.extend(without.and_then(AnalysisWithout::results));
+    let analysis = without.map_or(analysis, |without| without.analysis);
     let longest = analysis.components.iter().map(Component::block_time).fold(0.0, f64::max);
     if analysis.duration < BLOCKS.0 as f64 * longest {
         let count = number(analysis.duration / analysis.integral_time.value);
@@ -145,20 +155,22 @@ fn coarse(values: &[f64], rms: f64) -> Option<Fault> {
     (step.is_finite() && step > LARGEST_STEP * rms).then(|| Fault::new(message, "record more digits"))
 }
 
-/// What the analysis gives without the samples that are no velocities. None if too many others had to be joined: each
-/// joint takes an integral time out of the record.
-fn results_without(samples: usize, joints: usize, rest: &Analysis) -> Option<Fault> {
-    let joined = joints as f64 * rest.integral_time.value;
-    if !rest.has_mean() || joined > MOST_JOINED * rest.duration {
-        return None;
+impl AnalysisWithout<'_> {
+    /// What it gives. None if too many others had to be joined: each joint takes an integral time out of the record.
+    fn results(self) -> Option<Fault> {
+        let Self { samples, joints, analysis: rest } = self;
+        let joined = joints as f64 * rest.integral_time.value;
+        if !rest.has_mean() || joined > MOST_JOINED * rest.duration {
+            return None;
+        }
+        Some(Fault::plain(format!(
+            "without {} the analysis gives a turbulence intensity of {} %, an integral time of {} and a length scale of {}",
+            if samples == 1 { "this sample".to_owned() } else { format!("these {samples} samples") },
+            number(100.0 * rest.turbulence_intensity.value),
+            time(rest.integral_time.value),
+            Dimension::Length.pretty_to(rest.length_scale.value, 3),
+        )))
     }
-    Some(Fault::plain(format!(
-        "without {} the analysis gives a turbulence intensity of {} %, an integral time of {} and a length scale of {}",
-        if samples == 1 { "this sample".to_owned() } else { format!("these {samples} samples") },
-        number(100.0 * rest.turbulence_intensity.value),
-        time(rest.integral_time.value),
-        Dimension::Length.pretty_to(rest.length_scale.value, 3),
-    )))
 }
 
 /// Whether the mean and the rms stay the same over the record, and whether the autocorrelation falls far enough.

@@ -152,7 +152,7 @@ fn rejects_folders_with_files_of_others_without_force() {
     let study = "version = 1\ncase = \"brief.toml\"\ndesign = \"grid\"\nreplicates = 1\n\
         [vary]\n\"air.velocity\" = [\"9 m/s\", \"10 m/s\"]\n";
     fs::write(desk.path("study.toml"), study).unwrap();
-    let web = "web_known.toml --set web.width=250mm --set web.length=250mm";
+    let web = "web_known.toml --set web.width=250mm --set web.length=250mm --set web.cell=1mm";
     success(&mut desk.spunlaid(&format!("web {web} --out laid --quiet --no-advice")));
     success(&mut desk.spunlaid("run brief.toml --out run --quiet"));
     for (command, complete) in [

@@ -77,8 +77,11 @@ pub fn judge(
                 };
                 match effect(more).zip(effect(less)) {
                     Some((more_effect, less_effect)) => {
-                        let reported = [(more, more_effect), (less, less_effect)];
-                        matters(study, &study.quantities[quantity], reported, times)
+                        let words = [(more, more_effect), (less, less_effect)].map(|(factor, effect)| {
+                            let effect = in_words(&study.quantities[quantity], effect);
+                            format!("{effect} over {}", study.factors[factor].key.name)
+                        });
+                        (words.join(", "), Verdict::of_difference(excess(more_effect, less_effect, times)))
                     }
                     None => open("these effects cannot be separated"),
                 }
@@ -99,23 +102,13 @@ pub fn judge(
     Ok(judged)
 }
 
-/// Whether one effect is larger than so many times another one.
-fn matters(
-    study: &Study,
-    quantity: &Quantity,
-    reported: [(usize, Difference); 2],
-    times: f64,
-) -> (String, Verdict) {
-    let [more, less] = reported.map(|(_, effect)| effect);
-    let beyond = Difference {
+/// By how much one effect is larger than so many times another one.
+fn excess(more: Difference, less: Difference, times: f64) -> Difference {
+    Difference {
         value: more.value.abs() - times * less.value.abs(),
         standard_error: more.standard_error.hypot(times * less.standard_error),
         degrees: f64::INFINITY,
-    };
-    let words = reported.map(|(factor, effect)| {
-        format!("{} over {}", in_words(quantity, effect), study.factors[factor].key.name)
-    });
-    (words.join(", "), Verdict::of_difference(beyond))
+    }
 }
 
 /// A difference in the unit of a quantity, and its standard error if it is known and there is one.

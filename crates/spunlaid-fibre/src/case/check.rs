@@ -7,7 +7,7 @@ use super::step::{FEEDING, StepLimit};
 use crate::body::Root;
 use crate::chain::Scheme;
 use crate::line::Contact;
-use spunlaid_air::{FileContent, Flow, Lateral, Measured};
+use spunlaid_air::{FileContent, Flow, Lateral, Measured, PlacedField};
 use spunlaid_ground::{Diagnostic, Dimension, Fault, error};
 
 impl Case {
@@ -65,6 +65,16 @@ impl Check<'_> {
 
     /// Checks each value on its own.
     fn values(&mut self) {
+        // Nothing follows from such air but numbers that are not finite.
+        if let Flow::Field(placed) = &self.case.air.flow
+            && self.case.air.velocity == 0.0
+        {
+            let fault = Fault::new(
+                "is a place from which the air of the field does not move all along the fibre, as in a wall",
+                "write the place of the spinneret, and the direction of the fibre in air.field_axis",
+            );
+            return self.blame_key("air.field_root", PlacedField::in_words(placed.root), fault);
+        }
         let (run, elements) = (self.case.run, self.case.fibre.elements as u64);
         for key in keys::all() {
             if let Some(value) = key.get(self.case)

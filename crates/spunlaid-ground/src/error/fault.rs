@@ -62,7 +62,6 @@ impl Fault {
     }
 
     /// A whole number that is not within its bounds.
-    /// A whole number that is not within its bounds.
     pub fn out_of_range(least: u64, most: u64) -> Self {
         let allowed =
             if least == most { least.to_string() } else { format!("a whole number from {least} to {most}") };

@@ -23,7 +23,10 @@ const LARGEST_TABLE: u64 = 1 << 24;
 type Found = Result<(Content, Vec<Diagnostic>), FileError>;
 
 /// What the case says of the files of its records and of its field.
-pub(super) type Layouts = (RecordLayout, FieldLayout);
+pub(super) struct Layouts {
+    pub(super) record: RecordLayout,
+    pub(super) field: FieldLayout,
+}
 
 /// A file by its path, what it is read as, and a text that distinguishes different ways to read it.
 type FileKey = (PathBuf, DataFile, String);
@@ -36,8 +39,8 @@ impl DataFiles {
     /// The content of a file that is kept from an earlier reading, or is read now.
     pub(super) fn read(&self, kind: DataFile, path: &Path, layouts: &Layouts) -> Found {
         let way = match kind {
-            DataFile::Records => way_of(&layouts.0),
-            DataFile::Field => way_of(&layouts.1),
+            DataFile::Records => way_of(&layouts.record),
+            DataFile::Field => way_of(&layouts.field),
             _ => String::new(),
         };
         let key = (path.to_owned(), kind, way);
@@ -51,7 +54,7 @@ impl DataFiles {
     }
 }
 
-fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Found {
+fn read(kind: DataFile, path: &Path, layouts: &Layouts, way: &str) -> Found {
     let content = match kind {
         DataFile::Profile => Content::Profile(table(path, FileKind::Table, profile::profile)?),
         DataFile::Spectrum => Content::Spectrum(table(path, FileKind::Table, profile::spectrum)?),
@@ -65,7 +68,7 @@ fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Fo
             return Ok((Content::DragLaw(law), vec![remark]));
         }
         DataFile::Field => {
-            let ReadField { field, warnings, checksum, parts } = ReadField::read(path, field)?;
+            let ReadField { field, warnings, checksum, parts } = ReadField::read(path, &layouts.field)?;
             let content = Content::Field(from_file(path, checksum, field).with_parts(parts).read_as(way));
             return Ok((
                 content,
@@ -74,6 +77,7 @@ fn read(kind: DataFile, path: &Path, (record, field): &Layouts, way: &str) -> Fo
         }
         // All that `spunlaid analyse` says is said of a record.
         DataFile::Records => {
+            let record = &layouts.record;
             let columns = record.columns.iter().flat_map(|columns| columns.split(','));
             let settings = Layout {
                 rate: record.rate,

@@ -85,7 +85,8 @@ def fit(
         text, sentences = _spunlaid.find_fit(
             os.fspath(web),
             os.fspath(to),
-            (list(ranges), ends[0], ends[1]),
+            list(ranges),
+            *ends,
             changes_of(set),
             spectrum,
             webs,

@@ -238,7 +238,9 @@ def analyse(
 def find_fit(
     path: str,
     to: str,
-    vary: tuple[list[str], Mapping[str, Any], Mapping[str, Any]],
+    names: list[str],
+    low: Mapping[str, Any],
+    high: Mapping[str, Any],
     changes: Mapping[str, Any],
     spectrum: bool,
     webs: int,

@@ -102,24 +102,26 @@ fn watch<T>(
 
 /// Times as shares of the whole web's, means with their errors, and how far off the airs are from the mean of all.
 fn show(name: &str, all: &[Flown], whole: f64) {
-    let mean = |number: &dyn Fn(&Flown) -> f64| all.iter().map(number).sum::<f64>() / all.len() as f64;
-    print!("{name}: first point {:.1} %", 100.0 * mean(&|simulated| simulated.first) / whole);
-    let best = mean(&|simulated| simulated.found.last().map_or(f64::NAN, |found| found.value));
+    let mean_of = |numbers: Vec<f64>| numbers.iter().sum::<f64>() / numbers.len() as f64;
+    let first = mean_of(all.iter().map(|simulated| simulated.first).collect());
+    print!("{name}: first point {:.1} %", 100.0 * first / whole);
+    let last = |simulated: &Flown| simulated.found.get(LOOKS.len() - 1).map(|found| found.value);
+    let best = mean_of(all.iter().filter_map(last).collect());
     for (look, area) in LOOKS.iter().enumerate() {
-        let found = |simulated: &Flown| simulated.found.get(look).copied();
-        let time = mean(&|simulated| simulated.times.get(look).copied().unwrap_or(f64::NAN));
-        let value = mean(&|simulated| found(simulated).map_or(f64::NAN, |found| found.value));
-        let error =
-            mean(&|simulated| found(simulated).map_or(f64::NAN, |found| found.standard_error.powi(2))).sqrt();
-        let z = mean(&|simulated| {
-            found(simulated).map_or(f64::NAN, |found| ((found.value - best) / found.standard_error).powi(2))
-        });
+        let found: Vec<Difference> =
+            all.iter().filter_map(|simulated| simulated.found.get(look).copied()).collect();
+        let time = mean_of(all.iter().filter_map(|simulated| simulated.times.get(look).copied()).collect());
+        let value = mean_of(found.iter().map(|found| found.value).collect());
+        let error = mean_of(found.iter().map(|found| found.standard_error.powi(2)).collect());
+        let off = |found: &Difference| ((found.value - best) / found.standard_error).powi(2);
+        let z = mean_of(found.iter().map(off).collect());
         print!(
-            " | {area} m²: {:.1} %, {:+.2} ± {:.2} %, z {:.2}",
+            " | {area} m²: {:.1} %, {:+.2} ± {:.2} %, z {:.2} ({} airs)",
             100.0 * time / whole,
             100.0 * value,
-            100.0 * error,
-            z.sqrt()
+            100.0 * error.sqrt(),
+            z.sqrt(),
+            found.len()
         );
     }
     println!();

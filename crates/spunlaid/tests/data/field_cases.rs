@@ -58,6 +58,29 @@ fn a_field_that_fits_the_fibre_is_no_slip() {
     assert!(SLIPS.iter().all(|slip| with(&notes, &[slip]).is_empty()), "{notes:?}");
 }
 
+/// Air that turns about the line on which the fibre hangs: it moves everywhere but there.
+#[test]
+fn rejects_a_root_from_which_the_air_does_not_move_all_along_the_fibre() {
+    let folder = folder();
+    let mut text = "x,y,z,u_m_s,v_m_s,w_m_s,k,epsilon\n".to_owned();
+    for i in 0..3 * 3 * 7 {
+        let [x, y, z] = [0.2 * f64::from(i % 7), 0.1 * f64::from(i / 7 % 3), 0.1 * f64::from(i / 21)];
+        text += &format!("{x},{y},{z},0,{},{},1.5,70\n", 100.0 * (0.1 - z), 100.0 * (y - 0.1));
+    }
+    fs::write(folder.path().join("turning.csv"), text).unwrap();
+    let error = read(&folder, "turning.csv", &[]).unwrap_err();
+    assert!(
+        error.contains("air.field_root = [0 m, 100 mm, 100 mm]")
+            && error.contains("does not move all along the fibre")
+            && error.contains("air.field_axis")
+            && !error.contains("NaN"),
+        "{error}"
+    );
+    let aside = ("air.field_root", "['0 m', '50 mm', '100 mm']");
+    let (_, notes) = read(&folder, "turning.csv", &[aside]).unwrap();
+    assert_eq!(with(&notes, &["it blows across"]).len(), 1, "{notes:?}");
+}
+
 #[test]
 fn warns_of_air_that_blows_up_the_fibre_or_across() {
     let folder = folder();

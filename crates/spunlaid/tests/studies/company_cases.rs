@@ -188,8 +188,8 @@ cutoff_frequency = '400 Hz'
 [drag]
 across = 'marheineke-wegener'
 [run]
-duration = '8 ms'
-spin_up = '3 ms'
+duration = '4 ms'
+spin_up = '2 ms'
 output_interval = '0.2 ms'
 time_step = '20 µs'
 ";
@@ -217,8 +217,8 @@ profile = '../../cases/tables/diffuser.csv'
 eddies = 'convected'
 decay_time = '20 ms'
 [run]
-duration = '8 ms'
-spin_up = '3 ms'
+duration = '4 ms'
+spin_up = '2 ms'
 output_interval = '0.2 ms'
 time_step = '20 µs'
 ";
@@ -228,8 +228,8 @@ DROP
 [air]
 field = 'FIELD'
 [run]
-duration = '8 ms'
-spin_up = '3 ms'
+duration = '4 ms'
+spin_up = '2 ms'
 output_interval = '0.4 ms'
 time_step = '40 µs'
 ";
@@ -248,7 +248,7 @@ length_scale = '16 mm'
 cutoff_frequency = '400 Hz'
 [run]
 duration = '6 ms'
-spin_up = '3 ms'
+spin_up = '2 ms'
 output_interval = '0.5 ms'
 time_step = '20 µs'
 ";
