@@ -351,23 +351,33 @@ fn analytic_a_web_within_its_edges() {
     assert!(said.contains("take 46 mm and 45 mm of its width of 100 mm") && said.contains("6 mm"), "{said}");
 }
 
+/// The findings of a web of noise with these samples of its layers.
+fn noise_with(few: Vec<Option<SubsampleEstimate>>) -> Findings {
+    let mut web = web();
+    web.sheet.patches = vec![PATCH];
+    // Wide paths of few pieces take little time.
+    let surrogate = Surrogate { sigma_md: 40e-3, sigma_cd: 8e-3, noise: 5.0 };
+    web.layers.iter_mut().for_each(|layer| layer.fibres = Fibres::Surrogate(surrogate));
+    let mut random = SplitMix64::seed_from_u64(3);
+    let cells = (0..20_000).map(|_| 1000 + (random.next_u64() >> 54) as u32).collect();
+    let all = laid(few.into_iter().map(simulated).collect());
+    find_of(&web, Some(LaidWeb { map: Map { cells, ..all.map }, ..all }))
+}
+
+/// Samples of both layers whose halves agree.
+fn two(sheet: [f64; 2]) -> Vec<Option<SubsampleEstimate>> {
+    let sample = |k: f64| SubsampleCv { of_halves: 0.0, ..sample(k) };
+    vec![Some(estimate(sample(1.0), sheet)), Some(estimate(sample(2.0), sheet))]
+}
+
 /// A sample on the whole sheet gives the CV of its map, and one on pieces its own; where it gives none, that of the
 /// map is there without an error.
 #[test]
 fn the_cv_of_a_sample_is_that_of_its_evidence() {
-    let mut web = web();
-    web.sheet.patches = vec![PATCH];
-    let mut random = SplitMix64::seed_from_u64(3);
-    let cells = (0..20_000).map(|_| 1000 + (random.next_u64() >> 54) as u32).collect();
-    let of = |few: Vec<Option<SubsampleEstimate>>| {
-        let all = laid(few.into_iter().map(simulated).collect());
-        find_of(&web, Some(LaidWeb { map: Map { cells: Vec::clone(&cells), ..all.map }, ..all }))
-    };
-    let sample = |k: f64| SubsampleCv { of_halves: 0.0, ..sample(k) };
-    let two = |sheet: [f64; 2]| vec![Some(estimate(sample(1.0), sheet)), Some(estimate(sample(2.0), sheet))];
-    let all = of(vec![None, None]).patches[0];
+    let all = noise_with(vec![None, None]).patches[0];
     assert_eq!((all.evidence, all.few, all.of_map), (Evidence::AllInOneAir, None, all.map.cv));
-    let pieces = of(two([0.1, 0.1])).patches[0];
+    let of_pieces = noise_with(two([0.1, 0.1]));
+    let pieces = of_pieces.patches[0];
     assert_eq!(pieces.evidence, Evidence::FewInOneAir);
     let few = pieces.few.unwrap_or(SubsampleCv::UNKNOWN);
     assert_eq!((pieces.map.cv, pieces.map.standard_error), (few.cv, few.by_chance));
@@ -375,22 +385,26 @@ fn the_cv_of_a_sample_is_that_of_its_evidence() {
     assert_eq!(pieces.of_map, all.map.cv);
     let mut doubted = two([0.1, 0.1]);
     doubted[0].iter_mut().for_each(|few| few.correlation = Some(0.1));
-    let found = of(doubted);
+    let found = noise_with(doubted);
     let has_error = |found: &Findings| {
         found.clouds.as_ref().and_then(|clouds| clouds.variance(4e-3, 6e-3).standard_error).is_some()
     };
     // How far off the clouds of too small a sample are is not known.
-    assert!(!has_error(&found) && has_error(&of(two([0.1, 0.1]))));
+    assert!(!has_error(&found) && has_error(&of_pieces));
     let doubted = found.patches[0];
     assert_eq!(doubted.warning, Some(SubsampleWarning::Neighbours(0.1)));
     assert_eq!((doubted.map.cv, doubted.map.standard_error), (all.map.cv, None));
-    // The worst layer by its octaves is in the errors of the clouds.
+}
+
+/// The worst layer by its octaves is in the errors of the clouds.
+#[test]
+fn analytic_what_the_worst_filling_does_to_the_clouds() {
     let error = |octaves: [f64; 2]| {
         let mut few = two([0.1, 0.2]);
         for (few, off) in few.iter_mut().flatten().zip(octaves) {
             few.octaves = vec![([2e-3, 4e-3], 0.1 * off), ([4e-3, 25e-3], off)];
         }
-        let clouds = of(few).clouds;
+        let clouds = noise_with(few).clouds;
         clouds.map(|clouds| clouds.variance(4e-3, 6e-3))
     };
     let [none, one, other] = [[0.0, 0.0], [0.5, 0.2], [0.2, 0.5]].map(error).map(Option::unwrap_or_default);
