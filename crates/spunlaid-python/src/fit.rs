@@ -20,7 +20,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// * `names` – of the keys that are varied; `low`, `high` – ends of the ranges of those that have one
 /// * `out` – the folder of the results, with figures as asked; without one, nothing is kept when it is interrupted
 #[pyfunction]
-#[pyo3(signature = (path, to, names, low, high, changes, spectrum, webs, out, figures, threads = None, progress = None))]
+#[pyo3(signature = (
+    path, to, names, low, high, changes, spectrum, webs, out, figures, threads = None, progress = None
+))]
 #[expect(clippy::too_many_arguments, reason = "the function of Python has them by name")]
 pub(crate) fn find_fit(
     py: Python<'_>,

@@ -164,7 +164,8 @@ impl AnalysisWithout<'_> {
             return None;
         }
         Some(Fault::plain(format!(
-            "without {} the analysis gives a turbulence intensity of {} %, an integral time of {} and a length scale of {}",
+            "without {} the analysis gives a turbulence intensity of {} %, an integral time of {} and a length scale \
+             of {}",
             if samples == 1 { "this sample".to_owned() } else { format!("these {samples} samples") },
             number(100.0 * rest.turbulence_intensity.value),
             time(rest.integral_time.value),

@@ -324,7 +324,34 @@ mod tests {
             assert!((of(&closed, place, [round - 7e-3, round]) - half).abs() < 1e-12);
         }
         // Bands near either edge are not taken for sampling error, of 19 the first two and the last two.
-        let near = |map: &Map| beside(&Bands::new(map), 0.0, 14, &[source(0.0, 1.0, 1.0)]).len();
-        assert_eq!([near(&open), near(&closed)], [17, 15]);
+        for place in [0.0, round] {
+            let near = |map: &Map| beside(&Bands::new(map), 0.0, 14, &[source(place, 1.0, 1.0)]).len();
+            assert_eq!([near(&open), near(&closed)], [17, 15]);
+        }
+    }
+
+    /// Bands that are a tenth heavier or lighter along the whole web, two of each by turns: a dip must exceed 1.96
+    /// of their deviations too, and a smaller one never shows.
+    #[test]
+    fn analytic_the_length_at_which_a_streak_shows_beside_others_that_stay() {
+        const OFF: f64 = 0.1;
+        let even = map();
+        let is_heavy = |i: usize| (i % COLUMNS / 14 / 2).is_multiple_of(2);
+        let cell = |(i, cell): (usize, &u32)| if is_heavy(i) { cell + 100_000 } else { cell - 100_000 };
+        let map = Map { cells: even.cells.iter().enumerate().map(cell).collect(), ..even };
+        let of_block = 16.0 * 8.0 * STEP * STEP / (15.0 * 7.0);
+        let fixed = 16.0 * OFF * OFF / 15.0 - of_block / 8.0;
+        let squared = NORMAL_95 * NORMAL_95 * (1.0 + 1.0 / 16.0);
+        for (mass, shows) in [(6e-5, true), (2e-5, false)] {
+            let found = streaks(&map, 0.0, &[source(9.5 * 14.0 * CELL, mass, 9.0)]).remove(0);
+            let Some(Known::Value(_, Some(error))) = found.found else { panic!("{found:?}") };
+            let wanted = ((of_block / 8.0 + fixed) * (1.0 + 1.0 / 16.0)).sqrt();
+            assert!((error / wanted - 1.0).abs() < 1e-6, "{error} {wanted}");
+            assert_eq!(found.length.is_some(), shows, "{found:?}");
+            let left = found.dip * found.dip - squared * fixed;
+            let wanted = squared * of_block * 10.0 * CELL / left;
+            let length = found.length.map_or(wanted, Known::value);
+            assert!((length / wanted - 1.0).abs() < 1e-6 && (left > 0.0) == shows, "{length} {wanted}");
+        }
     }
 }

@@ -268,4 +268,161 @@ mod tests {
         let ratio = scatter * count.sqrt() / reported;
         assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
+
+    /// Paths of 8 mm across in a row, in two rows at the same positions, or at random.
+    fn layer(filaments: Filaments) -> Layer {
+        Layer {
+            linear_density: 2e-7,
+            feed_speed: 50.0,
+            belt_speed: 4.0,
+            filaments,
+            defects: Vec::new(),
+            fibres: Fibres::Surrogate(Surrogate { sigma_md: 9e-3, sigma_cd: 5e-3, noise: 15.0 }),
+        }
+    }
+
+    fn web(edges: Edges, layers: Vec<Layer>) -> Web {
+        let sheet = Sheet { edges, patches: vec![2e-3, 10e-3, 40e-3], ..Sheet::new(0.1, 0.2, 1e-3) };
+        Web { sheet, layers, seed: 3 }
+    }
+
+    fn expected_of(web: &Web) -> Vec<ExpectedCv> {
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        expected_cv(web, RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done }).unwrap()
+    }
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() <= 1e-11 * expected.abs().max(1e-9), "{found} {expected}");
+    }
+
+    /// Two layers of the same filaments have the CV of one, and half of its variance of error, since their fibres
+    /// are others.
+    fn are_as_one(edges: Edges) {
+        let row = Row::new(0.0, 0.5e-3, 200);
+        let of = |count: usize| Filaments::Rows(vec![row; count]);
+        let columns = |edges: Edges| inner_columns(&web(edges, vec![layer(of(1))]));
+        assert_eq!((columns(Edges::Periodic), columns(Edges::Cut)), (0..100, 15..84));
+        let one = expected_of(&web(edges, vec![layer(of(2))]));
+        let two = expected_of(&web(edges, vec![layer(of(1)); 2]));
+        // Two patches of 40 mm do not fit between the edges.
+        let sides = if edges == Edges::Periodic { &[2e-3, 10e-3, 40e-3][..] } else { &[2e-3, 10e-3] };
+        assert_eq!(one.iter().map(|one| one.patch).collect::<Vec<_>>(), sides);
+        for (one, two) in one.iter().zip(&two) {
+            let error = Estimate::new(one.parts.clone()).standard_error.unwrap();
+            assert_eq!((one.parts.len(), one.degrees), (16, 15.0));
+            close(one.standard_error.unwrap(), error / (2.0 * one.cv));
+            close(two.cv, one.cv);
+            close(two.standard_error.unwrap(), one.standard_error.unwrap() / 2f64.sqrt());
+            two.parts.iter().zip(&one.parts).for_each(|(two, one)| close(*two, *one));
+        }
+        let of_straight = |web: &Web| {
+            let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+            let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+            let sample = OneFibre { cell: 1e-3, fibres: 2, seed: 1 };
+            let layers = paths(web).unwrap();
+            expected(web, layers, &[10], sample, across(web).columns, by).unwrap()[0].straight_fibres
+        };
+        let straight = of_straight(&web(edges, vec![layer(of(2))]));
+        close(of_straight(&web(edges, vec![layer(of(1)); 2])), straight);
+        // 4000 filaments per metre lay 12.5 m on a metre of belt; 0.9464 over patches of 10 mm.
+        let by_hand = (0.946_41 / (4000.0 * 12.5 * 10e-3_f64)).sqrt();
+        assert!((straight / by_hand - 1.0).abs() < if edges == Edges::Periodic { 1e-5 } else { 0.01 });
+    }
+
+    #[test]
+    fn invariant_a_layer_as_two_equal_ones() {
+        are_as_one(Edges::Periodic);
+    }
+
+    #[test]
+    fn invariant_a_layer_as_two_equal_ones_between_edges() {
+        are_as_one(Edges::Cut);
+    }
+
+    /// At random positions each layer has what its single fibres have.
+    #[test]
+    fn analytic_layers_of_filaments_at_random_positions() {
+        let layer = layer(Filaments::AtRandom { per_metre: 2000.0 });
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        let alone =
+            one_fibre(&layer, &[2, 10, 40], OneFibre { cell: 1e-3, fibres: ALONE, seed: 3 }, by).unwrap();
+        let found = &expected_of(&web(Edges::Periodic, vec![layer.clone(), layer]))[0];
+        close(found.cv, (alone[0].at_random.mean / (4000.0 * 12.5)).sqrt());
+    }
+
+    /// A second row ends in the middle of the first one: behind its end, which is as wide as the filaments lie, the web
+    /// has half of its weight.
+    #[test]
+    fn analytic_a_web_in_which_a_row_ends() {
+        let rows = Filaments::Rows(vec![Row::new(0.0, 0.1e-3, 1000), Row::new(0.0, 0.1e-3, 500)]);
+        let web = web(Edges::Cut, vec![layer(rows)]);
+        let found = expected_of(&web);
+        for (side, found) in [2, 10].into_iter().zip(&found) {
+            // The weight in steps of 0.1 mm, over patches that begin in the columns 15 to 84 − side.
+            let weight = |step: usize| {
+                let off = (50.0 - (step as f64 + 0.5) / 10.0) / 5.0;
+                1.0 + 0.5 * libm::erfc(-off / 2f64.sqrt())
+            };
+            let patch = |first: usize| (10 * first..10 * (first + side)).map(weight).sum::<f64>();
+            let patches: Vec<f64> = (15..=84 - side).map(patch).collect();
+            let (count, sum) = (patches.len() as f64, patches.iter().sum::<f64>());
+            let square = patches.iter().map(|of| (of * count / sum - 1.0).powi(2)).sum::<f64>() / count;
+            // Single filaments make less than a twentieth of it.
+            let off = found.cv / square.sqrt() - 1.0;
+            let error = found.standard_error.unwrap() / found.cv;
+            assert!(
+                (-4.0 * error..0.03 + 4.0 * error).contains(&off) && error < 0.02,
+                "{side}: {off} {error}"
+            );
+        }
+    }
+
+    /// The web begins and ends 3 σ beyond its outermost filaments, and is thin as far inwards.
+    #[test]
+    fn analytic_where_a_web_lies_on_its_sheet() {
+        let row = layer(Filaments::Rows(vec![Row::new(30.4e-3, 1e-3, 40)]));
+        let wide = Fibres::Surrogate(Surrogate { sigma_md: 9e-3, sigma_cd: 10.1e-3, noise: 15.0 });
+        let slot = Filaments::Slot { per_metre: 1000.0, depth: 5e-3 };
+        let wide = Layer { fibres: wide, ..layer(slot) };
+        let at_random = layer(Filaments::AtRandom { per_metre: 10.0 });
+        let far = layer(Filaments::Rows(vec![Row::new(80e-3, 1e-3, 1)]));
+        for (layers, columns, reach) in [
+            (vec![row.clone()], 46..54, [15.4, 84.4]),
+            (vec![row.clone(), wide], 46..54, [0.0, 100.0]),
+            (vec![at_random], 15..85, [0.0, 100.0]),
+            (vec![row, far], 95..95, [15.4, 95.0]),
+        ] {
+            let found = across(&web(Edges::Cut, layers));
+            assert_eq!(found.columns, columns);
+            found.reach.iter().zip(reach).for_each(|(found, reach)| close(*found, 1e-3 * reach));
+        }
+    }
+
+    /// Fibres of two webs are compared one by one where there are as many of them.
+    #[test]
+    fn analytic_the_change_from_one_expected_cv_to_another() {
+        let cv = |cv: f64, error: f64, parts: &[f64]| ExpectedCv {
+            patch: 10e-3,
+            cv,
+            standard_error: Some(error),
+            degrees: parts.len() as f64 - 1.0,
+            parts: parts.to_vec(),
+        };
+        let own = cv(0.2, 0.01, &[0.02, 0.04, 0.06]);
+        let other = cv(0.3, 0.02, &[0.08, 0.1, 0.12]);
+        let far = ExpectedCv { patch: 20e-3, ..other.clone() };
+        let effect = own.effect_to(&[far.clone(), other]).unwrap();
+        close(effect.difference.value, 0.5);
+        // Halves of 0.08/0.09 − 0.02/0.04 and so on: 0.194 ∓ 0.139.
+        close(effect.difference.standard_error, 1.5 * (0.5 * (0.02 / 0.04 - 0.02 / 0.09)) / 3f64.sqrt());
+        assert_eq!((effect.difference.degrees, own.effect_to(&[far]).is_none()), (2.0, true));
+        for parts in [&[0.1, 0.1][..], &[]] {
+            let effect = own.effect_to(&[cv(0.3, 0.02, parts)]).unwrap();
+            close(effect.difference.standard_error, 1.5 * (0.05_f64).hypot(0.02 / 0.3));
+            assert_eq!(effect.difference.degrees, 1.0);
+        }
+        let alone = ExpectedCv::alone(10e-3, 0.3, None);
+        assert!(alone.effect_to(std::slice::from_ref(&alone)).unwrap().difference.standard_error.is_nan());
+    }
 }

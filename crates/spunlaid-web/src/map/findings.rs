@@ -454,3 +454,7 @@ fn few_filaments(web: &Web, findings: &Findings) -> Vec<WebWarning> {
     warnings.extend(of_sides(of_map, |sides| WebWarning::SmallSheet { sides }));
     warnings
 }
+
+#[cfg(test)]
+#[allow(clippy::panic)]
+mod tests;

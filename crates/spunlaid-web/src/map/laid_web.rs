@@ -247,3 +247,70 @@ fn no_curves() -> Fault {
         "simulate the case for longer (run.duration)",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+
+    /// Student's t of four degrees of freedom is 2.776.
+    #[test]
+    fn published_the_interval_of_a_correlation() {
+        let correlation = Correlation { value: 0.3, standard_error: Some(0.1), degrees: 4.0 };
+        let [low, high] = correlation.interval().unwrap();
+        assert!((low - 0.0224).abs() < 1e-4 && (high - 0.5776).abs() < 1e-4, "{low} {high}");
+        assert_eq!(Correlation { standard_error: None, degrees: f64::NAN, ..correlation }.interval(), None);
+    }
+
+    /// A curve that lies straight, as seen from its trace, and one that goes from side to side.
+    #[test]
+    fn analytic_curves_are_seen_from_their_straight_traces() {
+        let one_air = OneAir { groups: vec![0, 0], memory: 1.0 };
+        let curve = |side: f64, pieces: usize| -> Vec<[f64; 2]> {
+            let point = |i: usize| {
+                [7.0 - 0.5 * 2e-3 * i as f64, 3.0 + if i.is_multiple_of(2) { side } else { -side }]
+            };
+            (0..=pieces).map(point).collect()
+        };
+        let of = |curves: &[Vec<[f64; 2]>]| Curves::new(2e-3, 0.5, curves.to_vec(), one_air.clone());
+        let curves = of(&[curve(0.0, 17), curve(4e-3, 19)]).unwrap();
+        close(curves.length(), 17.0 * 2e-3);
+        close(curves.spacing(), 2e-3);
+        // Twenty of 38 points are 4 mm off.
+        close(curves.sigma_cd(), 4e-3 * (20.0 / 38.0_f64).sqrt());
+        for (number, side) in [0.0, 4e-3].into_iter().enumerate() {
+            for (i, [md, cd]) in curves.curves()[number].iter().enumerate() {
+                close(*md, 0.0);
+                close(*cd, if i % 2 == 0 { side } else { -side });
+            }
+        }
+        assert!(of(&[]).is_err() && of(&[curve(0.0, 16)]).is_ok() && of(&[curve(0.0, 15)]).is_err());
+        assert!(of(&[vec![[f64::NAN, 0.0]; 20]]).is_err());
+        for (spacing, ratio) in [(0.0, 0.5), (f64::INFINITY, 0.5), (2e-3, 0.0), (2e-3, f64::INFINITY)] {
+            assert!(Curves::new(spacing, ratio, vec![curve(0.0, 17)], one_air.clone()).is_err());
+        }
+    }
+
+    #[test]
+    fn layers_are_found_by_their_numbers() {
+        let strand = WindowCurve { layer: 7, filament: 3, points: Vec::new() };
+        let charged = ChargedCurtain { edge_field: 2.0, heights: Vec::new() };
+        let layers = [
+            LayerFlown { strands: vec![strand.clone()], ..LayerFlown::default() },
+            LayerFlown { strands: vec![strand; 2], charged: Some(charged.clone()), ..LayerFlown::default() },
+        ];
+        let map = Map { columns: 1, rows: 1, cell: 1.0, quantum: 1.0, closed: [false; 2], cells: vec![1] };
+        let laid = LaidWeb { map, cut: 0.0, simulated: layers.to_vec() };
+        let found: Vec<_> = laid.strands().iter().map(|strand| (strand.layer, strand.filament)).collect();
+        assert_eq!(found, [(0, 3), (1, 3), (1, 3)]);
+        assert_eq!(laid.charged().collect::<Vec<_>>(), [(1, &charged)]);
+        let mut few = laid.clone();
+        few.simulated[1].few = Some(SubsampleEstimate::default());
+        let known = LaidWeb { simulated: Vec::new(), ..laid.clone() };
+        let evidence = [known, laid, few].map(|laid| laid.evidence());
+        assert_eq!(evidence, [Evidence::Known, Evidence::AllInOneAir, Evidence::FewInOneAir]);
+    }
+}

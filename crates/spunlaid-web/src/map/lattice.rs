@@ -245,6 +245,35 @@ mod tests {
             };
             assert!((mean - 5.0).abs() < 1e-12 && (error / wanted - 1.0).abs() < 1e-9, "{mean} {error}");
         }
+        // Streaks are stronger where the ratio to the sixteen others is above 1 + √(2/4 + 2/16) = 1.79.
+        for (ratio, wanted) in [
+            (1.75_f64, (27.0_f64 / 24.0).sqrt() * enlarged(24.0)),
+            (1.83, 1.83_f64.sqrt() * enlarged(1.83 * 1.83 / (0.83 * 0.83 / 4.0 + 1.0 / 20.0))),
+        ] {
+            let numbers = numbers(SIDES, |k, l| if l == 0 { ratio.sqrt() * even(k, l) } else { even(k, l) });
+            let found = lattice(SIDES, [false; 2], true).error_of_mean(&numbers, &[]).unwrap();
+            assert!((found / (c * wanted) - 1.0).abs() < 1e-9, "{ratio}: {found}");
+        }
+        // The CV of these numbers about 5 changes by the deviation of each and by its square.
+        let shifted = numbers(SIDES, |k, l| {
+            if (k, l) == (0, 0) {
+                5.0
+            } else if k + l > 4 {
+                0.0
+            } else {
+                0.1 * c
+            }
+        });
+        let square = shifted.iter().map(|number| (number - 5.0).powi(2)).sum::<f64>() / 55.0;
+        let change = |number: &f64| {
+            let off = number - 5.0;
+            0.5 * (off * off - square) / (5.0 * square.sqrt()) - square.sqrt() / 25.0 * off
+        };
+        let of = lattice(SIDES, [false; 2], false);
+        let wanted = of.error_of_mean(&shifted.iter().map(change).collect::<Vec<_>>(), &[]).unwrap();
+        let Known::Value(cv, Some(error)) = of.cv(&shifted, &[]) else { panic!("no error") };
+        assert!((cv / (square.sqrt() / 5.0) - 1.0).abs() < 1e-12 && (error / wanted - 1.0).abs() < 1e-9);
+        assert!(wanted > cv / 110f64.sqrt());
         // On a closed sheet what follows the weight has no wave of infinite length.
         let influence = numbers(SIDES, even);
         let weights = numbers(SIDES, |k, l| 2.0 * even(k, l));

@@ -154,3 +154,88 @@ const fn share(
 fn of_known(patch: &PatchFindings) -> Option<(f64, Option<f64>)> {
     patch.single_fibres.filter(|_| patch.evidence == Evidence::Known)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::few_findings::SubsampleCv;
+    use super::super::uniformity::PatchCv;
+    use super::*;
+
+    /// The number of each measure of a patch, with those of its errors.
+    fn numbers(found: &PatchFindings) -> Vec<(&'static str, Option<f64>)> {
+        let of = |measure: &OfPatch| match measure.formula {
+            Known(number) => (measure.entry(), number(found)),
+            _ => (measure.entry(), None),
+        };
+        PATCH_MEASURES
+            .iter()
+            .flat_map(|measure| std::iter::once(of(measure)).chain(measure.errors.iter().map(of)))
+            .collect()
+    }
+
+    /// What is there of a patch is what is known of it; the sampling error 0.05 of 0.2 has eight degrees of freedom.
+    #[test]
+    fn analytic_the_measures_of_a_patch() {
+        let map = PatchCv { patch: 10e-3, cv: 0.2, standard_error: Some(0.05) };
+        let few = SubsampleCv { cv: 0.2, by_pitch: 0.12, own: 0.01, ..SubsampleCv::UNKNOWN };
+        let single_fibres = Some((0.15, Some(0.02)));
+        let of = |evidence: Evidence, few: Option<SubsampleCv>| {
+            numbers(&PatchFindings {
+                map,
+                single_fibres,
+                straight_fibres: 0.1,
+                evidence,
+                few,
+                warning: None,
+                of_map: 0.19,
+            })
+        };
+        let check = |found: Vec<(&'static str, Option<f64>)>, wanted: [Option<f64>; 9]| {
+            let columns = [
+                "cv",
+                "cv_standard_error",
+                "cv_degrees",
+                "cv_sample_error",
+                "cv_total_error",
+                "cv_of_map",
+                "own_share",
+                "cv_independent",
+                "cv_one_fibre",
+            ];
+            for (column, wanted) in columns.into_iter().zip(wanted) {
+                let (_, number) = found.iter().find(|(own, _)| *own == column).unwrap();
+                let is_same = match (number, wanted) {
+                    (Some(number), Some(wanted)) => (number - wanted).abs() < 1e-12,
+                    (number, wanted) => number.is_none() && wanted.is_none(),
+                };
+                assert!(is_same, "{column}: {number:?} {wanted:?}");
+            }
+        };
+        // Tables have what is expected of known filaments, or what independent ones would give.
+        let is_shown = |evidence: Evidence, column: &str| {
+            let patch = PatchFindings {
+                map,
+                single_fibres,
+                straight_fibres: 0.1,
+                evidence,
+                few: None,
+                warning: None,
+                of_map: 0.19,
+            };
+            PATCH_MEASURES.iter().any(|measure| measure.entry() == column && (measure.is_shown)(&patch))
+        };
+        for (evidence, is_known) in [(Evidence::Known, true), (Evidence::AllInOneAir, false)] {
+            assert_eq!(is_shown(evidence, "cv_one_fibre"), is_known);
+            assert_eq!(is_shown(evidence, "cv_independent"), !is_known);
+        }
+        let (cv, error, degrees) = (Some(0.2), Some(0.05), Some(8.0));
+        check(of(Evidence::Known, None), [cv, error, degrees, None, None, None, None, None, Some(0.15)]);
+        let known = of(Evidence::Known, None);
+        assert!(known.contains(&("cv_one_fibre_standard_error", Some(0.02))));
+        assert!(known.contains(&("cv_straight_fibres", Some(0.1))));
+        let all = [cv, error, degrees, Some(0.0), error, None, None, Some(0.15), None];
+        check(of(Evidence::AllInOneAir, None), all);
+        let sample = [cv, error, degrees, Some(0.12), Some(0.13), Some(0.19), Some(0.25), Some(0.15), None];
+        check(of(Evidence::FewInOneAir, Some(few)), sample);
+    }
+}

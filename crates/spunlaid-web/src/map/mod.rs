@@ -327,3 +327,6 @@ impl Sheet {
         [self.width, self.length].map(|size| (size / self.cell).round() as usize)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -309,6 +309,8 @@ impl Fibres {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use spunlaid_ground::Isa;
+    use std::sync::atomic::{AtomicBool, AtomicU64};
 
     /// Of two fibres each has the other for the mean; one alone has itself.
     #[test]
@@ -353,5 +355,76 @@ mod tests {
         // Each fibre is one metre off in the first column of its profile, which lies in column 4.
         let by: Vec<f64> = (0..10).map(f64::from).collect();
         assert_eq!(fibres.moves(&[5.5], 10, true, &by), [4.0 / 0.4, -4.0 / 0.4]);
+    }
+
+    /// Two fibres on a ring, with the sums over all patches of a map of the same fibres.
+    #[test]
+    fn analytic_the_sums_over_all_patches_of_single_fibres() {
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        let layer = Layer {
+            linear_density: 2e-7,
+            feed_speed: 50.0,
+            belt_speed: 4.0,
+            filaments: Filaments::AtRandom { per_metre: 1.0 },
+            defects: Vec::new(),
+            fibres: Fibres::Surrogate(Surrogate { sigma_md: 3e-3, sigma_cd: 2e-3, noise: 15.0 }),
+        };
+        let (cell, apart, trace, rows) = (2e-3, 16, 9, 60);
+        let mut found = vec![FibreSums::default(); 2];
+        add(&layer, &[1, 3], OneFibre { cell, fibres: 2, seed: 7 }, [apart, trace, rows], by, &mut found)
+            .unwrap();
+        // Their traces lie in the middle of columns 9 and 25 of 32.
+        let row = Row::new(19e-3, 32e-3, 2);
+        let web = Web {
+            sheet: Sheet::new(64e-3, 120e-3, cell),
+            layers: vec![Layer { filaments: Filaments::Rows(vec![row]), ..layer.clone() }],
+            seed: 7,
+        };
+        let map = lay(&web, by).unwrap().map;
+        for (side, sums) in [1, 3].into_iter().zip(&found) {
+            for (number, fibre) in sums.fibres.iter().enumerate() {
+                // Metres of fibre in a patch.
+                let patch = |column: usize, row: usize| {
+                    let cells =
+                        (0..side * side).map(|i| map.row((row + i / side) % rows)[(column + i % side) % 32]);
+                    cells.map(f64::from).sum::<f64>() * map.quantum / 2e-7
+                };
+                let columns: Vec<Vec<f64>> = (number * apart..(number + 1) * apart)
+                    .map(|column| (0..rows).map(|row| patch(column, row)).collect())
+                    .collect();
+                // 12.5 m of fibre on a metre of belt.
+                let whole = (side * side) as f64 * 12.5 * 120e-3;
+                let squares = columns.iter().flatten().map(|m| m * m).sum::<f64>() / whole;
+                assert!((fibre.squares / squares - 1.0).abs() < 1e-9, "{side}: {} {squares}", fibre.squares);
+                for (found, column) in fibre.profile.iter().zip(&columns) {
+                    let mean = column.iter().sum::<f64>() / rows as f64;
+                    assert!((found - mean).abs() < 1e-9, "{side}: {found} {mean}");
+                }
+                // A squared mean of a column counts as often as there are rows.
+                assert!((sums.rows[number] * whole / rows as f64 - 1.0).abs() < 1e-12);
+            }
+        }
+        // Eleven cells of 5.5 σ and four more either side; twenty fibres, of which eight are laid at a time.
+        let found = one_fibre(&layer, &[2, 6], OneFibre { cell: 1e-3, fibres: 20, seed: 7 }, by).unwrap();
+        for (side, found) in [2.0, 6.0].into_iter().zip(found) {
+            assert_eq!((found.trace, found.profile.len(), found.at_random.values.len()), (21, 36, 20));
+            let sum: f64 = found.profile.iter().sum();
+            let middle = found.profile.iter().enumerate().map(|(i, m)| i as f64 * m).sum::<f64>() / sum;
+            // Patches of a side begin on average half of it before the trace.
+            assert!((middle - (21.0 - 0.5 * (side - 1.0))).abs() < 0.3, "{middle}");
+            assert!((sum / (side * side * 12.5 * 1e-3) - 1.0).abs() < 1e-6 && found.profile[0] == 0.0);
+            // The part that no position explains is the variance about the mean of the column.
+            let of_place = found.profile.iter().map(|m| m * m).sum::<f64>()
+                / (side * side * 12.5 * 1e-3)
+                / (side * side * 1e-6);
+            let rest = found.at_random.mean - of_place;
+            let error = found.at_places.standard_error.unwrap();
+            assert!((found.at_places.mean - rest).abs() < error, "{} {rest} {error}", found.at_places.mean);
+            let mut values = found.at_random.values;
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            assert_eq!(values.len(), 20);
+        }
     }
 }

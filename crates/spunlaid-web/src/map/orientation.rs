@@ -226,8 +226,13 @@ pub fn orientation(web: &Web, by: RunContext<'_>) -> Result<Orientation, Error> 
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::map::{Filaments, FlownFibres, Layer, OneAir, Row, Sheet};
+    use crate::surrogate::Surrogate;
     use rand_xoshiro::SplitMix64;
     use rand_xoshiro::rand_core::{Rng, SeedableRng};
+    use spunlaid_ground::Isa;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, AtomicU64};
 
     /// Directions of filaments of which ten beside each other are in the same eddy: over many seeds the errors
     /// that are reported are as large as the scatter, and those of independent filaments a half of it or less.
@@ -309,8 +314,10 @@ mod tests {
             .zip(weights)
             .map(|(angles, weight)| {
                 let mut sample = Sample::new(2.0 * weight);
+                // A filament without pieces counts for nothing; it comes behind the others.
+                sample.filaments = vec![Vec::new(); 3];
                 for (number, angle) in angles.iter().enumerate() {
-                    sample.filaments.push(vec![DirectionSums::default()]);
+                    sample.filaments[number] = vec![DirectionSums::default()];
                     // A piece without length has no direction.
                     sample.add(number, 0, [0.0, 0.0]);
                     sample.add(number, 0, [3.0 * libm::cos(*angle), 3.0 * libm::sin(*angle)]);
@@ -348,6 +355,77 @@ mod tests {
         for (class, found) in found.directions.iter().enumerate() {
             let wanted = shares.iter().find(|(number, _)| *number == class).map_or(0.0, |(_, share)| *share);
             assert!((found - wanted).abs() < 1e-12, "{class}: {found}");
+        }
+    }
+
+    fn layer(filaments: Filaments, fibres: Fibres) -> Layer {
+        let (linear_density, defects) = (2e-7, Vec::new());
+        Layer { linear_density, feed_speed: 50.0, belt_speed: 25.0, filaments, defects, fibres }
+    }
+
+    fn orientation_of(layers: Vec<Layer>) -> Orientation {
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        orientation(&Web { sheet: Sheet::new(0.1, 2.0, 1e-3), layers, seed: 2 }, by).unwrap()
+    }
+
+    /// Curves of 16 pieces of 2 mm that lie half of their way along and half of it across the web, others by quarters.
+    #[test]
+    fn analytic_directions_of_curves_that_were_simulated() {
+        let groups = vec![0, 1, 2, 3, 4, 5, 6, 7];
+        let along = |number: usize, i: usize| i < 8 || number.is_multiple_of(4) && i < 12;
+        let curve = |number: usize| {
+            let mut at = [0.0, 0.0];
+            let mut points = vec![at];
+            for i in 0..16 {
+                let axis = usize::from(!along(number, i));
+                at[axis] -= [1e-3, 0.5e-3][axis];
+                points.push(at);
+            }
+            points
+        };
+        // Eddies are forgotten after half of a curve.
+        let one_air = OneAir { groups: groups.clone(), memory: 15e-3 };
+        let curves = Curves::new(2e-3, 0.5, (0..8).map(curve).collect(), one_air).unwrap();
+        let estimate = |mean: f64| Estimate { mean, ..Estimate::default() };
+        let numbers = [estimate(9e-3), estimate(8e-3), estimate(15.0)];
+        let simulated = FlownFibres { curves, numbers, residual: None, way: Vec::new() };
+        let row = || Filaments::Rows(vec![Row::new(0.0, 1e-3, 100)]);
+        let found = orientation_of(vec![layer(row(), Fibres::Flown(Arc::new(simulated)))]);
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        let cos_squared = |number: usize| if number.is_multiple_of(4) { 0.75 } else { 0.5 };
+        assert_eq!(found.cos_squared.values, (0..8).map(cos_squared).collect::<Vec<f64>>());
+        close(found.cos_squared.mean, 0.5625);
+        // Against the sense of the machine direction, 180 degrees, and of the cross direction, 270 degrees.
+        close(found.directions[17] + found.directions[18], 0.5625);
+        close(found.directions[26] + found.directions[27], 0.4375);
+        let part = |number: usize, stretch: usize| {
+            let pieces = (8 * stretch..8 * stretch + 8).filter(|i| along(number, *i)).count();
+            Part { value: pieces as f64 / 16.0, length: 0.5 }
+        };
+        let parts: Vec<Vec<Part>> = (0..8).map(|number| vec![part(number, 0), part(number, 1)]).collect();
+        let error = SharedError::of(&parts, &groups).unwrap().standard_error;
+        close(found.cos_squared.standard_error.unwrap(), error);
+        assert_eq!(found.piece, 2e-3);
+    }
+
+    /// The belt runs off with half of the speed of the feed: of directions α at random, (cos α − ½, sin α) lies
+    /// against the machine direction in two of three.
+    #[test]
+    fn analytic_fibre_lies_against_a_belt_that_runs_off() {
+        let surrogate = Fibres::Surrogate(Surrogate { sigma_md: 9e-3, sigma_cd: 8e-3, noise: 15.0 });
+        for (count, looked_at) in [(100, 52), (64, 64), (3, 3)] {
+            let rows = Filaments::Rows(vec![Row::new(0.0, 0.5e-3, count)]);
+            let found = orientation_of(vec![layer(rows, surrogate.clone())]);
+            // Thirteen sets of eight, of which every second one is looked at; the last one has four.
+            let mut values = found.cos_squared.values.clone();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            assert_eq!(values.len(), looked_at);
+            let against: f64 = found.directions[9..27].iter().sum();
+            assert!((against - 2.0 / 3.0).abs() < 0.05 * (3.0 / count as f64).sqrt(), "{count}: {against}");
+            assert!((1e-4..2e-3).contains(&found.piece), "{}", found.piece);
         }
     }
 }

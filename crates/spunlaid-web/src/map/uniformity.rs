@@ -299,4 +299,24 @@ mod tests {
         // By ratio: 24 mm are nearer to 10 mm than 4 mm are.
         assert_eq!(nearest_to_seen([1e-3, 4e-3, 24e-3, 50e-3].into_iter()), Some(2));
     }
+
+    /// Sixteen equal waves on 96 × 112 cells, of whose positions 64 × 64 are looked at. With those of the other sense
+    /// they are thirty-two, so that the variance scatters by 2/31 of its square. The variance of the mean is added.
+    #[test]
+    fn analytic_the_error_of_the_cv_of_equal_waves() {
+        let wave = |i: usize, x: usize, y: usize| {
+            let turns = (1 + i % 4) as f64 * x as f64 / 96.0 + (1 + i / 4) as f64 * y as f64 / 112.0;
+            0.02 * (2.0 * PI * turns).cos()
+        };
+        let sum = |x: usize, y: usize| (0..16).map(|i| wave(i, x, y)).sum::<f64>();
+        let map = map([96, 112], [true; 2], |x, y| 1e6 * (1.0 + sum(x, y)));
+        let of = |places: &Places| unevenness_at(&map, 1, places).unwrap();
+        let found = of(&Places::Unknown);
+        assert!((found.cv / (16.0 * 0.5 * 0.02 * 0.02_f64).sqrt() - 1.0).abs() < 1e-5, "{found:?}");
+        // A position is a whole cell, up to half of one off where it should be.
+        let ratio = found.standard_error.unwrap() / (0.5 * found.cv / 31f64.sqrt());
+        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+        let streaks = of(&Places::AtRandom(Streaks { variance_of_mean: 0.001, powers: Vec::new() }));
+        assert!((streaks.cv.powi(2) - found.cv.powi(2) - 0.001).abs() < 1e-12, "{streaks:?}");
+    }
 }

@@ -318,6 +318,9 @@ mod tests {
             assert!(is_near(found.sum(), 1.5), "{places:?}: {}", found.sum());
             assert!(is_near(found.share([false; 2]), share), "{places:?}: {}", found.share([false; 2]));
             assert!(is_near(parts(&places, 0, 2.0).sum(), 3.0));
+            if !matches!(places, Places::AtRandom(_)) {
+                assert!(is_near(parts(&places, 0, 2.0).share([false; 2]), share), "{places:?}");
+            }
             // A window that spreads a streak to the next waves along the web takes these to it.
             assert!(is_near(parts(&places, 1, 1.0).sum(), 1.5));
         }

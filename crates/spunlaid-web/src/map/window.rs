@@ -140,3 +140,79 @@ impl WindowCurves {
         self.strands
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sheet of 100 mm by 200 mm in which a window of 20 mm by 30 mm begins 5 mm from both edges.
+    fn window(edges: Edges, is_ring: bool) -> WindowOnSheet {
+        let sheet = Sheet { edges, ..Sheet::new(0.1, 0.2, 1e-3) };
+        let window = Window { corner: [5e-3; 2], sides: [20e-3, 30e-3] };
+        if is_ring { WindowOnSheet::on_ring(window, &sheet) } else { WindowOnSheet::new(window, &sheet) }
+    }
+
+    #[test]
+    fn analytic_positions_as_a_window_sees_them() {
+        let wholes = [-3.0, -2.5, -1.0, -0.25, 0.0, 0.25, 1.0, 1.75];
+        assert_eq!(wholes.map(floor), [-3, -3, -1, -1, 0, 0, 1, 1]);
+        let close =
+            |found: [f64; 2], expected: [f64; 2]| assert!(is_same(found, expected), "{found:?} {expected:?}");
+        let (cut, ring) = (window(Edges::Cut, false), window(Edges::Periodic, true));
+        close(cut.seen([0.09, 0.19]), [0.085, 0.185]);
+        close(window(Edges::Periodic, false).seen([0.09, 0.19]), [-0.015, 0.185]);
+        close(ring.seen([0.09, 0.19]), [-0.015, -0.015]);
+        close(ring.seen([-0.09, 0.21]), [0.005, 0.005]);
+        // Half of the way around from the middle of the window.
+        close(ring.seen([0.0649, 0.1199]), [0.0599, 0.1149]);
+        close(ring.seen([0.0651, 0.1201]), [-0.0399, -0.0849]);
+        // Within 4 mm of it, and a cell before and behind.
+        for (position, is_near) in [
+            ([0.0011, 0.02], true),
+            ([0.0009, 0.02], false),
+            ([0.0289, 0.0389], true),
+            ([0.02, 0.0391], false),
+        ] {
+            assert_eq!(cut.nears(position, 4e-3), is_near, "{position:?}");
+        }
+        for ([from, to], is_beside) in
+            [([0.0, 0.0039], false), ([0.0, 0.0041], true), ([0.0359, 0.05], true), ([0.0361, 0.05], false)]
+        {
+            assert_eq!((cut.is_beside(from, to), ring.is_beside(from, to)), (is_beside, true), "{from} {to}");
+        }
+    }
+
+    /// A filament goes out over an edge of the sheet, comes in at the other one, and stops for a while.
+    #[test]
+    fn analytic_the_parts_of_a_filament_in_a_window() {
+        let on = WindowOnSheet::new(
+            Window { corner: [0.0, 0.0], sides: [0.1, 0.05] },
+            &Sheet::new(0.1, 0.2, 1e-3),
+        );
+        let mut curves = WindowCurves::default();
+        let at = |cd: f64| [1e-3 * cd, 10e-3];
+        for (from, to, titre) in [
+            (96.0, 98.0, 1.0),
+            (98.0, 102.0, 1.0),
+            (102.0, 104.0, 1.0),
+            (104.0, 106.0, 0.0),
+            (106.0, 108.0, 0.5),
+        ] {
+            curves.keep(4, [at(from), at(to)], titre, &on);
+        }
+        curves.keep(4, [[8e-3, 10e-3], [8e-3, 60e-3]], 1.0, &on);
+        curves.keep(4, [[8e-3, 60e-3], [8e-3, 62e-3]], 1.0, &on);
+        let parts = curves.into_parts();
+        let wanted: [&[[f64; 2]]; 3] = [
+            &[[96.0, 10.0], [98.0, 10.0], [102.0, 10.0]],
+            &[[-2.0, 10.0], [2.0, 10.0], [4.0, 10.0]],
+            &[[6.0, 10.0], [8.0, 10.0], [8.0, 60.0]],
+        ];
+        assert_eq!(parts.len(), 3, "{parts:?}");
+        for (part, wanted) in parts.iter().zip(wanted) {
+            assert_eq!((part.filament, part.points.len()), (4, wanted.len()), "{part:?}");
+            let is_near = |(found, wanted): (&[f64; 2], &[f64; 2])| is_same(*found, wanted.map(|x| 1e-3 * x));
+            assert!(part.points.iter().zip(wanted).all(is_near), "{part:?}");
+        }
+    }
+}

@@ -5,6 +5,7 @@ mod bits;
 mod budgets;
 mod errors;
 mod limits;
+mod map;
 mod printed;
 
 use super::draw::Drawn;
@@ -49,9 +50,10 @@ const fn row(
 pub const PYTHON: &str = "python";
 
 /// One row for each relation.
-pub const RELATIONS: [Relation; 37] = [
+pub const RELATIONS: [Relation; 38] = [
     row("bounds", any, 1.0, budgets::bounds),
     row("mass of a web", is_known_web, 1.0, budgets::mass_of_a_web),
+    row("map of a web", is_known_web, 0.5, map::map_of_a_web),
     row("mass of a line", is_line, 1.0, budgets::mass_of_a_line),
     row("end of a line", is_line, 1.0, budgets::end_of_a_line),
     row("momentum of air", is_web_in_field, 1.0, budgets::momentum_of_the_air),

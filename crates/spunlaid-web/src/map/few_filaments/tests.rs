@@ -475,6 +475,12 @@ fn analytic_straight_filaments_that_never_meet() {
         ] {
             close(found, expected);
         }
+        // Over patches of two cells: two positions of 96 with half of a patch, and all of its mass on the sheet.
+        let maps = [None, Some(0), Some(1)].map(|half| twelve.map(half).unwrap());
+        let products = &twelve.products(&maps, &[2], 1).unwrap()[0];
+        products.means.iter().zip([48.0, 0.0, 0.0, 0.0]).for_each(|(found, wanted)| close(*found, wanted));
+        products.pairs.iter().flatten().for_each(|pair| close(pair[5], 1.0));
+        assert_eq!(products.pairs.len(), 6);
         let on_map = patch_cv(&map(12), 1).unwrap();
         assert_eq!(found.by_chance.is_some(), on_map.standard_error.is_some());
         assert!(estimate.blocks[0].iter().all(|block| (block - 7.0).abs() < 1e-9));
@@ -520,4 +526,21 @@ fn analytic_straight_filaments_that_never_meet() {
     // A row that is too short gives none of it.
     let short = few(&sheet, Arrangement::Slot, 48, straight(8)).estimate(None, 1).unwrap();
     assert_eq!(short.cvs[0].cv, 0.0);
+}
+
+/// What a sample of a slot leaves open: half of what its halves are off, and the scatter by the depths, (83e).
+#[test]
+fn analytic_the_error_of_a_slot_has_two_parts() {
+    let (sheet, field) = (sheet(&[12.0]), Field::new(2));
+    let curves = even(24).enumerate().map(|(i, z)| curve(z, &field.along(3.0 * i as f64, z)));
+    let simulated = few(&sheet, Arrangement::Slot, 48, curves);
+    let found = simulated.estimate(None, 1).unwrap().cvs[0];
+    let maps = [None, Some(0), Some(1)].map(|half| simulated.map(half).unwrap());
+    let products = &simulated.products(&maps, &[12], 1).unwrap()[0];
+    let square = found.cv * found.cv;
+    // Of the square, so twice the CV times as large as of the CV.
+    let of_depths = products.variance(square, 24.0, 48.0).sqrt();
+    let expected = (0.5 * found.of_halves * square).hypot(0.5 * of_depths);
+    assert!((found.by_pitch * found.cv / expected - 1.0).abs() < 1e-9, "{found:?} {expected}");
+    assert!(of_depths > 0.01 * square, "{of_depths} {square}");
 }
