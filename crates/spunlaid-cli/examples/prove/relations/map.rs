@@ -61,7 +61,10 @@ pub fn map_of_a_web(program: &Program, drawn: &Drawn, _: &Json) -> Outcome {
     let out = program.new_place("mapped");
     let Said::Results(results) = program.computed(drawn, &["--out=mapped"]) else { return Outcome::Refused };
     let web = &results["web"];
-    if drawn.value("web.edges").is_some_and(|edges| edges != "periodic") {
+    // Filaments of a layer at random positions have another number on each sheet, which is in its CV.
+    let is_random_layer = drawn.value("layer.1.line.filaments_per_metre").is_some()
+        || drawn.value("layer.2.line.slot_gap").is_some_and(|gap| gap == "auto");
+    if is_random_layer || drawn.value("web.edges").is_some_and(|edges| edges != "periodic") {
         return Outcome::Refused;
     }
     let number = |of: &Json| of.as_f64().unwrap_or(f64::NAN);
