@@ -58,16 +58,12 @@ fn kind(line: &str) -> Vec<&str> {
     words.filter(|(i, word)| *i == 1 || word.starts_with("--")).map(|(_, word)| word).collect()
 }
 
-/// Runs all commands of some texts, those of webs without their advice, and then one of each kind as it is written.
+/// Runs all commands of some texts, and one of each kind a second time.
 fn paste_all(desk: &Desk, texts: &[String], least: usize) {
     let all: BTreeSet<String> = texts.iter().flat_map(|text| commands(text)).collect();
     assert!(all.len() >= least, "{all:#?}");
     let kinds: BTreeMap<Vec<&str>, &String> = all.iter().map(|line| (kind(line), line)).collect();
-    let without_advice = |line: &String| {
-        if line.starts_with("spunlaid web ") { format!("{line} --no-advice") } else { line.clone() }
-    };
-    all.iter().map(without_advice).for_each(|line| paste(desk, &line));
-    kinds.into_values().for_each(|line| paste(desk, line));
+    all.iter().chain(kinds.into_values()).for_each(|line| paste(desk, line));
 }
 
 #[test]

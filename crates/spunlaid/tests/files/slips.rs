@@ -87,19 +87,14 @@ fn every_key_speaks_up_in(cases: &[(&str, Set<'_>)]) {
                 key.name
             );
         }
-        let (mut taken, mut is_taken_beside_a_spinline) = (0, false);
+        let mut taken = 0;
         for &(path, with) in cases {
-            // Further cases with a spinline are there for the keys that the first of them do not take.
-            if path == "whole_line_fibre" && is_taken_beside_a_spinline {
-                continue;
-            }
             let usual = dimension.exact(if least > 0.0 { (least * greatest).sqrt() } else { 0.5 * greatest });
             let with_key = |value: &str| said(path, &[with, &[(key.name, value)]].concat());
             if with_key(&usual).is_err() {
                 continue;
             }
             taken += 1;
-            is_taken_beside_a_spinline |= path == "whole_line_fibre";
             for far in [1000.0 * greatest, 1e-3 * least] {
                 let said = all_of(with_key(&dimension.exact(far)));
                 // What a key gives the value of, or the file whose air it scales, may be named in its place.

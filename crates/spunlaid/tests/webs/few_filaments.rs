@@ -185,15 +185,17 @@ fn identical_a_smaller_error_goes_on_from_the_kept_sheets_of_a_larger_one() {
         (format!("{:?}", few.unwrap()), fibres.load(Ordering::Relaxed))
     };
     let (whole, of_whole) = of(&small, 1, None);
-    let kept = Log::in_memory();
-    let (_, of_first) = of(&large, 1, Some(&kept));
-    let (continued, of_rest) = of(&small, 2, Some(&kept));
-    assert_eq!(continued, whole);
-    // Only the fine sheet, from which the map is made, is simulated twice.
-    let (_, of_fine) = of(&small, 1, Some(&kept));
-    println!("{of_whole} {of_first} {of_rest} {of_fine}");
-    assert_eq!(of_first + of_rest, of_whole + of_fine);
-    assert!(of_fine < of_rest && of_rest < of_whole, "{of_fine} {of_rest} {of_whole}");
+    for threads in [1, 2] {
+        let kept = Log::in_memory();
+        let (_, of_first) = of(&large, 1, Some(&kept));
+        let (continued, of_rest) = of(&small, threads, Some(&kept));
+        assert_eq!(continued, whole);
+        // Only the fine sheet, from which the map is made, is simulated twice.
+        let (_, of_fine) = of(&small, threads, Some(&kept));
+        println!("{of_whole} {of_first} {of_rest} {of_fine}");
+        assert_eq!(of_first + of_rest, of_whole + of_fine);
+        assert!(of_fine < of_rest && of_rest < of_whole, "{of_fine} {of_rest} {of_whole}");
+    }
     let kept = Log::in_memory();
     let other = WebSpec { seed: large.seed + 1, ..large.clone() };
     assert_ne!(of(&large, 2, Some(&kept)).0, of(&other, 2, Some(&kept)).0);
