@@ -1,7 +1,8 @@
 //! Everything that is found out about a web.
 
+use super::autocorrelation::autocorrelation;
 use super::basis_weight::Map;
-use super::clouds::{Clouds, autocorrelation};
+use super::clouds::Clouds;
 use super::expected::{ALONE, SheetPosition, across, expected, paths, sides};
 use super::few_findings::{SubsampleCv, SubsampleEstimate, SubsampleWarning};
 use super::laid_web::{Evidence, LaidWeb, LayerFlown};

@@ -17,6 +17,7 @@
 //! md is the machine direction, in which the belt moves the web; cd is the cross direction.
 
 mod at_random;
+mod autocorrelation;
 mod basis_weight;
 mod canvas;
 mod clouds;
@@ -40,9 +41,10 @@ mod waves;
 mod window;
 
 use crate::surrogate::Surrogate;
+pub use autocorrelation::autocorrelation;
 pub use basis_weight::Map;
 pub use canvas::{CanvasPart, DepositionGrid, NO_CORNERS, widen};
-pub use clouds::{Clouds, autocorrelation};
+pub use clouds::Clouds;
 pub use defects::Defect;
 pub use defects::{Depositor, LayerFilaments, Titres, holes, inlets};
 pub use expected::{ExpectedCv, expected_cv, inner_columns};
