@@ -269,16 +269,10 @@ mod tests {
         assert!((0.6..1.6).contains(&ratio), "{ratio}");
     }
 
-    /// Paths of 8 mm across in a row, in two rows at the same positions, or at random.
+    /// Narrower paths than those of the other tests.
     fn layer(filaments: Filaments) -> Layer {
-        Layer {
-            linear_density: 2e-7,
-            feed_speed: 50.0,
-            belt_speed: 4.0,
-            filaments,
-            defects: Vec::new(),
-            fibres: Fibres::Surrogate(Surrogate { sigma_md: 9e-3, sigma_cd: 5e-3, noise: 15.0 }),
-        }
+        let surrogate = Surrogate { sigma_md: 9e-3, sigma_cd: 5e-3, noise: 15.0 };
+        Layer { fibres: Fibres::Surrogate(surrogate), ..super::super::tests::layer(filaments) }
     }
 
     fn web(edges: Edges, layers: Vec<Layer>) -> Web {

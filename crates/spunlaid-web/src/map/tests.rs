@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 const SURROGATE: Surrogate = Surrogate { sigma_md: 9e-3, sigma_cd: 8e-3, noise: 15.0 };
 
 /// A layer of 50 m/s on a belt of 4 m/s: 5 m of each filament on a sheet of 0.4 m.
-fn layer(filaments: Filaments) -> Layer {
+pub(super) fn layer(filaments: Filaments) -> Layer {
     Layer {
         linear_density: 2e-7,
         feed_speed: 50.0,
