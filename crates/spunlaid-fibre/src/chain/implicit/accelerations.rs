@@ -38,6 +38,8 @@ pub(super) struct Predictor<'a, S: Register> {
     pub(super) t: &'a mut Tensions,
     /// `½ m s²/(1+s)` of the elements above and below the next node; zero in compression.
     pub(super) string: (Wide<S>, Wide<S>),
+    /// That of the element after them: its tension is found before the forces on the node are whole.
+    pub(super) next_string: Wide<S>,
     /// The row of the node above: its acceleration minus `.1` times that of the next node.
     pub(super) above: (Vec3<Wide<S>>, Wide<S>),
     /// Power that the bending viscosity dissipates [W].
@@ -67,7 +69,8 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
         self.t.links[j].tangent = element.tangent.store();
         let s = self.h_squared * Wide::load(&c.inverse_mass) * tension * element.inverse_length;
         let share = (s * s).over(s + Wide::splat(1.0)) * Wide::splat(0.5);
-        self.string.1 = share * mass;
+        self.string.1 = self.next_string;
+        self.next_string = share * mass;
         tension
     }
 
@@ -93,8 +96,10 @@ impl<S: Register> Integrator<S> for Predictor<'_, S> {
             self.friction(i, node, &force.x.store());
             force += Vec3 { x: Wide::zero(), ..Vec3::load(&self.t.belt_force[i]) };
         }
-        if i + 1 == nodes {
-            self.string.1 = Wide::zero();
+        // No element is visited after the node above the free end, and the free end has none below it.
+        if i + 2 >= nodes {
+            self.string.1 = self.next_string;
+            self.next_string = Wide::zero();
         }
         let inverse_mass = Wide::load(&node.inverse_mass);
         let above = inverse_mass * self.string.0;

@@ -52,6 +52,7 @@ pub(crate) fn step<S: Register, const FED: bool>(
         most_kept: most_kept::<S, FED>(h),
         t: &mut chain.tensions,
         string: (Wide::zero(), Wide::zero()),
+        next_string: Wide::zero(),
         above: (Vec3::zero(), Wide::zero()),
         dissipation: Wide::zero(),
     };

@@ -260,9 +260,7 @@ fn expected(strand: &FibreParameters, chain: &Chain, line: Option<Line>, lane: u
     let friction: Vec<V> = (0..nodes).map(friction).collect();
     let across = |i: usize| V { x: 0.0, ..friction[i] };
     (0..nodes).for_each(|i| others[i] += across(i));
-    // The step takes the term of the element below, where (51) has that of the element itself.
     let share = |j: usize| {
-        let j = (j + 1).min(count - 1);
         let s = H * H * plain.tension[j] / (plain.edge(j).norm() * MASS);
         0.5 * MASS * s * s / (1.0 + s)
     };
