@@ -58,21 +58,44 @@ struct Sample {
     /// The groups of neighbours of filaments in shared turbulence.
     groups: Option<Vec<usize>>,
     directions: [u64; Orientation::DIRECTIONS],
+    /// Tangents of the angles between the classes in a quarter of a turn.
+    tangents: [f64; Orientation::DIRECTIONS / 4 - 1],
 }
 
 impl Sample {
     fn new(weight: f64) -> Self {
-        Self { weight, filaments: Vec::new(), groups: None, directions: [0; Orientation::DIRECTIONS] }
+        let edge = |i: usize| libm::tan(2.0 * PI * (i + 1) as f64 / Orientation::DIRECTIONS as f64);
+        Self {
+            weight,
+            filaments: Vec::new(),
+            groups: None,
+            directions: [0; Orientation::DIRECTIONS],
+            tangents: std::array::from_fn(edge),
+        }
     }
 
     fn add(&mut self, filament: usize, stretch: usize, [md, cd]: [f64; 2]) {
         let squared = md * md + cd * cd;
         if squared > 0.0 {
             self.filaments[filament][stretch].add(md * md / squared);
-            let turn = libm::atan2(cd, md) / (2.0 * PI);
-            let class = ((turn + 1.0).fract() * Orientation::DIRECTIONS as f64) as usize;
-            self.directions[class.min(Orientation::DIRECTIONS - 1)] += 1;
+            self.directions[self.class(md, cd)] += 1;
         }
+    }
+
+    /// The class of a direction, whatever its length.
+    fn class(&self, md: f64, cd: f64) -> usize {
+        // Turned back by quarters of a turn, until it lies in the first one.
+        let (quarter, along, across) = if md > 0.0 && cd >= 0.0 {
+            (0, md, cd)
+        } else if cd > 0.0 {
+            (1, cd, -md)
+        } else if md < 0.0 {
+            (2, -md, -cd)
+        } else {
+            (3, -cd, md)
+        };
+        let passed = self.tangents.iter().map(|tangent| usize::from(across >= tangent * along));
+        quarter * Orientation::DIRECTIONS / 4 + passed.sum::<usize>()
     }
 
     /// All curves that were simulated, each once.
@@ -279,6 +302,20 @@ mod tests {
             assert!((0.85..1.18).contains(&ratio), "{of}: {ratio}");
         }
         assert!(estimated[2].sqrt() < 0.7 * scatter(0), "{} {}", estimated[2].sqrt(), scatter(0));
+    }
+
+    #[test]
+    fn analytic_the_class_of_a_direction_is_that_of_its_angle() {
+        let sample = Sample::new(1.0);
+        for tenths in 0..3600 {
+            // Half a tenth of a degree away from the angles between classes; then at multiples of 90°, which are exact.
+            let angle = (f64::from(tenths) + 0.5) / 1800.0 * PI;
+            let [md, cd] = [0.3 * libm::cos(angle), 0.3 * libm::sin(angle)];
+            assert_eq!(sample.class(md, cd), tenths as usize / 100, "{tenths} tenths of a degree");
+        }
+        for (direction, class) in [([2.0, 0.0], 0), ([0.0, 2.0], 9), ([-2.0, -0.0], 18), ([0.0, -2.0], 27)] {
+            assert_eq!(sample.class(direction[0], direction[1]), class, "{direction:?}");
+        }
     }
 
     #[test]
