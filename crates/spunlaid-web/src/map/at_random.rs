@@ -2,11 +2,13 @@
 
 use super::{DepositionGrid, Edges, Map, Sheet, Web};
 use spunlaid_ground::random::{stream, uniform};
-use spunlaid_ground::{Fault, Isa};
+use spunlaid_ground::{Fault, Isa, WIDTH};
 use std::f64::consts::PI;
 
 /// Length of a fibre: long beside any patch, so that its CV is that of endless ones but for a hundredth [m].
 const LENGTH: f64 = 0.25;
+/// Length of a piece: as many are drawn at once as there are lanes [m].
+const PIECE: f64 = LENGTH / WIDTH as f64;
 /// Of all random numbers of a web, those of its straight fibres.
 const STRAIGHT: u64 = 0x5354_5241_4947_4854;
 
@@ -23,16 +25,18 @@ impl Web {
         let sides = size.map(|cells| cells as f64 * cell);
         let [width, length] = sides;
         let sheet = Sheet { width, length, cell, patches: Vec::new(), edges: Edges::Periodic };
-        let pieces: Vec<f64> = self.layers.iter().map(|layer| layer.linear_density * LENGTH).collect();
+        let pieces: Vec<f64> = self.layers.iter().map(|layer| layer.linear_density * PIECE).collect();
         let mut canvas = DepositionGrid::new(&sheet, &pieces, self.basis_weight())?.ring(Isa::detect());
         for (number, (layer, piece)) in (0..).zip(self.layers.iter().zip(pieces)) {
             let mut random = stream([self.seed, STRAIGHT, number, 0]);
             let quanta = canvas.quanta(piece);
-            let count = (layer.basis_weight(&self.sheet) * width * length / piece).round() as u64;
+            let fibre = layer.linear_density * LENGTH;
+            let count = (layer.basis_weight(&self.sheet) * width * length / fibre).round() as u64;
             for _ in 0..count {
                 let from = sides.map(|side| side * uniform(&mut random));
                 let (sin, cos) = libm::sincos(PI * uniform(&mut random));
-                canvas.draw_alone(&[from, [from[0] + LENGTH * cos, from[1] + LENGTH * sin]], LENGTH, quanta);
+                let point = |i: usize| [from[0] + PIECE * cos * i as f64, from[1] + PIECE * sin * i as f64];
+                canvas.draw_alone(&std::array::from_fn::<_, { WIDTH + 1 }, _>(point), PIECE, quanta);
             }
         }
         Ok(canvas.finish()?.map)
