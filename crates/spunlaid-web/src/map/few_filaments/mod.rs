@@ -21,7 +21,7 @@ use super::few_findings::{SubsampleCv, SubsampleEstimate};
 use super::laid_web::too_full;
 use super::uniformity::{boxes, patch_cv, places_of_patches};
 use super::{Edges, Sheet};
-use products::{CornerSums, Known, Products};
+use products::{CornerSums, Known, Patches, Products};
 use spunlaid_ground::Error;
 use spunlaid_ground::threads::{par_map, try_par_map};
 use std::ops::Range;
@@ -386,7 +386,8 @@ impl Subsample<'_> {
             if *side > own.columns.min(maps[0].rows) {
                 return Known::default();
             }
-            let with = |other: &CornerSums| own.product(other, *side);
+            let patches = Patches::of(own, *side);
+            let with = |other: &CornerSums| patches.product(other);
             let [itself, next, second, fourth] =
                 std::array::from_fn(|neighbour| all[neighbour].as_ref().map(with));
             [itself, next, second, fourth, Some(with(&even)), Some(with(&odd)), Some(with(&alike))]

@@ -81,24 +81,57 @@ impl CornerSums {
         Self { columns, rows, sums: (0..(columns + 1) * (rows + 1)).map(corner).collect() }
     }
 
-    /// Sum over the places of a patch of its products on this map and on another one of the same size.
+    /// The sum over a patch.
     ///
-    /// * `side` – of the patch [cells]; places are half of it apart
-    pub(super) fn product(&self, other: &Self, side: usize) -> f64 {
-        let (width, step) = (self.columns + 1, (side / 2).max(1));
-        let mut sum = 0.0;
-        for row in (0..=self.rows - side).step_by(step) {
-            let [above, below] = [row, row + side].map(|row| row * width);
-            for column in (0..=self.columns - side).step_by(step) {
-                let patch = |sums: &[u64]| {
-                    let [left, right] = [column, column + side];
-                    (sums[below + right] + sums[above + left] - sums[below + left] - sums[above + right])
-                        as f64
-                };
-                sum += patch(&self.sums) * patch(&other.sums);
+    /// * `corner` – the index of its first corner
+    fn patch(&self, corner: usize, side: usize) -> u64 {
+        let below = corner + side * (self.columns + 1);
+        self.sums[below + side] + self.sums[corner] - self.sums[below] - self.sums[corner + side]
+    }
+}
+
+/// A patch of a map on which there is fibre.
+struct Patch {
+    /// The index of its first corner.
+    corner: usize,
+    mass: f64,
+}
+
+/// The patches of one side on a map on which there is fibre: a single filament leaves most of them empty.
+pub(super) struct Patches {
+    side: usize,
+    all: Vec<Patch>,
+}
+
+/// How far the patches that are looked at are apart [cells].
+fn step(side: usize) -> usize {
+    (side / 2).max(1)
+}
+
+impl Patches {
+    /// * `side` – of the patches [cells]
+    pub(super) fn of(map: &CornerSums, side: usize) -> Self {
+        let mut all = Vec::new();
+        for row in (0..=map.rows - side).step_by(step(side)) {
+            for column in (0..=map.columns - side).step_by(step(side)) {
+                let corner = row * (map.columns + 1) + column;
+                let mass = map.patch(corner, side);
+                if mass > 0 {
+                    all.push(Patch { corner, mass: mass as f64 });
+                }
             }
         }
-        let [rows, taken] = [self.rows - side + 1, (self.rows - side) / step + 1];
-        sum * step as f64 * rows as f64 / taken as f64
+        Self { side, all }
+    }
+
+    /// Sum over all patches of their products with those of another map of the same size.
+    pub(super) fn product(&self, other: &CornerSums) -> f64 {
+        let mut sum = 0.0;
+        for patch in &self.all {
+            sum += patch.mass * other.patch(patch.corner, self.side) as f64;
+        }
+        let [all, step] = [other.rows - self.side + 1, step(self.side)];
+        let taken = (other.rows - self.side) / step + 1;
+        sum * step as f64 * all as f64 / taken as f64
     }
 }

@@ -385,13 +385,13 @@ fn analytic_products_of_patches_are_those_of_their_cells() {
             }
             // One position of so many is taken, across and along.
             let scale = step as f64 * (rows - side + 1) as f64 / taken;
-            for (found, expected) in [(own.product(&other, side), expected), (own.product(&even, side), mass)]
-            {
+            let patches = Patches::of(&own, side);
+            for (found, expected) in [(patches.product(&other), expected), (patches.product(&even), mass)] {
                 assert!((found / (expected * scale) - 1.0).abs() < 1e-12, "{first} {side}: {found}");
             }
         }
     }
-    assert_eq!(CornerSums::over(&map).product(&CornerSums::even(9, 11), 9), {
+    assert_eq!(Patches::of(&CornerSums::over(&map), 9).product(&CornerSums::even(9, 11)), {
         let row = |row: usize| (row..row + 9).flat_map(|row| map.row(row)).sum::<u32>();
         // Rows 0 of 0 to 2: a step of four cells takes the first of three positions.
         f64::from(row(0)) * 81.0 * 4.0 * 3.0
