@@ -66,10 +66,11 @@ impl CornerSums {
         let mut sums = vec![0; width * (map.rows + 1)];
         for row in 0..map.rows {
             let mut of_row = 0;
-            let cells = map.row(row).iter().cycle().skip(first).take(columns);
-            for (column, cell) in cells.enumerate() {
+            let cells = map.row(row)[first..].iter().chain(map.row(row).iter().cycle()).take(columns);
+            let (above, below) = sums[row * width..][..2 * width].split_at_mut(width);
+            for ((above, below), cell) in above[1..].iter().zip(&mut below[1..]).zip(cells) {
                 of_row += u64::from(*cell);
-                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + of_row;
+                *below = above + of_row;
             }
         }
         Self { columns, rows: map.rows, sums }
