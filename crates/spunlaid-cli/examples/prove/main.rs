@@ -130,8 +130,9 @@ impl Search {
         found.lock().expect("what was found").draws += 1;
         let Said::Results(results) = results else {
             println!(
-                "\nFINDING: --seed {} --draw {number}\n{}\n{}",
+                "\nFINDING: --seed {} --draw {number} --base {}\n{}\n{}",
                 self.seed,
+                base.name,
                 results.words(),
                 drawn.command()
             );
@@ -150,8 +151,9 @@ impl Search {
             {
                 let (fewest, said) = shrunk(relation, program, drawn.clone(), said);
                 println!(
-                    "\nFINDING: --seed {} --draw {number} --only '{}'\n{said}\n{}",
+                    "\nFINDING: --seed {} --draw {number} --base {} --only '{}'\n{said}\n{}",
                     self.seed,
+                    base.name,
                     relation.name,
                     fewest.command()
                 );
