@@ -51,22 +51,19 @@ fn stat_the_errors_of_clouds_of_few_filaments_hold_those_of_all() {
     }
 }
 
-/// The middle of a web that is sold has another weight in each web, and so another bare area: it scattered by eight of
-/// the errors that were reported. Of a heavy web with streaks its thin spots alone are bare: there it was ten.
+/// Of a heavy web with streaks its thin spots alone are bare: its bare area scattered by ten of the errors that were
+/// reported. The other errors of the bare area are those that `release/prove` finds at its first draws.
 #[test]
-#[ignore = "slow: two times twelve webs"]
-fn stat_the_bare_area_has_the_errors_of_its_weight_and_of_its_clouds() {
+#[ignore = "slow: twelve webs"]
+fn stat_the_bare_area_has_the_errors_of_its_clouds() {
     let text = include_str!("../../examples/prove/web.toml");
-    let sold: &[(&str, &str)] = &[("fabric.saleable_width", "80 mm")];
-    let heavy: &[(&str, &str)] = &[("line.basis_weight", "107 g/m²"), ("laydown.sigma_cd", "946 µm")];
-    for set in [sold, heavy] {
-        let values: Vec<_> = set.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
-        let web = read_web((text, "web.toml"), &values[..]).unwrap();
-        let webs: Vec<Numbers> =
-            par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
-        let found = scatter(1, &webs);
-        let (_, bare) = found.iter().find(|(name, _)| name == "fabric.bare_area").expect("a bare area");
-        let [low, high] = bare.by_chance(3.5);
-        assert!((BOUNDS[0] * low..BOUNDS[1] * high).contains(&bare.ratio), "{set:?}: {:.2}", bare.ratio);
-    }
+    let heavy = [("line.basis_weight", "107 g/m²"), ("laydown.sigma_cd", "946 µm")];
+    let values = heavy.map(|(key, value)| (key.to_string(), value.to_string()));
+    let web = read_web((text, "web.toml"), &values[..]).unwrap();
+    let webs: Vec<Numbers> =
+        par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+    let found = scatter(1, &webs);
+    let (_, bare) = found.iter().find(|(name, _)| name == "fabric.bare_area").expect("a bare area");
+    let [low, high] = bare.by_chance(3.5);
+    assert!((BOUNDS[0] * low..BOUNDS[1] * high).contains(&bare.ratio), "{:.2}", bare.ratio);
 }
