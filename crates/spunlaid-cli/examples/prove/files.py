@@ -96,8 +96,9 @@ def velocity(case):
     mean = np.array([r.uniform(15, 40), r.uniform(-3, 3), r.uniform(-3, 3)])
     if case.plane:
         gradient[2, :], gradient[:, 2], mean[2] = 0, 0, 0
-    k, slope_of_k = r.uniform(2, 5), r.uniform(-10, 10, 3)
-    epsilon, slope = r.uniform(500, 2000), r.uniform(-2000, 2000, 3)
+    # Both are positive everywhere: no place is farther than 0.2 m along any axis.
+    k, slope_of_k = r.uniform(7, 10), r.uniform(-10, 10, 3)
+    epsilon, slope = r.uniform(1500, 3000), r.uniform(-2000, 2000, 3)
     if case.plane:
         slope_of_k[2] = slope[2] = 0
     return lambda p: (mean + p @ gradient.T, k + p @ slope_of_k, epsilon + p @ slope)
