@@ -21,9 +21,9 @@ pub mod record;
 // The face of the wing: the types that others know by it. Functions are called by their room.
 pub use motion::{
     APART, Air, AirAtPlaces, AirInSpace, Atmosphere, Axis, Cabin, Eddies, EddyField, EddyModel,
-    EddyTurbulence, EddyWind, Extent, FileContent, Flow, FlowNumbers, Lateral, LocalAir, Measured, PlaceAxes,
-    PlacedField, Profile, RecordLayout, RecordNumbers, Spectrum, SpectrumShape, SpectrumTable, StationGrid,
-    Stations, Stream, StreamKey, Surroundings, Widening, Wind,
+    EddyTurbulence, EddyWind, Extent, FibreAir, FibreInField, FibreOnWay, FileContent, Flow, FlowNumbers,
+    Lateral, LocalAir, Measured, PlaceAxes, PlacedField, Profile, RecordLayout, RecordNumbers, Spectrum,
+    SpectrumShape, SpectrumTable, StationGrid, Stations, Stream, StreamKey, Surroundings, Widening, Wind,
 };
 pub use motion::{
     HEAT_CAPACITY_OF_AIR, Instant, LENGTH_CONSTANT, LastEddy, Room, SUTHERLAND_RANGE, Sampling,

@@ -213,7 +213,7 @@ impl Air {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::in_space::AirInSpace;
+    use crate::motion::{AirInSpace, FibreAir, FibreInField};
     use crate::motion::{EddyModel, Lateral};
     use spunlaid_ground::place::Inlet;
     use spunlaid_ground::{PerLane, Plain};
@@ -241,7 +241,12 @@ mod tests {
         // A fibre that swings far beyond what is made of its field at first.
         let room = Room::alone(DISTANCE, EXTENT).for_fibre(0.01);
         let field = EddyField::in_room(&air(), &room, 8.0, KEY);
-        let lanes = PerLane::new(vec![(air(), place, Arc::new(field), DISTANCE)]).unwrap();
+        let lanes = PerLane::new(vec![FibreInField {
+            around: FibreAir { air: air(), inlet: place },
+            field: Arc::new(field),
+            distance: DISTANCE,
+        }])
+        .unwrap();
         let mut around = AirInSpace::new(&lanes, 20, 1);
         let mut free = at_places();
         for step in 0..40 {

@@ -6,7 +6,7 @@
 //! ```
 
 use super::eddy_field::{EddyFields, Missing};
-use super::{Air, EddyField, Surroundings};
+use super::{Air, EddyField, FibreAir, Surroundings};
 use crate::field::Hint;
 use spunlaid_ground::place::Inlet;
 use spunlaid_ground::{Lanes, Nodes, PerLane, Register, Task, Vec3, WIDTH, Wide};
@@ -23,6 +23,17 @@ pub struct AirInSpace {
     places: PerLane<Inlet>,
     means: PerLane<WayFlow>,
     pub(super) elements: AirAtElements,
+}
+
+/// A fibre in a field of eddies.
+#[derive(Clone, Debug)]
+pub struct FibreInField {
+    /// The mean flow, and the inlet.
+    pub around: FibreAir,
+    /// The eddies.
+    pub field: Arc<EddyField>,
+    /// Distance to the end of its way [m].
+    pub distance: f64,
 }
 
 /// The field of a fibre.
@@ -65,28 +76,28 @@ impl WayFlow {
 }
 
 impl AirInSpace {
-    /// * `lanes` – of each fibre: its air, its place, its field, and the distance to the end of its way [m]
+    /// * `lanes` – of the fibres
     /// * `every` – steps from one look to the next
-    pub fn new(lanes: &PerLane<(Air, Inlet, Arc<EddyField>, f64)>, elements: usize, every: u64) -> Self {
-        let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|(_, _, field, _)| field).collect();
+    pub fn new(lanes: &PerLane<FibreInField>, elements: usize, every: u64) -> Self {
+        let fields: Vec<&Arc<EddyField>> = lanes.iter().map(|fibre| &fibre.field).collect();
         let (mut lane, mut last) = (0, None::<(Arc<EddyField>, WayFlow)>);
-        let in_field = lanes.lane(0).0.flow.is_field();
+        let in_field = lanes.lane(0).around.air.flow.is_field();
         Self {
-            fields: lanes.map(|(_, _, field, _)| {
+            fields: lanes.map(|FibreInField { field, .. }| {
                 let same_as = fields.iter().position(|other| Arc::ptr_eq(other, field)).unwrap_or(lane);
                 lane += 1;
                 Field { field: Arc::clone(field), same_as }
             }),
-            places: lanes.map(|(_, place, _, _)| *place),
-            means: lanes.map(|(air, _, field, distance)| {
+            places: lanes.map(|fibre| fibre.around.inlet),
+            means: lanes.map(|FibreInField { around, field, distance }| {
                 let known =
                     last.take().filter(|(before, _)| before.has_air_of(field)).map(|(_, means)| means);
-                let means = known.unwrap_or_else(|| WayFlow::new(air, *distance));
+                let means = known.unwrap_or_else(|| WayFlow::new(&around.air, *distance));
                 last = Some((Arc::clone(field), means.clone()));
                 means
             }),
             elements: AirAtElements::new(
-                in_field.then(|| lanes.map(|(air, place, _, _)| (air.clone(), *place))),
+                in_field.then(|| lanes.map(|fibre| fibre.around.clone())),
                 elements,
                 every,
             ),
@@ -248,7 +259,7 @@ impl ElementAir {
 impl AirAtElements {
     /// * `in_field` – air and place of each fibre in a CFD field
     /// * `every` – steps from one look to the next
-    pub(super) fn new(in_field: Option<PerLane<(Air, Inlet)>>, elements: usize, every: u64) -> Self {
+    pub(super) fn new(in_field: Option<PerLane<FibreAir>>, elements: usize, every: u64) -> Self {
         let nothing = ElementAir { value: Vec3::ZERO, rise: Vec3::ZERO };
         let field = in_field.map(|airs| Surroundings::around_elements(airs, elements, every));
         Self { elements: vec![nothing; elements].into(), every: every.max(1), looked: false, field }

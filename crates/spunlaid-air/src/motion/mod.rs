@@ -37,15 +37,15 @@ pub use eddy_field::Room;
 pub use eddy_field::{EddyField, Extent};
 pub use flow::{Flow, FlowNumbers, LocalAir};
 pub use from_file::FileContent;
-pub use in_space::AirInSpace;
+pub use in_space::{AirInSpace, FibreInField};
 pub use measured::{APART, Measured, Profile, RecordLayout, RecordNumbers};
 pub use placed_field::{Axis, PlacedField};
 pub use placed_field::{LENGTH_CONSTANT, TIME_CONSTANT};
 pub use spectrum::{Spectrum, SpectrumShape, SpectrumTable};
-pub use stations::{StationGrid, Stations};
+pub use stations::{FibreOnWay, StationGrid, Stations};
 pub use stations::{Way, time_between_looks};
 use std::path::{Path, PathBuf};
-pub use surroundings::Surroundings;
+pub use surroundings::{FibreAir, Surroundings};
 pub use wind::Sampling;
 pub use wind::{Stream, StreamKey, Wind};
 

@@ -8,10 +8,9 @@
 //! is interpolated with weights that keep its variance.                                           theory.md (64)
 
 use super::in_space::{AirAtElements, InstantStations};
-use super::{Air, Eddies, EddyModel, EddyTurbulence, Flow, Wind};
+use super::{Air, Eddies, EddyModel, EddyTurbulence, FibreAir, Flow, Wind};
 use crate::field::Hint;
 use spunlaid_ground::lanes::indices;
-use spunlaid_ground::place::Inlet;
 use spunlaid_ground::{Lanes, PerLane, Register, Task, Vec3, WIDTH, Wide};
 
 /// Looks in the time in which fibre or air passes a length scale.
@@ -56,18 +55,21 @@ pub struct Stations {
     pub(super) elements: AirAtElements,
 }
 
+/// A fibre, and the stations on its way.
+#[derive(Clone, Debug)]
+pub struct FibreOnWay {
+    /// The air, and the inlet.
+    pub around: FibreAir,
+    /// The stations.
+    pub grid: StationGrid,
+}
+
 impl Stations {
-    /// * `lanes` – air and stations of each fibre
-    /// * `places` – of the fibres' roots
+    /// * `lanes` – of the fibres
     /// * `elements` – number of elements at the start
-    pub fn new(
-        way: Way,
-        lanes: &PerLane<(Air, StationGrid)>,
-        places: &PerLane<Inlet>,
-        elements: usize,
-    ) -> Self {
+    pub fn new(way: Way, lanes: &PerLane<FibreOnWay>, elements: usize) -> Self {
         let mut hint = Hint::default();
-        let here = lanes.map(|(air, grid)| {
+        let here = lanes.map(|FibreOnWay { around: FibreAir { air, .. }, grid }| {
             let mean_flow = (0..way.stations).map(|k| {
                 let x = (k as f64 + 0.5) * grid.spacing;
                 match air.flow {
@@ -91,10 +93,10 @@ impl Stations {
             true => here.lanes(|(_, correlations)| 2.0 * (1.0 - correlations[k])),
             false => Lanes::ZERO,
         };
-        let in_field = way.in_field.then(|| lanes.zip(places, |(air, _), place| (air.clone(), *place)));
+        let in_field = way.in_field.then(|| lanes.map(|fibre| fibre.around.clone()));
         Self {
-            off_middle: places.lanes(|place| place.y),
-            per_length: lanes.lanes(|(_, grid)| 1.0 / grid.spacing),
+            off_middle: lanes.lanes(|fibre| fibre.around.inlet.y),
+            per_length: lanes.lanes(|fibre| 1.0 / fibre.grid.spacing),
             mean_flow: (0..way.stations).map(mean_flow).collect(),
             decorrelation: (0..way.stations).map(decorrelation).collect(),
             last_look: vec![[[0.0; 4]; WIDTH]; way.stations],

@@ -41,10 +41,19 @@ const UNKNOWN: LinearAir = LinearAir {
     outside: Lanes::ZERO,
 };
 
+/// The air of a fibre, and where in it the fibre begins.
+#[derive(Clone, Debug)]
+pub struct FibreAir {
+    /// The air.
+    pub air: Air,
+    /// The fibre's inlet.
+    pub inlet: Inlet,
+}
+
 /// The air around the elements of eight fibres.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    airs: PerLane<(Air, Inlet)>,
+    airs: PerLane<FibreAir>,
     places: Nodes<FlowAtElement>,
     nearby: Nodes<LinearAir>,
     /// Where each fibre's element was found last.
@@ -64,12 +73,12 @@ impl Surroundings {
     /// # Errors
     /// No air or more than eight.
     pub fn new(airs: Vec<Air>, elements: usize, every: u64) -> Result<Self, Error> {
-        let middle = |air| (air, Inlet::default());
+        let middle = |air| FibreAir { air, inlet: Inlet::default() };
         Ok(Self::around_elements(PerLane::new(airs.into_iter().map(middle).collect())?, elements, every))
     }
 
     /// The same for airs with their own inlets.
-    pub fn around_elements(airs: PerLane<(Air, Inlet)>, elements: usize, every: u64) -> Self {
+    pub fn around_elements(airs: PerLane<FibreAir>, elements: usize, every: u64) -> Self {
         let every = every.max(1);
         let places = vec![FlowAtElement::default(); elements].into();
         let nearby = vec![UNKNOWN; elements].into();
@@ -160,8 +169,8 @@ impl Surroundings {
         let (nearby, hints) = (&mut self.nearby[element], &mut self.hints[element]);
         for (lane, hint) in hints.iter_mut().enumerate().filter(|(lane, _)| beyond.0[*lane] > 0.0) {
             let at = centre.lane(lane);
-            let (air, root) = self.airs.lane(lane);
-            let in_slot = Vec3::new(at.x, at.y + root.y, at.z);
+            let FibreAir { air, inlet } = self.airs.lane(lane);
+            let in_slot = Vec3::new(at.x, at.y + inlet.y, at.z);
             let AirAround { value, gradients, reach, inside } = air.around(in_slot, hint);
             nearby.at.set_lane(lane, at);
             nearby.reach.0[lane] = reach;

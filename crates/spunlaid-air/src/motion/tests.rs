@@ -1,6 +1,6 @@
 //! What elements along the way feel of the signals at the stations.
 
-use super::{StationGrid, Stations, Way};
+use super::{FibreAir, FibreOnWay, StationGrid, Stations, Way};
 use crate::field::Hint;
 use crate::motion::{
     Air, Atmosphere, EddyModel, FileContent, Flow, Instant, Profile, Stream, StreamKey, Velocities, Widening,
@@ -42,9 +42,9 @@ impl Fluctuations {
         let position: Vec<_> = (0..(grid.count - 1) * QUARTERS + 2)
             .map(|j| Vec3::splat(Vec3::new(place(j), 0.0, 0.0)))
             .collect();
-        let lanes = PerLane::new(vec![(air.clone(), grid)]).unwrap();
-        let middle = PerLane::new(vec![Inlet::default()]).unwrap();
-        let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &middle, position.len() - 1);
+        let around = FibreAir { air: air.clone(), inlet: Inlet::default() };
+        let lanes = PerLane::new(vec![FibreOnWay { around, grid }]).unwrap();
+        let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, position.len() - 1);
         Self { grid, air: Atmosphere::Way(wind, stations), position, looks: 0 }
     }
 
@@ -140,12 +140,12 @@ fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
         let stream = Stream { air: air.clone(), eddies, key: StreamKey { seed: 1, replicate: 0 } };
         let wind = Wind::along(Isa::detect(), vec![stream], 1.0).unwrap();
         let roots = [0.01, -0.004];
-        let lanes = PerLane::new(vec![(air.clone(), grid); 2]).unwrap();
-        let places = PerLane::new(roots.map(|y| Inlet { y, z: 0.0 }).to_vec()).unwrap();
+        let around = |y| FibreAir { air: air.clone(), inlet: Inlet { y, z: 0.0 } };
+        let lanes = PerLane::new(roots.map(|y| FibreOnWay { around: around(y), grid }).to_vec()).unwrap();
         // Elements of a fibre that leans, between the first and the last station.
         let position: Vec<_> =
             (1..25).map(|j| Vec3::splat(Vec3::new(0.02 * f64::from(j), 1e-3 * f64::from(j), 2e-3))).collect();
-        let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, &places, position.len() - 1);
+        let stations = Stations::new(Way::from_air(&air, &grid, 1), &lanes, position.len() - 1);
         let mut air_at_fibre = Atmosphere::Way(wind, stations);
         let now = Instant { step: 0, time: 0.0 };
         let Velocities::Way(velocities) = air_at_fibre.look::<Plain>(now, &position) else {

@@ -60,8 +60,7 @@ fn stat_the_bare_area_has_the_errors_of_its_clouds() {
     let heavy = [("line.basis_weight", "107 g/m²"), ("laydown.sigma_cd", "946 µm")];
     let values = heavy.map(|(key, value)| (key.to_string(), value.to_string()));
     let web = read_web((text, "web.toml"), &values[..]).unwrap();
-    let webs: Vec<Numbers> =
-        par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
+    let webs: Vec<Numbers> = par_map(2, 12, |seed| webs::numbers_of(&web, 1 + seed as u64, "auto").unwrap());
     let found = scatter(1, &webs);
     let (_, bare) = found.iter().find(|(name, _)| name == "fabric.bare_area").expect("a bare area");
     let [low, high] = bare.by_chance(3.5);

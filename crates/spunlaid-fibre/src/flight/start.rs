@@ -8,7 +8,8 @@ use crate::chain::work::WorkDone;
 use crate::chain::{self, Chain, FibreParameters, Scheme};
 use crate::energy::Energy;
 use spunlaid_air::{
-    AirInSpace, Atmosphere, EddyField, EddyWind, Stations, StreamKey, Surroundings, Way, Wind,
+    AirInSpace, Atmosphere, EddyField, EddyWind, FibreAir, FibreInField, FibreOnWay, Stations, StreamKey,
+    Surroundings, Way, Wind,
 };
 use spunlaid_ground::{Bits, Error, Fault, Isa, Lanes, PerLane, Vec3};
 use std::sync::Arc;
@@ -191,6 +192,7 @@ pub(super) fn surrounded(
     air: SurroundingRun<'_>,
 ) -> Result<Atmosphere, Error> {
     let FlightInvariants { way, every, chain, turbulence, .. } = common;
+    let around = |job: &Job<'_>| FibreAir { air: job.case.air.clone(), inlet: job.place };
     if let Some(cutoff) = turbulence.lateral_cutoff {
         let every = every.unwrap_or_else(|| way.as_ref().map_or(1, |way| way.every));
         let mut last: Option<(&Job<'_>, Arc<EddyField>)> = None;
@@ -212,7 +214,7 @@ pub(super) fn surrounded(
                 }
             };
             last = Some((job, Arc::clone(&field)));
-            (job.case.air.clone(), job.place, field, distance)
+            FibreInField { around: around(job), field, distance }
         });
         let lanes = PerLane::new(lanes.collect())?;
         return Ok(Atmosphere::Space(AirInSpace::new(&lanes, chain.elements, every)));
@@ -226,10 +228,9 @@ pub(super) fn surrounded(
     });
     let wind = Wind::sampled(isa, turbulence.wind.clone().with_eddies(eddies.count()), streams, air.horizon);
     if let Some(way) = way {
-        let air = |job: &Job<'_>| Some((job.case.air.clone(), job.case.stations()?));
-        let lanes = PerLane::new(jobs.iter().filter_map(air).collect())?;
-        let places = jobs.map(|job| job.place);
-        let stations = Stations::new(way.clone(), &lanes, &places, chain.elements);
+        let on_way = |job: &Job<'_>| Some(FibreOnWay { around: around(job), grid: job.case.stations()? });
+        let lanes = PerLane::new(jobs.iter().filter_map(on_way).collect())?;
+        let stations = Stations::new(way.clone(), &lanes, chain.elements);
         return Ok(Atmosphere::Way(wind, stations));
     }
     let wind = wind.for_steps_of(common.clock.time_step());
@@ -237,8 +238,7 @@ pub(super) fn surrounded(
     Ok(match every {
         None => Atmosphere::Uniform(air),
         Some(every) => {
-            let airs = jobs.map(|job| (job.case.air.clone(), job.place));
-            Atmosphere::Flow(air, Surroundings::around_elements(airs, chain.elements, *every))
+            Atmosphere::Flow(air, Surroundings::around_elements(jobs.map(around), chain.elements, *every))
         }
     })
 }

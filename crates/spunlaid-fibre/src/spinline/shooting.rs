@@ -56,8 +56,12 @@ pub(super) struct Hit {
     pub(super) has_second: bool,
 }
 
-/// Why shooting has found no filament, and the closest one that reaches the end.
-type Missed = (Miss, Option<Box<Run>>);
+/// Shooting that has found no filament.
+struct Missed {
+    why: Miss,
+    /// The closest one that reaches the end.
+    near: Option<Box<Run>>,
+}
 
 struct Shooting<'t, 'a> {
     filament: &'t Filament<'a>,
@@ -127,8 +131,12 @@ impl Shooting<'_, '_> {
     /// The shot between two tensions; with what it misses if it is not the one.
     fn hit(&self, bracket: [(f64, f64); 2], close: f64) -> Result<Run, Missed> {
         let at_die = brent(|x| self.miss(x).0, self.narrow(bracket)?, close);
-        let run = self.run(at_die).ok_or((Miss::NoThread, None))?;
-        if meets(self.filament, &run.shot) { Ok(run) } else { Err((Miss::NotFound, Some(Box::new(run)))) }
+        let run = self.run(at_die).ok_or(Missed { why: Miss::NoThread, near: None })?;
+        if meets(self.filament, &run.shot) {
+            Ok(run)
+        } else {
+            Err(Missed { why: Miss::NotFound, near: Some(Box::new(run)) })
+        }
     }
 
     /// The filament under a tension, if it reaches the end.
@@ -148,12 +156,12 @@ impl Shooting<'_, '_> {
             if high.0 - low.0 < 1e-13 * x.abs().max(1.0) {
                 // A filament that gets to the end reports more than one that does not.
                 let near = self.run(low.0).or_else(|| self.run(high.0)).map(Box::new);
-                let miss = match (of_slack, of_fast) {
+                let why = match (of_slack, of_fast) {
                     (Some(liquid @ Miss::Liquid(_)), _) | (_, Some(liquid @ Miss::Liquid(_))) => liquid,
                     (_, Some(Miss::ElasticWave)) => Miss::ElasticWave,
                     _ => Miss::NoThread,
                 };
-                return Err((miss, near));
+                return Err(Missed { why, near });
             }
             let (miss, reason) = self.miss(x);
             if miss < 0.0 {
@@ -189,9 +197,7 @@ pub(super) fn find(filament: &Filament<'_>, looks_on: bool) -> Result<Hit, Miss>
 }
 
 /// The filament that no single tension leads to: by continuation from one that is known.
-///
-/// * `near` – the closest one that shooting has found, if any
-fn continued(filament: &Filament<'_>, (miss, near): Missed) -> Result<Run, Miss> {
+fn continued(filament: &Filament<'_>, missed: Missed) -> Result<Run, Miss> {
     let effort = Effort::default();
     let by_end = |run: Run| Branch::new(filament, Varies::End, &run, &effort).walk(run);
     let is_beyond = match filament.end {
@@ -199,9 +205,9 @@ fn continued(filament: &Filament<'_>, (miss, near): Missed) -> Result<Run, Miss>
         End::Tension(tension) | End::Flown(tension) => !(0.0..=TENSIONS[1]).contains(&tension),
     };
     if is_beyond {
-        return Err(miss);
+        return Err(missed.why);
     }
-    let mut found = near.map_or(Arrival::Lost, |near| by_end(*near));
+    let mut found = missed.near.map_or(Arrival::Lost, |near| by_end(*near));
     if matches!(found, Arrival::Lost) {
         let shares = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
         let is_free = filament.end == End::Tension(0.0);
@@ -224,9 +230,11 @@ fn continued(filament: &Filament<'_>, (miss, near): Missed) -> Result<Run, Miss>
             None => Ok(*run),
         },
         Arrival::TurnsBack(value) => Err(Miss::TurnsBack(value)),
-        Arrival::RunsAway => Err(miss),
+        Arrival::RunsAway => Err(missed.why),
         Arrival::StaysLiquid => Err(Miss::StaysLiquid),
-        Arrival::Lost | Arrival::Met(_) => Err(if miss == Miss::NoThread { Miss::NotFound } else { miss }),
+        Arrival::Lost | Arrival::Met(_) => {
+            Err(if missed.why == Miss::NoThread { Miss::NotFound } else { missed.why })
+        }
     }
 }
 
@@ -239,7 +247,7 @@ fn eased(filament: &Filament<'_>, end: End, shares: &[f64], effort: &Effort) -> 
     let run = |eased: Filament<'_>| {
         let shooting = Shooting { filament: &eased };
         let found = shooting.hit(shooting.bracket(least, most, STRIDE).ok()?, CLOSE);
-        let run = found.map_or_else(|(_, near)| along(&eased, Varies::End, *near?, effort), Some)?;
+        let run = found.map_or_else(|missed| along(&eased, Varies::End, *missed.near?, effort), Some)?;
         Some((eased.forces, run))
     };
     let (forces, run) = shares.iter().take_while(|_| !effort.is_too_much()).map(of).find_map(run)?;

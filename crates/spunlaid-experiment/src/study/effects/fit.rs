@@ -54,8 +54,12 @@ pub(super) struct EffectsFit<'a> {
     inverse: Vec<Vec<f64>>,
 }
 
-/// A change of a factor, and the weights of the coefficients that give the change of a result by it.
-pub(super) type Weighted = (Contrast, Vec<f64>);
+/// A change of a factor.
+pub(super) struct WeightedContrast {
+    pub(super) contrast: Contrast,
+    /// Weights of the coefficients that give the change of a result by it.
+    pub(super) weights: Vec<f64>,
+}
 
 /// The fits of a study: one of all points, or one for each factor of a one-at-a-time design.
 pub(super) fn fits(study: &Study) -> Result<Vec<EffectsFit<'_>>, Refusal> {
@@ -217,21 +221,23 @@ impl<'a> EffectsFit<'a> {
     }
 
     /// Contrasts of the coefficients that are the main effects.
-    pub(super) fn contrasts(&self) -> Vec<Weighted> {
+    pub(super) fn contrasts(&self) -> Vec<WeightedContrast> {
         let contrast = |(column, term): (usize, &Term)| {
             let mut weights = vec![0.0; self.size()];
             weights[column] = 2.0;
             match *term {
                 Term::Line(j) => {
                     let (least, greatest) = self.factors.iter().find(|span| span.0 == j)?.1;
-                    Some((Contrast { factor: j, from: least, to: greatest }, weights))
+                    let contrast = Contrast { factor: j, from: least, to: greatest };
+                    Some(WeightedContrast { contrast, weights })
                 }
                 Term::Word(j, this, reference) => {
                     // The result with the word of reference is the mean over the words minus all their coefficients.
                     let same = |other: &Term| matches!(other, Term::Word(k, ..) if *k == j);
                     let others = (1..).zip(&self.terms).filter(|(at, other)| *at != column && same(other));
                     others.for_each(|(at, _)| weights[at] = 1.0);
-                    Some((Contrast { factor: j, from: reference, to: this }, weights))
+                    let contrast = Contrast { factor: j, from: reference, to: this };
+                    Some(WeightedContrast { contrast, weights })
                 }
                 Term::Square(_) | Term::Product(..) => None,
             }

@@ -1,6 +1,6 @@
 //! The solution of a fit: coefficients, and effects with their intervals.
 
-use super::fit::{EffectsFit, Weighted};
+use super::fit::{EffectsFit, WeightedContrast};
 use super::{Contrast, Refusal};
 use crate::study::PointResults;
 use crate::study::journal::Journal;
@@ -123,9 +123,10 @@ impl FittedCoefficients {
         fit: &EffectsFit<'_>,
         m: usize,
         rest: &Rest,
-        (contrast, weights): &Weighted,
+        of: &WeightedContrast,
         independent: Variance,
     ) -> Effect<Contrast> {
+        let weights = &of.weights;
         let free = (fit.points.len() - fit.size()) as f64;
         let noise = match (self.replicated, fit.study.common_phases) {
             (false, _) => Variance { value: 0.0, degrees: f64::INFINITY },
@@ -146,7 +147,7 @@ impl FittedCoefficients {
         let all = noise.and(Variance { value: unfitted, degrees: free });
         let standard_error = if self.replicated || free > 0.0 { all.value.sqrt() } else { f64::NAN };
         let value = dot(weights, &self.coefficients[m]);
-        Effect::new(*contrast, Difference { value, standard_error, degrees: all.degrees })
+        Effect::new(of.contrast, Difference { value, standard_error, degrees: all.degrees })
     }
 }
 
@@ -169,7 +170,7 @@ impl Rest {
         fit: &EffectsFit<'_>,
         journal: &mut Journal,
         fitted: &FittedCoefficients,
-        contrasts: &[Weighted],
+        contrasts: &[WeightedContrast],
     ) -> Result<Vec<Self>, Error> {
         let none = Self { contrasts: vec![Variance::default(); contrasts.len()], ..Self::default() };
         let mut rest = vec![none; fit.study.quantities.len()];
@@ -188,8 +189,8 @@ impl Rest {
                 if !fit.study.common_phases {
                     let value = results.standard_error(m).map_or(0.0, |error| error * error);
                     rest.noise += value * (1.0 - leverage);
-                    for ((_, weights), sum) in contrasts.iter().zip(&mut rest.contrasts) {
-                        let value = dot(weights, &solved).powi(2) * value;
+                    for (of, sum) in contrasts.iter().zip(&mut rest.contrasts) {
+                        let value = dot(&of.weights, &solved).powi(2) * value;
                         *sum = sum.and(Variance { value, degrees: (results.n as f64 - 1.0).max(1.0) });
                     }
                 }

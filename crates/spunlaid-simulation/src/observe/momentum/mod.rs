@@ -103,7 +103,7 @@ impl MomentumBalance {
                     if i == 0 {
                         balance.root_tension += tension;
                     }
-                    balance.pass([(x, v), (below.x, nodes.velocity[i + 1].x.0[lane])]);
+                    balance.pass(End { x, v }, End { x: below.x, v: nodes.velocity[i + 1].x.0[lane] });
                     if let Some(drag) = nodes.drag.get(i) {
                         balance.drive(0.5 * (x + below.x), drag.x.0[lane]);
                     }
@@ -113,7 +113,7 @@ impl MomentumBalance {
                     balance.push(x - nodes.tension_lag * v, force);
                 } else {
                     // The fibre between the inlet and the root.
-                    balance.pass([(x - balance.element * balance.along, v), (x, v)]);
+                    balance.pass(End { x: x - balance.element * balance.along, v }, End { x, v });
                     balance.instants += 1.0;
                 }
             }
@@ -159,11 +159,13 @@ impl MomentumBalance {
     }
 
     /// Enters an element: its length, and the momentum that it carries past planes. Its mass lies evenly between
-    /// its ends, of which the places and velocities along x are given, and each half has the momentum of its end.
-    fn pass(&mut self, [(x, v), (x_below, v_below)]: [(f64, f64); 2]) {
+    /// its ends, and each half has the momentum of its end.
+    fn pass(&mut self, above: End, below: End) {
         let per_length = self.per_length;
-        let (from, to) = (x.min(x_below) * per_length, x.max(x_below) * per_length);
-        let flux = self.mass * (0.375 * (v * v + v_below * v_below) + 0.25 * v * v_below) * per_length;
+        let from = above.x.min(below.x) * per_length;
+        let to = above.x.max(below.x) * per_length;
+        let squares = 0.375 * (above.v * above.v + below.v * below.v) + 0.25 * above.v * below.v;
+        let flux = self.mass * squares * per_length;
         let classes = from.max(0.0) as usize..(to.max(0.0) as usize + 1).min(self.classes.len());
         for class in classes {
             let inside = (to.min(class as f64 + 1.0) - from.max(class as f64)).max(0.0);
@@ -249,6 +251,13 @@ impl MomentumBalance {
         let length = third as f64 * self.distance / forces.len() as f64;
         (3.0 * second - 2.0 * first - last) / length
     }
+}
+
+/// An end of an element.
+struct End {
+    /// Its place [m] and velocity [m/s] along x.
+    x: f64,
+    v: f64,
 }
 
 /// What is known of the nodes of eight fibres at one instant.
