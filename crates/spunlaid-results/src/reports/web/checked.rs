@@ -307,9 +307,9 @@ pub fn expected_of_web(
 
 /// Time for figures and report, for a cell that a fibre crosses, and for a change of a web of known numbers [s]; time
 /// of a web and of its changes over that of their flights.
-const FIGURES: f64 = 4.0;
-const LAYING: f64 = 2.5e-8;
-const KNOWN: f64 = 1.2;
+const FIGURES: f64 = 1.5;
+const LAYING: f64 = 1.2e-8;
+const KNOWN: f64 = 0.2;
 const FINDING: f64 = 5.0;
 const TRIAL: f64 = 5.4;
 
