@@ -130,6 +130,7 @@ impl<'l> Assembly<'l> {
             return Err(fault.into());
         }
         warnings.extend(hidden(&parts));
+        warnings.extend(coarse(&parts));
         warnings.extend(gaps.warnings());
         let (mut field, more) = join(parts, &gaps)?;
         warnings.extend(more);
@@ -142,6 +143,41 @@ impl<'l> Assembly<'l> {
         (field.lacks, field.sources, field.layout) = (lacks, sources, layout.clone());
         Ok((field, warnings))
     }
+}
+
+/// Velocities in whole steps of at least this, over the largest of them, are reported if the field has at least so many
+/// numbers, and so many different ones, each as often as this on average. A field by hand has fewer.
+const COARSE: f64 = 0.01;
+const FEWEST_NUMBERS: usize = 500;
+const FEWEST_VALUES: usize = 4;
+const ALIKE: usize = 8;
+/// Velocities that are looked at.
+const MOST: usize = 1 << 14;
+
+/// That velocities are written with few digits: between their points, gradients are lost.
+fn coarse(parts: &[Part]) -> Option<Fault> {
+    let all = || parts.iter().flat_map(|part| &part.values.velocity).flat_map(|of| [of.x, of.y, of.z]);
+    let count = all().count();
+    let mut values: Vec<f64> = all().step_by(count.div_ceil(MOST).max(1)).collect();
+    values.sort_by(f64::total_cmp);
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let rounding = 1e-6 * largest;
+    let steps = values.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > rounding);
+    let (step, different) =
+        steps.fold((f64::INFINITY, 1), |(least, count), step| (least.min(step), count + 1));
+    let is_whole = |value: &f64| (value / step - (value / step).round()).abs() < 1e-3;
+    let are_few = count >= FEWEST_NUMBERS && different >= FEWEST_VALUES && values.len() >= ALIKE * different;
+    (are_few && step > COARSE * largest && values.iter().all(is_whole)).then(|| {
+        Fault::new(
+            format!(
+                "has velocities in steps of {} m/s, {} % of the largest; changes between its points that are smaller \
+                 are lost",
+                shortest(step),
+                (100.0 * step / largest).round()
+            ),
+            "write it with more digits",
+        )
+    })
 }
 
 /// A component of the velocity beyond this [m/s], and beyond so many times all others, is a mark of places without a

@@ -295,6 +295,30 @@ fn names_of_many_programs_are_known() {
     );
 }
 
+/// A linear field in a table, rounded to whole metres per second and to hundredths, and air of one velocity.
+#[test]
+fn velocities_with_few_digits_are_reported() {
+    let warnings = |decimals: usize, slope: f64| {
+        let row = |i: u32| {
+            let [x, y, z] = [i % 8, i / 8 % 8, i / 64].map(f64::from);
+            let [u, v] = [17.0 + slope * x, slope * (y - 4.0)];
+            format!("{x},{y},{z},{u:.decimals$},{v:.decimals$},0\n")
+        };
+        let text = format!("x,y,z,u,v,w\n{}", (0..512).map(row).collect::<String>());
+        let (_, warnings) = Field::parse(text.as_bytes(), "air.csv").unwrap();
+        warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let said = warnings(0, 0.37);
+    assert!(
+        said.len() == 1 && said[0].starts_with("has velocities in steps of 1 m/s, 5 % of the largest"),
+        "{said:?}"
+    );
+    assert!(said[0].ends_with("write it with more digits"), "{said:?}");
+    for (decimals, slope) in [(2, 0.37), (0, 0.0)] {
+        assert_eq!(warnings(decimals, slope), [""; 0]);
+    }
+}
+
 #[test]
 fn tables_of_many_programs_are_read() {
     let rows = |numbers: &str, parting: &str| -> String {
