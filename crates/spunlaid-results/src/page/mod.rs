@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! results → a function for each product (run, web, study, …) → Report: headline, notes, sections of parts
-//!   → one template (assets/page.html)
+//!   → one template (templates/page.html)
 //! ```
 //!
 //! `document` has the parts and what is looked at, `table` tables. `words`, `claims` and `methods` say what
