@@ -98,6 +98,11 @@ impl PlacedField {
         format!("[{}, {}, {}]", shown(at.x), shown(at.y), shown(at.z))
     }
 
+    /// A place as a case has it, `["0 m", "25 mm", "0 m"]`.
+    pub fn in_case(at: Vec3<f64>) -> String {
+        Self::in_words(at).replace('[', "[\"").replace(", ", "\", \"").replace(']', "\"]")
+    }
+
     /// The velocity at a place of the fibre's frame [m/s]. The origin is the root.
     pub fn velocity(&self, at: Vec3<f64>, hint: &mut Hint) -> Vec3<f64> {
         self.at(at, hint).velocity

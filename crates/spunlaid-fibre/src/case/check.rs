@@ -73,7 +73,7 @@ impl Check<'_> {
                 "is a place from which the air of the field does not move all along the fibre, as in a wall",
                 "write the place of the spinneret, and the direction of the fibre in air.field_axis",
             );
-            return self.blame_key("air.field_root", PlacedField::in_words(placed.root), fault);
+            return self.blame_key("air.field_root", PlacedField::in_case(placed.root), fault);
         }
         let (run, elements) = (self.case.run, self.case.fibre.elements as u64);
         for key in keys::all() {

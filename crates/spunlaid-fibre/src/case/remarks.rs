@@ -300,7 +300,7 @@ impl Case {
             PlacedField::in_words(low * placed.unit),
             PlacedField::in_words(high * placed.unit)
         ));
-        let value = Some(PlacedField::in_words(placed.root));
+        let value = Some(PlacedField::in_case(placed.root));
         Some(what.with_key("air.field_root", value))
     }
 

@@ -70,7 +70,7 @@ fn rejects_a_root_from_which_the_air_does_not_move_all_along_the_fibre() {
     fs::write(folder.path().join("turning.csv"), text).unwrap();
     let error = read(&folder, "turning.csv", &[]).unwrap_err();
     assert!(
-        error.contains("air.field_root = [0 m, 100 mm, 100 mm]")
+        error.contains("air.field_root = [\"0 m\", \"100 mm\", \"100 mm\"]")
             && error.contains("does not move all along the fibre")
             && error.contains("air.field_axis")
             && !error.contains("NaN"),
