@@ -71,9 +71,9 @@ pub fn next_to_nothing(program: &Program, drawn: &Drawn, results: &Json) -> Outc
         Said::Results(found) => {
             let (wanted, found) = (leaves(results), leaves(&found));
             // Charged filaments have more numbers. Errors of few cells may be known of one flight and not of another,
-            // and of rare places there is a number or a bound.
+            // and of rare places there is a number or a bound. Heights are those at which there is a filament.
             let is_number = |path: &&String| {
-                ["error", "interval", "_se", "degrees", "at_most", "value"]
+                ["/heights/", "error", "interval", "_se", "degrees", "at_most", "value"]
                     .iter()
                     .all(|word| !path.contains(word))
             };
