@@ -111,8 +111,8 @@ fn the_page_of_a_line_shows_what_its_commands_do() {
     let page = std::fs::read_to_string(page).unwrap();
     let blocks: Vec<Vec<&str>> = page
         .split("\n\n")
-        .filter(|block| block.starts_with("    "))
-        .map(|block| block.lines().map(str::trim).collect())
+        .filter(|block| ["    ", "```text"].iter().any(|start| block.starts_with(start)))
+        .map(|block| block.lines().filter(|line| !line.starts_with("```")).map(str::trim).collect())
         .collect();
     let [commands, file, checked, ..] = &blocks[..] else { panic!("{page}") };
     let command = commands.join(" ").replace('\\', "");
