@@ -6,8 +6,9 @@
       --out results/web_independent
     python docs/images/web.py results/web_shared/map.npy results/web_independent/map.npy docs/images/web.png
 
-line_web.png is made
-likewise from the web of docs/line.md, in one air and from the known numbers that its layer tells, with CELLS = 4, and line_cv.png is the figure web_cv.png of the one in one air.
+line_web.png is made in the same way with CELLS = 4: from the web of docs/line.md, and from its linear density, throughput, basis
+weight, and the standard deviations and noise of its layer in summary.json, in a row with a pitch of 0.2 mm. line_cv.png is the
+figure web_cv.png of the first of them.
 """
 
 import array
