@@ -11,5 +11,6 @@ mod lists;
 mod meshes;
 mod points;
 mod refusals;
+mod tables;
 mod times;
 mod vtk;
