@@ -490,8 +490,9 @@ def web(case):
     patches = json.loads(said.out)["web"]["patches"]
     for side, patch in zip(sides, patches):
         wanted, found = cv(sheet, side), patch["cv"]
-        tolerance = max(OF_CV * wanted, OF_ERROR * (patch["cv_standard_error"] or 0.0))
-        if abs(patch["patch_m"] / (side * pixel * 1e-3) - 1) > 1e-3 or not abs(found - wanted) <= tolerance:
+        more = max(OF_CV * wanted, OF_ERROR * (patch["cv_standard_error"] or 0.0))
+        is_right = wanted - OF_CV * wanted <= found <= wanted + more
+        if abs(patch["patch_m"] / (side * pixel * 1e-3) - 1) > 1e-3 or not is_right:
             return f"CV {found:.5f} over {patch['patch_m']:.5g} m for {wanted:.5f} over {side * pixel * 1e-3:.5g} m"
     return None
 
