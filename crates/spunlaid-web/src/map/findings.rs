@@ -205,7 +205,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
     let places = match evidence {
         Evidence::Known => web.places(width),
         _ if web.layers.iter().all(|layer| layer.defects.is_empty()) => Places::Unknown,
-        _ => Places::Fixed,
+        _ => web.places_in_one_air(width),
     };
     let mut patches = Vec::new();
     let uneven = try_par_map(by.threads, sides.len(), |i| Ok(unevenness_at(&map, sides[i], &places)))?;

@@ -244,6 +244,36 @@ impl Layer {
     }
 }
 
+/// Power of the streaks of a layer that are chance, if they had no width.
+struct LayerStreaks<'a> {
+    layer: &'a Layer,
+    /// By the number of filaments at a place.
+    by_number: f64,
+    /// By the holes that have a defect.
+    by_defects: f64,
+}
+
+/// Holes among which chance gives some a defect.
+#[derive(Clone, Copy, Debug)]
+struct DefectiveHoles {
+    among: f64,
+    share: f64,
+    /// What is missing by each, as a fraction of what the layer lays without defects.
+    each: f64,
+}
+
+impl DefectiveHoles {
+    /// What is missing on average, as a fraction.
+    fn mean(self) -> f64 {
+        self.among * self.share * self.each
+    }
+
+    /// Its variance over webs.
+    fn variance(self) -> f64 {
+        self.among * self.share * (1.0 - self.share) * self.each.powi(2)
+    }
+}
+
 /// Most waves of streaks across a sheet.
 const MOST_STREAKS: usize = 512;
 
@@ -257,51 +287,82 @@ impl Web {
     ///
     /// * `width` – of the part [m]
     pub fn places(&self, width: f64) -> Places {
-        let weight = self.basis_weight();
-        let at_random = |layer: &&Layer| layer.filaments.are_at_random();
-        let layers: Vec<(f64, &Layer)> = (self.layers.iter().filter(at_random))
-            .map(|layer| {
-                // Of a web that is wide everywhere, so many filaments lie in this width on average: a Poisson number.
-                let count = layer.count(&self.sheet) as f64 * width / self.sheet.width;
-                ((layer.basis_weight(&self.sheet) / weight).powi(2) / count, layer)
-            })
-            .collect();
-        if layers.is_empty() {
-            return Places::Fixed;
-        }
+        Places::Known(self.streaks(width))
+    }
+
+    /// [`Web::places`] of filaments that share an air, which makes streaks too. What the map has of streaks beyond those
+    /// of defects at random counts as the same in all webs, because one map does not tell.
+    fn places_in_one_air(&self, width: f64) -> Places {
+        Places::Known(Streaks { variance_of_mean: 0.0, has_rows: true, ..self.streaks(width) })
+    }
+
+    fn streaks(&self, width: f64) -> Streaks {
+        let weight = self.weight_with_defects();
+        let of_layer = |number: usize| {
+            let layer = &self.layers[number];
+            let part = (layer.basis_weight(&self.sheet) / weight).powi(2);
+            // Of a web that is wide everywhere, so many filaments lie in this width on average: a Poisson number.
+            let share = width / self.sheet.width;
+            let count = layer.count(&self.sheet) as f64 * share;
+            let by_number = if layer.filaments.are_at_random() { part / count } else { 0.0 };
+            let by_defects =
+                part * self.defective_holes(number, layer).map(DefectiveHoles::variance).sum::<f64>();
+            LayerStreaks { layer, by_number, by_defects: by_defects / share }
+        };
+        let layers: Vec<LayerStreaks<'_>> = (0..self.layers.len()).map(of_layer).collect();
         let power = |number: usize| {
             let wave = 2.0 * std::f64::consts::PI * number as f64 / width;
-            layers.iter().map(|(each, layer)| each * layer.fibres.power_across(wave)).sum::<f64>()
+            layers.iter().map(|of| (of.by_number + of.by_defects) * of.layer.fibres.power_across(wave)).sum()
         };
-        let variance_of_mean = layers.iter().map(|(each, _)| each).sum::<f64>();
         // Shorter waves have hardly a part in streaks.
-        let powers =
-            (1..=MOST_STREAKS).map(power).take_while(|power| *power > 1e-6 * variance_of_mean).collect();
-        Places::AtRandom(Streaks { variance_of_mean, powers })
+        let least = 1e-6 * layers.iter().map(|of| of.by_number + of.by_defects).sum::<f64>();
+        Streaks {
+            variance_of_mean: layers.iter().map(|of| of.by_number).sum(),
+            powers: (1..=MOST_STREAKS).map(power).take_while(|power| *power > least).collect(),
+            has_rows: self.layers.iter().any(|layer| !layer.filaments.are_at_random()),
+        }
     }
 
     /// Variance of the mean basis weight over webs of this kind by the holes that have a defect at random, over its
     /// square.
     pub fn variance_by_defects(&self) -> f64 {
+        let weight = self.weight_with_defects();
         let of_layer = |(number, layer): (usize, &Layer)| {
-            let count = layer.count(&self.sheet) as f64;
-            let of_defect = |defect: &Defect| {
-                let of_all = Defect { share: 1.0, ..*defect };
-                let holes = holes(self.layer_filaments(number, layer), 0, &of_all).len() as f64;
-                // Of filaments at random places, as many as come down there.
-                let is_one = defect.from.is_some() && defect.to.is_none();
-                let (among, share) = match layer.filaments.are_at_random() && !is_one {
-                    true => (count, defect.share * holes / count),
-                    false => (holes, defect.share),
-                };
-                let length =
-                    (defect.until(self.sheet.length, layer.belt_speed) / self.sheet.length).clamp(0.0, 1.0);
-                among * share * (1.0 - share) * ((1.0 - defect.titre) * length / count).powi(2)
-            };
-            let part = layer.basis_weight(&self.sheet) / self.basis_weight();
-            part * part * layer.defects.iter().map(of_defect).sum::<f64>()
+            let part = layer.basis_weight(&self.sheet) / weight;
+            part * part * self.defective_holes(number, layer).map(DefectiveHoles::variance).sum::<f64>()
         };
         self.layers.iter().enumerate().map(of_layer).sum()
+    }
+
+    /// Mean basis weight of webs of this kind, with their defects [kg/m²].
+    fn weight_with_defects(&self) -> f64 {
+        let of_layer = |(number, layer): (usize, &Layer)| {
+            let missing = self.defective_holes(number, layer).map(DefectiveHoles::mean).sum::<f64>();
+            layer.basis_weight(&self.sheet) * (1.0 - missing)
+        };
+        self.layers.iter().enumerate().map(of_layer).sum()
+    }
+
+    /// The holes of each defect of a layer.
+    fn defective_holes<'a>(
+        &'a self,
+        number: usize,
+        layer: &'a Layer,
+    ) -> impl Iterator<Item = DefectiveHoles> + 'a {
+        let count = layer.count(&self.sheet) as f64;
+        layer.defects.iter().map(move |defect| {
+            let of_all = Defect { share: 1.0, ..*defect };
+            let holes = holes(self.layer_filaments(number, layer), 0, &of_all).len() as f64;
+            // Of filaments at random places, as many as come down there.
+            let is_one = defect.from.is_some() && defect.to.is_none();
+            let (among, share) = match layer.filaments.are_at_random() && !is_one {
+                true => (count, defect.share * holes / count),
+                false => (holes, defect.share),
+            };
+            let length =
+                (defect.until(self.sheet.length, layer.belt_speed) / self.sheet.length).clamp(0.0, 1.0);
+            DefectiveHoles { among, share, each: (1.0 - defect.titre) * length / count }
+        })
     }
 
     /// Mass of all filaments over the sheet's area [kg/m²]. With [`Edges::Cut`] some of it may lie beyond the edges.

@@ -72,7 +72,7 @@ fn analytic_streaks_of_filaments_at_random_positions() {
         vec![at_random(1000.0, 2e-7), layer(rows()), Layer { fibres: wide, ..at_random(500.0, 6e-7) }];
     // Masses of 300, 20 and 3 × 150 filaments.
     let each = [(300.0 / 770.0_f64).powi(2) / 100.0, (450.0 / 770.0_f64).powi(2) / 50.0];
-    let Places::AtRandom(streaks) = web(layers).places(0.1) else { panic!("fixed places") };
+    let Places::Known(streaks) = web(layers).places(0.1) else { panic!("unknown places") };
     close(streaks.variance_of_mean, each[0] + each[1]);
     let power = |number: usize| {
         let part = |sigma: f64| (-(2.0 * PI * number as f64 / 0.1 * sigma).powi(2)).exp();
@@ -81,7 +81,33 @@ fn analytic_streaks_of_filaments_at_random_positions() {
     let count = (1..).take_while(|number| power(*number) > 1e-6 * streaks.variance_of_mean).count();
     assert_eq!(streaks.powers.len(), count);
     streaks.powers.iter().enumerate().for_each(|(i, found)| close(*found, power(i + 1)));
-    assert_eq!(web(vec![layer(rows())]).places(0.1), Places::Fixed);
+    assert!(streaks.has_rows);
+    let even = Streaks { variance_of_mean: 0.0, powers: Vec::new(), has_rows: true };
+    assert_eq!(web(vec![layer(rows())]).places(0.1), Places::Known(even));
+}
+
+/// Holes that have a defect at random make streaks of the power that filaments at random positions have, each with the
+/// missing mass, over the square of what is left. Their number is in `variance_by_defects`.
+#[test]
+fn analytic_streaks_of_holes_with_a_defect_at_random() {
+    let defect = Defect { share: 0.2, titre: 0.25, ..Defect::USUAL };
+    let with = |filaments: Filaments| Layer { defects: vec![defect], ..layer(filaments) };
+    let at_random = Filaments::AtRandom { per_metre: 500.0 };
+    for (layer, by_number) in [(with(rows()), 0.0), (with(at_random), 1.0 / 150.0)] {
+        let count = layer.count(&web(Vec::new()).sheet) as f64;
+        let by_defects = 0.2 * 0.8 * 0.75 * 0.75 / count;
+        // On a third of the width a third of the holes, with three times the variance.
+        let [whole, third] = [0.3, 0.1].map(|width| web(vec![layer.clone()]).streaks(width));
+        let expected = (by_number + by_defects) / 0.85_f64.powi(2);
+        for (streaks, width, times) in [(whole, 0.3, 1.0), (third, 0.1, 3.0)] {
+            close(streaks.variance_of_mean, times * by_number / 0.85_f64.powi(2));
+            let width_of_one = (-(2.0 * PI / width * 8e-3_f64).powi(2)).exp();
+            close(streaks.powers[0], times * expected * width_of_one);
+            assert_eq!(streaks.has_rows, by_number == 0.0);
+        }
+    }
+    let in_one_air = web(vec![with(rows())]).places_in_one_air(0.3);
+    assert_eq!(in_one_air, web(vec![with(rows())]).places(0.3));
 }
 
 /// Of holes with a defect at random the number is binomial, each with its missing mass. So is, of filaments at random
@@ -92,11 +118,14 @@ fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let of = |filaments: Filaments, defect: Defect| Layer { defects: vec![defect], ..layer(filaments) };
     let at_random = Filaments::AtRandom { per_metre: 500.0 };
     let alone = |layer: Layer| web(vec![layer]).variance_by_defects();
-    let binomial = |part: f64, missing: f64| part * (1.0 - part) * missing * missing;
-    close(alone(of(rows(), defect)), 20.0 * binomial(0.2, 0.75 / 20.0));
-    close(alone(of(rows(), Defect { row: Some(2), ..defect })), 10.0 * binomial(0.2, 0.75 / 20.0));
+    // Over the square of what is left of the weight.
+    let of_holes = |holes: f64, of: f64, part: f64, missing: f64| {
+        holes * part * (1.0 - part) * (missing / of / (1.0 - holes / of * part * missing)).powi(2)
+    };
+    close(alone(of(rows(), defect)), of_holes(20.0, 20.0, 0.2, 0.75));
+    close(alone(of(rows(), Defect { row: Some(2), ..defect })), of_holes(10.0, 20.0, 0.2, 0.75));
     // After 25 ms it is so on the first 300 of 400 mm; after 0.2 s on none.
-    close(alone(of(rows(), Defect { after: 0.025, ..defect })), 20.0 * binomial(0.2, 0.75 * 0.75 / 20.0));
+    close(alone(of(rows(), Defect { after: 0.025, ..defect })), of_holes(20.0, 20.0, 0.2, 0.75 * 0.75));
     close(alone(of(rows(), Defect { after: 0.2, ..defect })), 0.0);
     // One hole, or all of some, are the same in each web.
     close(alone(of(rows(), Defect { from: Some(3e-3), share: 1.0, ..defect })), 0.0);
@@ -106,12 +135,12 @@ fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let inlets = inlets(&web(Vec::new()).sheet, 5, 0, &at_random);
     let part = inlets.iter().filter(|inlet| inlet.z <= 0.15).count() as f64 / 150.0;
     assert!((0.3..0.7).contains(&part));
-    close(alone(of(at_random.clone(), of_half)), 150.0 * binomial(part, 0.75 / 150.0));
+    close(alone(of(at_random.clone(), of_half)), of_holes(150.0, 150.0, part, 0.75));
     // Layers add up, by the squares of their fractions of the mass, and so do defects.
     let both = web(vec![of(rows(), defect), layer(at_random)]).variance_by_defects();
-    close(both, (20.0_f64 / 170.0).powi(2) * 20.0 * binomial(0.2, 0.75 / 20.0));
+    close(both, 20.0 * 0.2 * 0.8 * (0.75_f64 / (170.0 - 20.0 * 0.2 * 0.75)).powi(2));
     let twice = Layer { defects: vec![defect; 2], ..layer(rows()) };
-    close(alone(twice), 40.0 * binomial(0.2, 0.75 / 20.0));
+    close(alone(twice), 40.0 * 0.2 * 0.8 * (0.75_f64 / (20.0 - 40.0 * 0.2 * 0.75)).powi(2));
 }
 
 #[test]

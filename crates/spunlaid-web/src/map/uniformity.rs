@@ -72,15 +72,14 @@ pub fn unevenness_at(map: &Map, side: usize, places_of_filaments: &Places) -> Op
     let (squares, powers) = deviations(map, side)?;
     let of_mean = match places_of_filaments {
         Places::Unknown => powers.as_ref().map_or(0.0, |powers| powers.variance_of_mean(map.closed)),
-        Places::AtRandom(streaks) => streaks.variance_of_mean,
-        Places::Fixed => 0.0,
+        Places::Known(streaks) => streaks.variance_of_mean,
     };
     let cv = (squares + of_mean).sqrt();
     let error = powers.and_then(|powers| {
         let mut parts = Parts::default();
         let places = match places_of_filaments {
-            Places::AtRandom(streaks) => Places::AtRandom(streaks.over(side as f64 / map.columns as f64)),
-            other => other.clone(),
+            Places::Known(streaks) => Places::Known(streaks.over(side as f64 / map.columns as f64)),
+            Places::Unknown => Places::Unknown,
         };
         powers.numbers().for_each(|wave| powers.add(wave, &places, 0, 1.0, &mut parts));
         let share = parts.share([false; 2]);
@@ -119,8 +118,8 @@ pub fn variance_of_mean(map: &Map, side: usize, share: f64, places: &Places) -> 
     });
     let crossed = 2.0 * (squares - sum * sum / profile.len() as f64) / profile.len() as f64;
     let by_number = match places {
-        Places::AtRandom(streaks) => streaks.variance_of_mean,
-        _ => 0.0,
+        Places::Known(streaks) => streaks.variance_of_mean,
+        Places::Unknown => 0.0,
     };
     ends + by_number * (1.0 - share).max(0.0) + (crossed - by_number / 3.0).max(0.0)
 }
@@ -270,7 +269,9 @@ mod tests {
             variance_of_mean(&map([1000, 4], closed, heavier), 1, share, places)
         };
         let crossed = 0.04 / 24.0;
-        let random = |variance_of_mean| Places::AtRandom(Streaks { variance_of_mean, powers: Vec::new() });
+        let random = |variance_of_mean| {
+            Places::Known(Streaks { variance_of_mean, powers: Vec::new(), has_rows: false })
+        };
         for (closed, share, places, wanted) in [
             ([true, true], 0.5, Places::Unknown, 0.0),
             ([false, true], 0.5, Places::Unknown, crossed),
@@ -316,7 +317,8 @@ mod tests {
         // A position is a whole cell, up to half of one off where it should be.
         let ratio = found.standard_error.unwrap() / (0.5 * found.cv / 31f64.sqrt());
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
-        let streaks = of(&Places::AtRandom(Streaks { variance_of_mean: 0.001, powers: Vec::new() }));
+        let streaks =
+            of(&Places::Known(Streaks { variance_of_mean: 0.001, powers: Vec::new(), has_rows: false }));
         assert!((streaks.cv.powi(2) - found.cv.powi(2) - 0.001).abs() < 1e-12, "{streaks:?}");
     }
 }

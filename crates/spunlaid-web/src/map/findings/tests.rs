@@ -328,7 +328,7 @@ fn analytic_a_web_within_its_edges() {
             .collect();
         2.0 * (all.iter().map(|x| x * x).sum::<f64>() / 9.0 - (all.iter().sum::<f64>() / 9.0).powi(2))
     };
-    let by_defects = 200.0 * 0.2 * 0.8 * (0.75_f64 / 200.0).powi(2);
+    let by_defects = 200.0 * 0.2 * 0.8 * (0.75_f64 / 200.0 / 0.85).powi(2);
     close(error.unwrap_or(0.0), 51e-3 * (crossed + by_defects).sqrt());
     close(found.fibre_length, 200.0 * 2.0);
     // Of filaments at random positions the number varies on the 70 mm between the edges, and not on the sheet.
