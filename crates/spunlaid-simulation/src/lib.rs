@@ -26,7 +26,7 @@ pub mod shared_turbulence;
 pub use ensemble::{
     CellSource, Change, Curve, CurveValue, EndPath, EndPoint, FinerCheck, FinerChecks, FinerPlans, Job,
     KeepShapes, LaidCurves, LineFilaments, LostFibre, Number, Recorded, Recorder, Refinement, Results,
-    RunPaths, Shape, Shapes, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
+    RunPaths, Shape, Shapes, Silence, Sources, SpectrumPoint, Statistic, Trajectory, Unchecked,
 };
 pub use layers::SAME;
 pub use layers::{

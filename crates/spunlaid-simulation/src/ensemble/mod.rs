@@ -10,8 +10,8 @@ mod turbulence;
 
 pub use crate::observe::Sample;
 pub use finer::{
-    Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Statistic,
-    Unchecked,
+    Change, FinerCheck, FinerChecks, FinerPlan, FinerPlans, Refinement, Refinements, RunPaths, Silence,
+    Statistic, Unchecked,
 };
 pub use order::in_order;
 pub use results::{Collector, Curve, CurveValue, LostFibre, Number, Results};

@@ -4,7 +4,7 @@
 use crate::numbers::{capitalised, plus_minus, significant};
 use spunlaid_fibre::{Case, Checks};
 use spunlaid_ground::{Dimension, Estimate};
-use spunlaid_simulation::{Change, FinerCheck, FinerChecks, Refinement, Unchecked};
+use spunlaid_simulation::{Change, FinerCheck, FinerChecks, Refinement, Silence, Unchecked};
 
 /// Error of step or mesh that is small enough [-].
 pub(super) const FINE_ENOUGH: f64 = 0.03;
@@ -26,9 +26,31 @@ fn has_converged(check: &FinerCheck, change: &Change) -> bool {
     check.error_over(change).is_some() || least(check, change) <= NOT_CONVERGED
 }
 
-/// The change of a measure that has not converged with the mesh: length of the finest elements with which it was
-/// compared [m], and how far it is from theirs.
-pub(super) fn not_converged(measure: &str, checks: &FinerChecks) -> Option<(f64, Estimate)> {
+/// How far a number is from that of the finest elements with which it was compared.
+pub(super) struct FromFinest {
+    /// Their length [m].
+    pub length: f64,
+    /// The difference as a share, of the number or of its size.
+    pub difference: f64,
+    /// Root mean square of a number of both signs, in its unit; none of another one.
+    pub size: Option<f64>,
+}
+
+impl FromFinest {
+    /// `44 % lower than with elements of 12.5 mm`.
+    fn describe(&self) -> String {
+        format!(
+            "{} %{} {} than with elements of {}",
+            significant(100.0 * self.difference.abs(), 2),
+            if self.size.is_some() { " of its root mean square" } else { "" },
+            if self.difference < 0.0 { "lower" } else { "higher" },
+            Dimension::Length.pretty_to(self.length, 3)
+        )
+    }
+}
+
+/// The change of a measure that has not converged with the mesh.
+pub(super) fn not_converged(measure: &str, checks: &FinerChecks) -> Option<FromFinest> {
     let check = checks.mesh.as_ref().ok()?;
     let of_statistic = check.change_of_statistic(measure);
     let change = of_statistic.or_else(|| check.change_of(measure))?;
@@ -37,31 +59,26 @@ pub(super) fn not_converged(measure: &str, checks: &FinerChecks) -> Option<(f64,
 
 /// Why a measure has no error though its run was checked; none if it has one.
 pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String> {
-    let silent = checks.all().find(|check| check.is_silent_about(measure));
-    let silent = silent.map(|check| {
-        format!(
-            "error not known: waves along the fibre decide this number, and the check of the {} does not follow them",
-            check.refined.name()
-        )
+    let silent = checks.all().find_map(|check| Some((check.refined.name(), check.silence_about(measure)?)));
+    let silent = silent.map(|(refined, silence)| match silence {
+        Silence::AxialWaves => format!(
+            "error not known: waves along the fibre decide this number, and the check of the {refined} does not \
+            follow them"
+        ),
+        Silence::Chance => format!(
+            "error not known: this number is close to zero, and the check of the {refined} is too short to tell how \
+            much it changes"
+        ),
     });
     let open = not_converged(measure, checks);
-    open.map(|(length, change)| format!("not converged: {}", compared_with_finest(length, &change)))
-        .or(silent)
+    open.map(|finest| format!("not converged: {}", finest.describe())).or(silent)
 }
 
-/// Length of the finest elements [m], and what they change.
-fn finest(check: &FinerCheck, change: &Change) -> (f64, Estimate) {
-    change.from_quarter.clone().unwrap_or((check.element_length, change.estimate.clone()))
-}
-
-/// `44 % lower than with elements of 12.5 mm`.
-pub(super) fn compared_with_finest(length: f64, change: &Estimate) -> String {
-    format!(
-        "{} % {} than with elements of {}",
-        significant(100.0 * change.mean.abs(), 2),
-        if change.mean < 0.0 { "lower" } else { "higher" },
-        Dimension::Length.pretty_to(length, 3)
-    )
+fn finest(check: &FinerCheck, change: &Change) -> FromFinest {
+    let own = (check.element_length, &change.estimate);
+    let (length, estimate) =
+        change.from_quarter.as_ref().map_or(own, |(length, estimate)| (*length, estimate));
+    FromFinest { length, difference: estimate.mean, size: change.size }
 }
 
 /// Changes that count. The texture of a laid fibre is that of its elements, and is reported as such.
@@ -158,9 +175,7 @@ fn unsettled(checks: &FinerChecks) -> Option<String> {
     let check = checks.mesh.as_ref().ok()?;
     let each: Vec<String> = beyond(check, false)
         .map(|change| {
-            let (length, off) = finest(check, change);
-            let off = compared_with_finest(length, &off);
-            format!("the {} is {off}", change.statistic.label.to_lowercase())
+            format!("the {} is {}", change.statistic.label.to_lowercase(), finest(check, change).describe())
         })
         .collect();
     let finer = Dimension::Length.pretty_to(finer_elements(check), 3);
@@ -212,16 +227,19 @@ pub(super) fn unchecked(refined: Refinement, why: &Unchecked) -> String {
 /// that has not converged has no error. What chance does to a single replicate is not known, nor is its error.
 ///                                                                                             theory.md (58)
 pub fn with_error_of_checks(estimate: Estimate, measure: &str, checks: &FinerChecks) -> Estimate {
-    let square = |check: &FinerCheck| {
-        // From the value of the limit, or of the finer flight, to that of the run. Chance is in the square of what was
-        // found too.
-        let off = |error: &Estimate| {
-            let ratio = 1.0 + error.mean.max(-0.95);
-            let by_chance = error.standard_error.unwrap_or(0.0) / ratio;
-            (estimate.mean / ratio).powi(2) * ((ratio - 1.0).powi(2) - by_chance.powi(2)).max(0.0)
+    // From the value of the limit, or of the finer flight, to that of the run. Chance is in the square of what was
+    // found too.
+    let square_of = |error: &Estimate, size: Option<f64>| {
+        let ratio = 1.0 + error.mean.max(-0.95);
+        let (of, off, by_chance) = match size {
+            Some(size) => (size, error.mean, error.standard_error.unwrap_or(0.0)),
+            None => (estimate.mean / ratio, ratio - 1.0, error.standard_error.unwrap_or(0.0) / ratio),
         };
-        let errors = check.change_of(measure).map(|change| errors(check, change));
-        errors.iter().flatten().map(off).fold(0.0, f64::max)
+        of * of * (off * off - by_chance * by_chance).max(0.0)
+    };
+    let square = |check: &FinerCheck| {
+        let Some(change) = check.change_of(measure) else { return 0.0 };
+        errors(check, change).iter().map(|error| square_of(error, change.size)).fold(0.0, f64::max)
     };
     let of_checks: f64 = checks.all().map(square).sum();
     let is_known = why_unknown(measure, checks).is_none();
@@ -321,6 +339,33 @@ mod tests {
         };
         assert!(is_known(true, "strain_99") && !is_known(false, "strain_99"));
         assert!(!is_known(true, "peak_root_tension") && is_known(false, "sigma_md"));
+    }
+
+    /// The mean of a number of both signs may be close to zero by chance. Its change is a share of its root mean square,
+    /// and its error does not follow how close to zero it is.
+    #[test]
+    fn the_error_of_a_number_close_to_zero_does_not_follow_the_number() {
+        let error = |mean: f64, change: f64, of_change: f64, size: Option<f64>| {
+            let mut checks = checks(change, of_change, 1.0);
+            checks.step.as_mut().unwrap().changes[0].size = size;
+            checks.mesh =
+                checks.step.clone().map(|check| FinerCheck { refined: Refinement::Elements, ..check });
+            let estimate = Estimate { mean, standard_error: Some(3e-5), values: Vec::new() };
+            let why = why_unknown("sigma_md", &checks);
+            (with_error_of_checks(estimate, "sigma_md", &checks).standard_error, why)
+        };
+        let off = 2e-3_f64.hypot(2e-3) * (0.08f64.powi(2) - 0.01f64.powi(2)).sqrt();
+        for mean in [1e-6, -1e-3, 5e-3] {
+            let (found, _) = error(mean, -0.08, 0.01, Some(2e-3));
+            assert!((found.unwrap() / off.hypot(3e-5) - 1.0).abs() < 1e-12, "{mean}: {found:?}");
+        }
+        let (found, why) = error(1e-6, -0.9, 0.01, Some(2e-3));
+        let said = "not converged: 90 % of its root mean square lower than with elements of 2 mm";
+        assert_eq!((found, why.as_deref()), (None, Some(said)));
+        // Chance in the check is as large as the number; one that keeps its sign has its error all the same.
+        let (found, why) = error(1e-6, -0.1, 0.3, Some(2e-3));
+        assert!(found.is_none() && why.unwrap().starts_with("error not known: this number is close to zero"));
+        assert!(error(1e-6, -0.1, 0.3, None).0.is_some());
     }
 
     /// A change of unknown order that is surely beyond a tenth is no error, but a number that has not converged.

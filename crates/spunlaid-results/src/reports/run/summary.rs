@@ -1,6 +1,6 @@
 //! `summary.json`: all results of a run.
 
-use super::doubt;
+use super::doubt::{self, FromFinest};
 use crate::files::measured::{joined, known};
 use crate::files::origin::Performance;
 use crate::files::versioned_json;
@@ -97,8 +97,10 @@ fn summary_of(number: &Number, checks: &FinerChecks) -> Json {
         json!({"error": whole.standard_error})
     };
     let open = || match doubt::not_converged(name, checks) {
-        Some((length, change)) => {
-            json!({"not_converged": {"element_length_m": length, "difference": change.mean}})
+        Some(FromFinest { length, difference, size }) => {
+            let share = json!({"element_length_m": length, "difference": difference});
+            let size = size.map_or(json!({}), |size| json!({"root_mean_square": size}));
+            json!({"not_converged": joined([share, size])})
         }
         None => match doubt::why_unknown(name, checks) {
             Some(why) => json!({"why_no_error": why}),

@@ -95,14 +95,32 @@ impl FinerPlan {
         let each = each.map(|((a, b), c)| [a, b, c].map(|simulated| statistic.measure(simulated)));
         let each: Vec<[f64; 3]> = each.filter(|of| of.iter().all(|value| value.is_finite())).collect();
         let is_rounding = each.iter().all(|of| of[1].abs() <= self.least());
-        let ratio = |a: usize, b: usize| ratio(&each.iter().map(|of| [of[a], of[b]]).collect::<Vec<_>>());
-        let mut change = Change::new(statistic, ratio(0, 1).filter(|_| !is_rounding)?);
-        if let Some((finest, next)) = self.finest.as_ref().zip(ratio(1, 2)) {
-            change.is_second_order = self.resolves_eddies && shows_second_order(&change.estimate, &next);
-            change.from_quarter = ratio(0, 2).map(|estimate| (finest.fibre.rest_length(), estimate));
+        let size = size_of_both_signs(&each);
+        let change = |a: usize, b: usize| {
+            let pairs: Vec<[f64; 2]> = each.iter().map(|of| [of[a], of[b]]).collect();
+            size.map_or_else(|| ratio(&pairs), |size| Some(differences(&pairs, size)))
+        };
+        let estimate = change(0, 1).filter(|_| !is_rounding)?;
+        let mut found = Change { size, ..Change::new(statistic, estimate) };
+        if let Some((finest, next)) = self.finest.as_ref().zip(change(1, 2)) {
+            found.is_second_order = self.resolves_eddies && shows_second_order(&found.estimate, &next);
+            found.from_quarter = change(0, 2).map(|estimate| (finest.fibre.rest_length(), estimate));
         }
-        Some(change)
+        Some(found)
     }
+}
+
+/// Root mean square of a statistic that has both signs; none of one that keeps its sign. The mean of such a statistic
+/// may be close to zero by chance, so that no change is a share of it.
+fn size_of_both_signs(each: &[[f64; 3]]) -> Option<f64> {
+    let all = || each.iter().flatten();
+    let has_both_signs = all().any(|value| *value > 0.0) && all().any(|value| *value < 0.0);
+    has_both_signs.then(|| (all().map(|value| value * value).sum::<f64>() / all().count() as f64).sqrt())
+}
+
+/// Differences of pairs of the same turbulence, as shares of a size.
+fn differences(pairs: &[[f64; 2]], size: f64) -> Estimate {
+    Estimate::new(pairs.iter().map(|[a, b]| (a - b) / size).collect())
 }
 
 /// Whether a change falls fourfold with the next halving, as it does of second order: four times the next one is

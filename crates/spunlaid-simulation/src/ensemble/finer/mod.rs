@@ -103,12 +103,21 @@ pub struct Change {
     pub from_quarter: Option<(f64, Estimate)>,
     /// Whether both refinements show that the error falls with the square of the element length.
     pub is_second_order: bool,
+    /// Root mean square of a statistic that has both signs, in its unit: changes are shares of it. None of one that
+    /// keeps its sign, whose changes are shares of itself.
+    pub size: Option<f64>,
 }
 
 impl Change {
     /// A change that says nothing about the order of convergence.
     pub const fn new(statistic: &'static Statistic, estimate: Estimate) -> Self {
-        Self { statistic, estimate, from_quarter: None, is_second_order: false }
+        Self { statistic, estimate, from_quarter: None, is_second_order: false, size: None }
+    }
+
+    /// Whether it is known to no better than a quarter of the size of a statistic that has both signs. Pairs that have
+    /// nothing in common know it to a half.
+    fn is_lost_in_chance(&self) -> bool {
+        self.size.is_some() && self.estimate.standard_error.is_none_or(|error| error > 0.25)
     }
 
     /// What the finer flights change, from the half on.
@@ -147,6 +156,15 @@ pub struct FinerCheck {
     pub changes: Vec<Change>,
     /// The changes of single measures; none where only paths are compared.
     pub of_measures: Vec<Change>,
+}
+
+/// Why a check says nothing of a measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Silence {
+    /// The axial waves of the fibre decide the measure, and they are others in another scheme.
+    AxialWaves,
+    /// The measure has both signs, and the flights of the check are too few to tell what changes.
+    Chance,
 }
 
 /// What there is for each refinement, or the reason why there is nothing.
@@ -198,11 +216,14 @@ impl FinerCheck {
         own.or_else(|| self.change_of_statistic(measure))
     }
 
-    /// Whether it cannot say what step or mesh do to a measure: the axial waves of the fibre decide the measure, and
-    /// they are others in another scheme.
-    pub fn is_silent_about(&self, measure: &str) -> bool {
-        let compares = self.has_scheme_of_run && self.change_of(measure).is_some();
-        !compares && follows_axial_waves(measure, self.is_fed)
+    /// Why it cannot say what step or mesh do to a measure; none if it can.
+    pub fn silence_about(&self, measure: &str) -> Option<Silence> {
+        let change = self.change_of(measure);
+        let is_other_scheme = !self.has_scheme_of_run || change.is_none();
+        if is_other_scheme && follows_axial_waves(measure, self.is_fed) {
+            return Some(Silence::AxialWaves);
+        }
+        change.is_some_and(Change::is_lost_in_chance).then_some(Silence::Chance)
     }
 
     /// What differs, by its name, `path_difference` or `amplitude_difference`, and the factor from it to the error, as
