@@ -199,6 +199,16 @@ impl Air {
         self.harmonics as f64 / self.cutoff_frequency
     }
 
+    /// How long the turbulence at a place is correlated [s]: for as long as three eddies take to pass, or three quarters
+    /// of the shortest period. Zero without turbulence.
+    pub fn memory(&self) -> f64 {
+        const TIMES: f64 = 3.0;
+        match self.turbulence_intensity > 0.0 {
+            true => TIMES * (self.length_scale / self.velocity.abs()).max(0.25 / self.cutoff_frequency),
+            false => 0.0,
+        }
+    }
+
     /// The number of harmonics if the case does not give it: a power of two, at least 128.
     ///
     /// Their repeat time is at least twice `duration` [s], so that one window lasts for the flight. Long flights

@@ -164,3 +164,12 @@ fn analytic_fed_fibres_feel_the_widening_of_a_profile() {
         }
     }
 }
+
+/// Three eddies of 10 mm pass in 0.5 ms at 60 m/s, and three quarters of a period of 50 Hz in 15 ms.
+#[test]
+fn analytic_air_is_correlated_while_eddies_pass_or_for_its_shortest_period() {
+    let memory = |intensity: f64, cutoff: f64| Air::uniform(60.0, intensity, 10e-3, cutoff).memory();
+    for (found, wanted) in [(memory(0.1, 10e3), 5e-4), (memory(0.1, 50.0), 15e-3), (memory(0.0, 50.0), 0.0)] {
+        assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+    }
+}

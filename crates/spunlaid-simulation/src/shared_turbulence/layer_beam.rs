@@ -40,7 +40,8 @@ const LONGEST_ELEMENT: f64 = 0.5;
 /// Width of filaments beside each other of which those beside them hardly know, in parts of the distance
 /// after which the air repeats itself at least, which is ten length scales.
 const APART: f64 = 0.5;
-/// Length of fed fibre after which eddies are forgotten, in lengths of the fibre that hangs between inlet and belt.
+/// Length of fed fibre after which eddies are forgotten, in lengths of the fibre that hangs between inlet and belt, or
+/// longer where the air itself changes slowly.
 const MEMORY: f64 = 2.0;
 
 /// A layer of a web that is filled in from few of its filaments.
@@ -269,7 +270,9 @@ impl LayerBeam<'_> {
         let group =
             |filament: usize| (self.places[filament].z / sheet.width * groups).clamp(0.0, groups - 1.0);
         let groups = filaments.into_iter().map(|filament| group(filament) as usize);
-        OneAir { groups: groups.collect(), memory: MEMORY * hanging }
+        let feed_speed = case.line.map_or(0.0, |line| line.feed_speed);
+        let same_air = case.air.memory() * feed_speed;
+        OneAir { groups: groups.collect(), memory: same_air.max(MEMORY * hanging) }
     }
 }
 

@@ -15,7 +15,7 @@ use spunlaid_web::{Correlation, Edges, NeighbourCorrelation, Sheet};
 /// length scales.
 const FARTHEST: f64 = 0.5;
 /// Least length of a stretch, in ways from inlet to belt: eddies that were near the belt at its start are
-/// forgotten at its end.
+/// forgotten at its end, unless the air itself changes more slowly.
 const STRETCH: f64 = 2.0;
 /// Most stretches, about.
 const STRETCHES: f64 = 32.0;
@@ -99,7 +99,8 @@ impl Neighbours {
         let spacing = case.fibre.rest_length();
         let (way, feed_speed) = case.line.map_or((0.0, 0.0), |line| (line.distance, line.feed_speed));
         let time = beam.steps(sheet) as f64 / count.max(1) as f64 * case.run.time_step;
-        let stretch = (STRETCH * way).max(feed_speed * time / STRETCHES);
+        let longest_memory = (STRETCH * way).max(feed_speed * case.air.memory());
+        let stretch = longest_memory.max(feed_speed * time / STRETCHES);
         let farthest = FARTHEST * case.extent_of_air().z;
         Self {
             distances: distances(beam.places, farthest, sheet),

@@ -308,6 +308,8 @@ const WAYS_OF_STRETCH: f64 = 2.0;
 #[derive(Clone, Debug)]
 pub(crate) struct StretchedBalance {
     stretch: f64,
+    /// See [`Air::memory`](spunlaid_air::Air::memory) [s].
+    memory: f64,
     empty: MomentumBalance,
     stretches: Vec<MomentumBalance>,
 }
@@ -316,7 +318,7 @@ impl StretchedBalance {
     pub(crate) fn new(case: &Case) -> Self {
         let way = case.line.map_or(f64::NAN, |line| line.distance / line.feed_speed);
         let empty = MomentumBalance::of(case);
-        Self { stretch: WAYS_OF_STRETCH * way, empty, stretches: Vec::new() }
+        Self { stretch: WAYS_OF_STRETCH * way, memory: case.air.memory(), empty, stretches: Vec::new() }
     }
 
     /// Adds an instant of all lanes.
@@ -344,13 +346,15 @@ impl StretchedBalance {
     }
 
     /// Means and standard errors over the stretches; empty without one. The last one is left out if it is not
-    /// whole. A slack fibre takes longer to the belt, and its stretches know of more of those before.
+    /// whole. A slack fibre takes longer to the belt, and its stretches know of more of those before, as do those in air
+    /// that changes slowly.
     pub(crate) fn way(&self) -> Vec<WayPlace> {
         let fullest = self.stretches.iter().map(|balance| balance.instants).fold(0.0, f64::max);
         let whole = || self.stretches.iter().filter(|balance| balance.instants > 0.9 * fullest);
         let all: Vec<[Vec<f64>; 2]> = whole().map(|balance| [balance.forces(), balance.lengths()]).collect();
         let lengths = || all.iter().flat_map(|[_, lengths]| lengths);
-        let memory = (lengths().sum::<f64>() / lengths().count() as f64).round() as usize;
+        let of_fibre = (lengths().sum::<f64>() / lengths().count() as f64).round();
+        let memory = of_fibre.max((self.memory / self.stretch).ceil()) as usize;
         let at = |(class, distance): (usize, f64)| {
             let values =
                 |which: usize| all.iter().filter_map(move |of| of[which].get(class).copied()).collect();
@@ -366,7 +370,7 @@ impl StretchedBalance {
 
 /// Standard error of the mean of values one after the other, which know of each other over some steps: with products of
 /// neighbours that count less the farther they are apart (Bartlett), and with what is lost because the mean is found
-/// from the same values. None of less than two.
+/// from the same values. None of less than two, or less than twice as many as know of each other.
 ///
 /// * `memory` – steps
 fn error_of_series(values: &[f64], memory: usize) -> Option<f64> {
@@ -378,5 +382,6 @@ fn error_of_series(values: &[f64], memory: usize) -> Option<f64> {
         (products + weight * (values[i] - mean) * (values[j] - mean), weights + weight)
     });
     let left = count * count - weights;
-    (values.len() > 1 && left > 0.0).then(|| (products.max(0.0) / left).sqrt())
+    let are_enough = values.len() > 1 && values.len() >= memory.saturating_add(1).saturating_mul(2);
+    (are_enough && left > 0.0).then(|| (products.max(0.0) / left).sqrt())
 }
