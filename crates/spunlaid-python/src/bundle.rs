@@ -14,34 +14,63 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// What is computed, as any machine reads it: what it is, the text of its file, and a checksum over all of it.
-pub(crate) type Packed = (String, String, u32);
-/// A point of a bundle: its index in the study, what it is, the text of its file, a checksum over all of it,
-/// and the replicates to make, from the first to before the last.
-pub(crate) type BundlePart = (u64, String, String, u32, u64, u64);
+/// A point of a bundle, as any machine reads it; a dictionary in Python.
+#[derive(FromPyObject, IntoPyObject)]
+pub(crate) struct BundlePart {
+    /// Its index in the study.
+    #[pyo3(item)]
+    point: u64,
+    /// What is computed: a case, a web or a spinline.
+    #[pyo3(item)]
+    noun: String,
+    /// The text of its file.
+    #[pyo3(item)]
+    text: String,
+    /// See [`checksum`].
+    #[pyo3(item)]
+    checksum: u32,
+    /// The first of its replicates.
+    #[pyo3(item)]
+    first: u64,
+    /// The one after the last of them.
+    #[pyo3(item)]
+    end: u64,
+}
 
-/// What a machine gives back of a replicate: its point and its number, its measures, and of a fibre that was lost,
-/// which has none, node and time.
-pub(crate) type Row = (u64, u64, Vec<f64>, Option<(u64, f64)>);
+/// What a machine gives back of a replicate; a dictionary in Python.
+#[derive(FromPyObject, IntoPyObject)]
+pub(crate) struct ComputedReplicate {
+    #[pyo3(item)]
+    point: u64,
+    #[pyo3(item)]
+    replicate: u64,
+    /// Its measures; none of a lost fibre.
+    #[pyo3(item)]
+    values: Vec<f64>,
+    /// Node and time of a fibre that was lost.
+    #[pyo3(item)]
+    lost: Option<(u64, f64)>,
+}
 
 /// What a machine needs to make batches of points.
 pub(crate) fn parts(points: &[Point], batches: &[Batch]) -> Vec<BundlePart> {
     let part = |Batch { point, replicates: Range { start, end } }: &Batch| {
-        let (noun, text, sum) = packed(&points[*point].experiment);
-        (*point as u64, noun, text, sum, *start, *end)
+        let experiment = make_portable(&points[*point].experiment);
+        BundlePart {
+            point: *point as u64,
+            noun: experiment.noun().to_owned(),
+            text: write_experiment(&experiment),
+            checksum: checksum(&experiment),
+            first: *start,
+            end: *end,
+        }
     };
     batches.iter().map(part).collect()
 }
 
-/// What is computed, for another machine.
-fn packed(experiment: &Experiment) -> Packed {
-    let experiment = make_portable(experiment);
-    (experiment.noun().to_owned(), write_experiment(&experiment), checksum(&experiment))
-}
-
-/// What [`packed`] has packed; None if it is another one on this machine.
-fn unpacked(noun: &str, text: &str, sum: u32) -> Result<Option<Experiment>, Error> {
-    Ok(Some(read(noun, text)?).filter(|experiment| checksum(experiment) == sum))
+/// What [`parts`] has packed; None if it is another one on this machine.
+fn unpacked(part: &BundlePart) -> Result<Option<Experiment>, Error> {
+    Ok(Some(read(&part.noun, &part.text)?).filter(|experiment| checksum(experiment) == part.checksum))
 }
 
 /// The error of a machine on which something is another one than on the client.
@@ -101,23 +130,23 @@ pub(crate) fn fly_bundle(
     parts: Vec<BundlePart>,
     sides: Vec<f64>,
     threads: usize,
-) -> PyResult<Vec<Row>> {
+) -> PyResult<Vec<ComputedReplicate>> {
     let watch = Watch::default();
     let simulated = watched(py, &watch, None, || {
         let mut points: Vec<Point> = Vec::new();
         let mut known: BTreeMap<&str, usize> = BTreeMap::new();
         let mut batches = Vec::new();
-        for (number, noun, text, sum, start, end) in &parts {
-            let point = match known.get(text.as_str()) {
+        for part in &parts {
+            let point = match known.get(part.text.as_str()) {
                 Some(point) => *point,
                 None => {
-                    let Some(experiment) = unpacked(noun, text, *sum)? else { return Ok(Err(*number)) };
-                    known.insert(text, points.len());
+                    let Some(experiment) = unpacked(part)? else { return Ok(Err(part.point)) };
+                    known.insert(&part.text, points.len());
                     points.push(Point { values: Vec::new(), experiment });
                     points.len() - 1
                 }
             };
-            batches.push(Batch { point, replicates: *start..*end });
+            batches.push(Batch { point, replicates: part.first..part.end });
         }
         Ok::<_, Failure>(Ok((fly(&points, &sides, &batches, watch.control(Some(threads)))?, batches)))
     })?;
@@ -125,23 +154,25 @@ pub(crate) fn fly_bundle(
         simulated.map_err(|number| another(py, &format!("point {}: its case or web", number + 1)))?;
     // Two points may have the same case, so a record is found by its point here and its replicate there.
     let mut at: BTreeMap<(usize, u64), Vec<u64>> = BTreeMap::new();
-    for (batch, (number, ..)) in batches.iter().zip(&parts) {
+    for (batch, part) in batches.iter().zip(&parts) {
         for replicate in batch.replicates.clone() {
-            at.entry((batch.point, replicate)).or_default().push(*number);
+            at.entry((batch.point, replicate)).or_default().push(part.point);
         }
     }
     let row = |Record { point, replicate, outcome }: Record| {
-        let owner = at.get_mut(&(point as usize, replicate)).and_then(Vec::pop).unwrap_or(point);
-        match outcome {
-            ReplicateOutcome::Measured(values) => (owner, replicate, values.to_vec(), None),
-            ReplicateOutcome::Lost { node, time } => (owner, replicate, Vec::new(), Some((node, time))),
-        }
+        let point = at.get_mut(&(point as usize, replicate)).and_then(Vec::pop).unwrap_or(point);
+        let (values, lost) = match outcome {
+            ReplicateOutcome::Measured(values) => (values.to_vec(), None),
+            ReplicateOutcome::Lost { node, time } => (Vec::new(), Some((node, time))),
+        };
+        ComputedReplicate { point, replicate, values, lost }
     };
     Ok(records.into_iter().map(row).collect())
 }
 
 /// A record of [`fly_bundle`].
-pub(crate) fn record((point, replicate, values, lost): Row) -> Record {
+pub(crate) fn record(computed: ComputedReplicate) -> Record {
+    let ComputedReplicate { point, replicate, values, lost } = computed;
     let outcome = match lost {
         Some((node, time)) => ReplicateOutcome::Lost { node, time },
         None => ReplicateOutcome::Measured(values.into_iter().collect()),

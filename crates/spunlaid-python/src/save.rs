@@ -4,18 +4,24 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use spunlaid_results::files::pictures::{FigureFiles, Format, width_named};
 
-/// Formats and width of figures, as [`figure_files`] reads them.
-pub(crate) type Figures<'py> = (Option<Bound<'py, PyAny>>, Option<Bound<'py, PyAny>>);
+/// Formats and width of figures: a pair in Python.
+#[derive(FromPyObject)]
+pub(crate) struct Figures<'py> {
+    /// Names of formats, in a list or in a text with commas between them; None for the usual ones.
+    #[pyo3(item(0))]
+    formats: Option<Bound<'py, PyAny>>,
+    /// In print: its name, a length with its unit, or a number [m]; None for that of the screen.
+    #[pyo3(item(1))]
+    width: Option<Bound<'py, PyAny>>,
+}
 
 /// Formats and width of figures.
-///
-/// * `figures` – names of formats, in a list or in a text with commas between them; None for the usual ones
-/// * `width` – in print: its name, a length with its unit, or a number [m]; None for that of the screen
-pub(crate) fn figure_files((figures, width): Figures<'_>) -> PyResult<FigureFiles> {
+pub(crate) fn figure_files(figures: Figures<'_>) -> PyResult<FigureFiles> {
+    let Figures { formats, width } = figures;
     let usual = FigureFiles::default();
-    let formats = match figures {
+    let formats = match formats {
         None => usual.formats.clone(),
-        Some(figures) => names(&figures)?
+        Some(formats) => names(&formats)?
             .iter()
             .map(|name| Format::named(name))
             .collect::<Result<_, _>>()

@@ -1,6 +1,6 @@
 //! `Study`: a study file, its journal and its results.
 
-use crate::bundle::{BundlePart, Row, parts, record};
+use crate::bundle::{BundlePart, ComputedReplicate, parts, record};
 use crate::case::Case;
 use crate::failure::{raised_as, without_lines};
 use crate::save::{Figures, figure_files};
@@ -160,7 +160,7 @@ impl Study {
 
     /// Adds the records of a bundle to the journal and puts them on the disk. Fibres that it holds already
     /// are left as they are. Returns the number of fibres added.
-    fn add(&self, py: Python<'_>, rows: Vec<Row>) -> PyResult<usize> {
+    fn add(&self, py: Python<'_>, rows: Vec<ComputedReplicate>) -> PyResult<usize> {
         let mut new: Vec<_> = rows.into_iter().map(record).collect();
         let spunlaid::experiment::Study { points, replicates, quantities, .. } = &self.file.study;
         let is_own = |record: &Record| {

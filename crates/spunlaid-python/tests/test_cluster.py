@@ -200,9 +200,9 @@ def test_other_content_of_a_file_on_a_worker_is_seen(cluster: Any) -> None:
     text = 'case = "case.toml"\ndesign = "grid"\nreplicates = 1\n[vary]\n"air.velocity" = ["10 m/s"]\n'
     study = _spunlaid.Study(text, Case.starter())
     study.begin_round(1)
-    ((point, text, cases, checksum, first, last),), sides = study.bundle(0)
+    (part,), sides = study.bundle(0)
     with pytest.raises(spunlaid.ClusterError, match="another one on this machine"):
-        _spunlaid.fly_bundle([(point, text, cases, checksum ^ 1, first, last)], sides)
+        _spunlaid.fly_bundle([{**part, "checksum": part["checksum"] ^ 1}], sides)
 
 
 def test_a_bundle_that_others_cancel_is_an_error_with_the_way_on(cluster: Any) -> None:

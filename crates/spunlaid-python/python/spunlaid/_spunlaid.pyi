@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
-from typing import Any, Final, Literal, final
+from typing import Any, Final, Literal, TypedDict, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,8 +40,20 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
-_Row = tuple[int, int, list[float], tuple[int, float] | None]
-_Part = tuple[int, str, list[tuple[int, str]] | None, int, int, int]
+class _ComputedReplicate(TypedDict):
+    point: int
+    replicate: int
+    values: list[float]
+    lost: tuple[int, float] | None
+
+class _BundlePart(TypedDict):
+    point: int
+    noun: str
+    text: str
+    checksum: int
+    first: int
+    end: int
+
 
 @final
 class Case(Mapping[str, Any]):
@@ -196,8 +208,8 @@ class Study:
     def __len__(self) -> int: ...
     def fly(self, threads: int | None = None, progress: _Progress = None) -> None: ...
     def begin_round(self, flights: int) -> int: ...
-    def bundle(self, index: int) -> tuple[list[_Part], list[float]]: ...
-    def add(self, rows: list[_Row]) -> int: ...
+    def bundle(self, index: int) -> tuple[list[_BundlePart], list[float]]: ...
+    def add(self, rows: list[_ComputedReplicate]) -> int: ...
     def next_round(self) -> bool: ...
     def results(self) -> dict[str, Any]: ...
     def replicates(self) -> _Floats: ...
@@ -226,7 +238,7 @@ def fly(
     check_step: bool = True,
     shapes: bool = True,
 ) -> Computed: ...
-def fly_bundle(parts: list[_Part], sides: list[float], threads: int = 1) -> list[_Row]: ...
+def fly_bundle(parts: list[_BundlePart], sides: list[float], threads: int = 1) -> list[_ComputedReplicate]: ...
 def analyse(
     record: _Floats | str,
     rate: str | float | None = None,

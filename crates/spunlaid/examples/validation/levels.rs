@@ -3,9 +3,10 @@
 
 use crate::title;
 use cpu_time::ProcessTime;
-use spunlaid::ground::{Isa, RunContext};
+use spunlaid::ground::{Estimate, Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WantedError, WebSpec};
+use spunlaid_simulation::Flown;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Sides of the patches that are looked at [m].
@@ -83,11 +84,15 @@ fn find(spec: &WebSpec) -> Found {
 }
 
 /// Of each line: the mean of CV over the seeds, its scatter over the error, and error² × time, of one sheet and of two
-/// levels. `cargo run --release --example validation levels [SEEDS] [FILE]`
+/// levels. `cargo run --release --example validation levels [SEEDS] [FILE | LINE]`
+///
+/// With the word `bias`: of one sheet, the CV of the simulated filaments over that of all of them in the same air.
 pub fn savings() {
-    let words: Vec<String> = std::env::args().skip(2).collect();
+    let mut words: Vec<String> = std::env::args().skip(2).collect();
+    let is_bias = words.iter().any(|word| word == "bias");
+    words.retain(|word| word != "bias");
     let seeds: u64 = words.iter().find_map(|word| word.parse().ok()).unwrap_or(6);
-    title("webs in one air: one sheet | two levels (mean CV, scatter over error, error² × time as a ratio)");
+    words.retain(|word| word.parse::<u64>().is_err());
     let file = words.iter().find(|word| word.ends_with(".toml"));
     let lines: Vec<(String, WebSpec)> = match file {
         Some(file) => {
@@ -96,12 +101,17 @@ pub fn savings() {
         }
         None => LINES
             .iter()
+            .filter(|(name, _)| words.iter().all(|word| name.contains(word)))
             .map(|(name, line)| {
                 let text = format!("{FILAMENT}{line}");
                 (name.to_string(), read_web((text.as_str(), "line.toml"), &[]).expect("it is read").spec)
             })
             .collect(),
     };
+    if is_bias {
+        return lines.iter().for_each(|(name, spec)| print_bias(name, spec, seeds));
+    }
+    title("webs in one air: one sheet | two levels (mean CV, scatter over error, error² × time as a ratio)");
     for (name, spec) in lines {
         let (mut one, mut two) = (Vec::new(), Vec::new());
         // One after the other for each seed, so that both meet the same load of the machine.
@@ -137,5 +147,22 @@ pub fn savings() {
                 error * times[0] / (error_of_two * times[1])
             );
         }
+    }
+}
+
+/// The CV of some filaments over that of all in the same air, less one.
+fn print_bias(name: &str, spec: &WebSpec, seeds: u64) {
+    let of_seed = |seed: u64| -> Vec<f64> {
+        let of =
+            |simulated| find(&WebSpec { seed, error: WantedError::OfOneSheet, simulated, ..spec.clone() });
+        let [few, all] = [spec.simulated, Flown::All].map(of);
+        println!("  seed {seed}: {} | {}", few.row(), all.row());
+        few.cvs.iter().zip(&all.cvs).map(|(few, all)| few[0] / all[0] - 1.0).collect()
+    };
+    let ratios: Vec<Vec<f64>> = (1..=seeds).map(of_seed).collect();
+    for (number, side) in SIDES.iter().enumerate() {
+        let off = Estimate::new(ratios.iter().map(|of| 100.0 * of[number]).collect());
+        let error = off.standard_error.unwrap_or(f64::NAN);
+        println!("{name}, {:2.0} mm: {:.2} ± {error:.2} % next to all filaments", 1e3 * side, off.mean);
     }
 }
