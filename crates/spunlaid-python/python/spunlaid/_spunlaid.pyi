@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
-from typing import Any, Final, Literal, TypedDict, final
+from typing import Any, Final, Literal, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,12 +40,14 @@ _Floats = NDArray[np.float64]
 _Progress = Callable[[int, int], object] | None
 _Figures = tuple[Any, str | float | None]
 _Scale = tuple[str, float, float, bool]
+@type_check_only
 class _ComputedReplicate(TypedDict):
     point: int
     replicate: int
     values: list[float]
     lost: tuple[int, float] | None
 
+@type_check_only
 class _BundlePart(TypedDict):
     point: int
     noun: str
@@ -53,7 +55,6 @@ class _BundlePart(TypedDict):
     checksum: int
     first: int
     end: int
-
 
 @final
 class Case(Mapping[str, Any]):
