@@ -7,6 +7,7 @@ use spunlaid::ground::{Estimate, Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WantedError, WebSpec};
 use spunlaid_simulation::Flown;
+use spunlaid_web::Sheet;
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 /// Sides of the patches that are looked at [m].
@@ -150,11 +151,14 @@ pub fn savings() {
     }
 }
 
-/// The CV of some filaments over that of all in the same air, less one.
+/// The CV of some filaments over that of all in the same air, less one, on a web that is one sheet.
 fn print_bias(name: &str, spec: &WebSpec, seeds: u64) {
+    let sheet = Sheet { width: 0.4, length: 0.5, ..spec.sheet.clone() };
     let of_seed = |seed: u64| -> Vec<f64> {
-        let of =
-            |simulated| find(&WebSpec { seed, error: WantedError::OfOneSheet, simulated, ..spec.clone() });
+        let of = |simulated| {
+            let sheet = sheet.clone();
+            find(&WebSpec { seed, error: WantedError::OfOneSheet, simulated, sheet, ..spec.clone() })
+        };
         let [few, all] = [spec.simulated, Flown::All].map(of);
         println!("  seed {seed}: {} | {}", few.row(), all.row());
         few.cvs.iter().zip(&all.cvs).map(|(few, all)| few[0] / all[0] - 1.0).collect()
