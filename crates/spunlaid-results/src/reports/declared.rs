@@ -69,6 +69,7 @@ fn kinds(found: &Findings) -> [Findings; 6] {
             by_chance: Some(0.002),
             by_pitch: 0.001,
             of_halves: 0.01,
+            by_missing: 0.0,
             own: 1e-3,
             few,
             beyond_filling: 0.0,

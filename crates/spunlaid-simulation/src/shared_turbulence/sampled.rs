@@ -276,9 +276,10 @@ impl SubsamplePlan {
         };
         let map =
             |filled: &Filling<'_>| lay(filled, belt, beam.element_mass(), workers).map(|(laid, _)| laid.map);
-        let of_all = map(&curves.fill_by(covariances, places(), workers.threads))?;
+        let filling = curves.fill_by(covariances, places(), workers.threads);
+        let of_all = map(&filling)?;
         let of_every_second = map(&curves.every_second()?.fill(places(), workers.threads))?;
-        Ok(FilledMaps { of_all, of_every_second, patches })
+        Ok(FilledMaps { of_all, of_every_second, patches, missing: filling.missing() })
     }
 
     /// Rows that have up to [`FINER`] times as many filaments as were simulated.

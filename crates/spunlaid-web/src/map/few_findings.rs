@@ -14,6 +14,9 @@ pub struct SubsampleCv {
     pub by_pitch: f64,
     /// How far every second filament is off, as a share of the CV.
     pub of_halves: f64,
+    /// How far it is off at least by what filling in leaves out of the filaments of a slot, as a fraction of the CV; zero
+    /// where nothing is filled in. Counts where every second filament shows less.
+    pub by_missing: f64,
     /// Part of CV² that filaments make each for itself, which falls with their number. Zero of rows.
     pub own: f64,
     /// CV of the few filaments alone.
@@ -33,11 +36,20 @@ impl SubsampleCv {
         by_chance: None,
         by_pitch: 0.0,
         of_halves: 0.0,
+        by_missing: 0.0,
         own: 0.0,
         few: f64::NAN,
         beyond_filling: 0.0,
         beyond_sheet: 0.0,
     };
+
+    /// How far it may be off beyond what every second filament shows, as a fraction of the CV: where much is missing, two
+    /// maps lack nearly all that small eddies do, and agree.
+    ///
+    /// * `of_halves` – as in [`SubsampleCv`]
+    pub(crate) fn beyond_halves(&self, of_halves: f64) -> f64 {
+        (self.by_missing - of_halves.abs()).max(0.0)
+    }
 
     /// With another square of the CV: the errors of the square stay.
     pub(crate) fn with_square(self, square: f64) -> Self {
@@ -192,6 +204,7 @@ mod tests {
             by_chance: Some(0.01),
             by_pitch: 0.011,
             of_halves,
+            by_missing: 0.0,
             own: 0.0,
             few: 0.2,
             beyond_filling: 0.0,

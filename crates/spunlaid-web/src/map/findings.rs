@@ -306,6 +306,7 @@ fn of_all_layers(web: &Web, laid: &LaidWeb, map: PatchCv) -> Option<SubsampleCv>
         by_chance: Some(by_chance).filter(|error| error.is_finite()),
         by_pitch: sum(&|few| few.cv * few.by_pitch, 2).sqrt() / cv,
         of_halves: sum(&|few| few.cv * few.cv * few.of_halves, 1) / square,
+        by_missing: sum(&|few| few.cv * few.cv * few.by_missing, 1) / square,
         own: sum(&|few| few.own, 1),
         few: sum(&|few| few.few * few.few, 1).sqrt(),
         beyond_filling: sum(&|few| few.beyond_filling, 1),

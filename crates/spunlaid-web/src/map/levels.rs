@@ -165,8 +165,9 @@ impl Levels {
         }
         let first = &self.pairs.first()?.fine;
         let small = if patch < small_patch(first.pitch) { SMALL } else { 0.0 };
-        // The error falls faster than the pitch.
-        Some((off, (0.25 * off * off).max(squares * fractions) + small * small))
+        let scatter = (squares - off * off).max(0.0) * fractions;
+        let beyond = first.cvs[at(first)?].beyond_halves(off);
+        Some((off, 0.25 * off * off + scatter + small * small + beyond * beyond))
     }
 }
 

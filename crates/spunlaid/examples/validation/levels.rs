@@ -3,7 +3,7 @@
 
 use crate::title;
 use cpu_time::ProcessTime;
-use spunlaid::ground::{Estimate, Isa, RunContext};
+use spunlaid::ground::{Isa, RunContext};
 use spunlaid::input::read_web;
 use spunlaid::simulation::{Flyer, WantedError, WebSpec};
 use spunlaid_simulation::Flown;
@@ -87,7 +87,7 @@ fn find(spec: &WebSpec) -> Found {
 /// Of each line: the mean of CV over the seeds, its scatter over the error, and error² × time, of one sheet and of two
 /// levels. `cargo run --release --example validation levels [SEEDS] [FILE | LINE]`
 ///
-/// With the word `bias`: of one sheet, the CV of the simulated filaments over that of all of them in the same air.
+/// With the word `bias`: [`print_bias`].
 pub fn savings() {
     let mut words: Vec<String> = std::env::args().skip(2).collect();
     let is_bias = words.iter().any(|word| word == "bias");
@@ -151,22 +151,54 @@ pub fn savings() {
     }
 }
 
-/// The CV of some filaments over that of all in the same air, less one, on a web that is one sheet.
+/// Filaments per metre that are simulated of all.
+const SOME: [u64; 3] = [250, 500, 1000];
+/// A web that is one sheet.
+const SHEET: [f64; 2] = [0.4, 0.5];
+
+/// The CV over patches of a side, from the simulated filaments.
+#[derive(Clone, Copy)]
+struct OfSide {
+    cv: f64,
+    /// Its error by the number of filaments.
+    by_pitch: f64,
+    /// What CV has where those between them are filled in.
+    of_map: f64,
+}
+
+/// Of one sheet, how far the CV from some of its filaments is from that of all in the same air, and the error that it has
+/// for that; then how far the map is in which the others are filled in. In per cent of the CV of all.
 fn print_bias(name: &str, spec: &WebSpec, seeds: u64) {
-    let sheet = Sheet { width: 0.4, length: 0.5, ..spec.sheet.clone() };
-    let of_seed = |seed: u64| -> Vec<f64> {
-        let of = |simulated| {
-            let sheet = sheet.clone();
-            find(&WebSpec { seed, error: WantedError::OfOneSheet, simulated, sheet, ..spec.clone() })
-        };
-        let [few, all] = [spec.simulated, Flown::All].map(of);
-        println!("  seed {seed}: {} | {}", few.row(), all.row());
-        few.cvs.iter().zip(&all.cvs).map(|(few, all)| few[0] / all[0] - 1.0).collect()
+    let of = |seed: u64, simulated: Flown| {
+        let sheet = Sheet { width: SHEET[0], length: SHEET[1], ..spec.sheet.clone() };
+        let web = WebSpec { seed, error: WantedError::OfOneSheet, simulated, sheet, ..spec.clone() };
+        let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+        let by = RunContext { threads: 1, isa: Isa::detect(), stop: &stop, done: &done };
+        let mut found = Flyer::new(1, &stop, &|_, work| work()).web(&web).expect("it is simulated");
+        let found = found.find(by).expect("it is laid");
+        SIDES.map(|side| {
+            let is_side = |patch: f64| (patch / side - 1.0).abs() < 1e-6;
+            let patch = found.patches.iter().find(|found| is_side(found.map.patch)).expect("a patch");
+            match patch.few {
+                Some(few) => {
+                    let of_map = (few.cv * few.cv - few.beyond_filling).sqrt();
+                    OfSide { cv: few.cv, by_pitch: few.by_pitch, of_map }
+                }
+                None => OfSide { cv: patch.of_map, by_pitch: 0.0, of_map: patch.of_map },
+            }
+        })
     };
-    let ratios: Vec<Vec<f64>> = (1..=seeds).map(of_seed).collect();
-    for (number, side) in SIDES.iter().enumerate() {
-        let off = Estimate::new(ratios.iter().map(|of| 100.0 * of[number]).collect());
-        let error = off.standard_error.unwrap_or(f64::NAN);
-        println!("{name}, {:2.0} mm: {:.2} ± {error:.2} % next to all filaments", 1e3 * side, off.mean);
+    println!("{name}: {SIDES:?} m");
+    for seed in 1..=seeds {
+        let all = of(seed, Flown::All);
+        println!("  seed {seed}, all filaments: {:.2?} %", all.map(|of| 100.0 * of.cv));
+        for some in SOME {
+            let off = of(seed, Flown::PerMetre(some)).into_iter().zip(&all).map(|(some, all)| {
+                let [cv, by_pitch, of_map] =
+                    [some.cv - all.cv, some.by_pitch, some.of_map - all.cv].map(|off| 100.0 * off / all.cv);
+                format!("{cv:+.1} ± {by_pitch:.1} ({of_map:+.1})")
+            });
+            println!("    {some:4} per metre: {}", off.collect::<Vec<_>>().join(", "));
+        }
     }
 }

@@ -68,6 +68,8 @@ pub struct FilledMaps {
     pub of_every_second: Map,
     /// Sides of the patches over which they give the CV [m].
     pub patches: Range<f64>,
+    /// See [`SubsampleEstimate::missing`].
+    pub missing: [f64; 2],
 }
 
 /// Side of a patch of a row below which its CV depends on the pitch [m].
@@ -86,6 +88,10 @@ const PITCHES: f64 = 2.5;
 pub(super) const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one is hardly correlated with the next [m].
 const BLOCK: f64 = 0.05;
+
+/// By how much of the variance that is missing the map of a slot is too non-uniform at least: 0.2 to 0.5 of it, as three
+/// slots showed of which all filaments were simulated.
+const OFF_BY_MISSING: f64 = 0.3;
 
 /// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half
 /// as large, because these are the smallest that such waves make uneven. The two fillings may be off alike, and over
@@ -135,6 +141,7 @@ impl Subsample<'_> {
             fine_area: area,
             pitch,
             blocks_across,
+            missing: filled.map_or([0.0; 2], |filled| filled.missing),
             ..SubsampleEstimate::default()
         };
         // How far the variance of the filled map may be off over patches of a side, as a part of it.
@@ -189,7 +196,9 @@ impl Subsample<'_> {
                     let apart = (by_filling.cv - cv).powi(2) - by_pitch * by_pitch;
                     by_filling.by_pitch = by_filling.by_pitch.max(apart.max(0.0).sqrt());
                 }
-                of_variance.push((*patch, 2.0 * by_filling.by_pitch / by_filling.cv));
+                let of_filling = 2.0 * by_filling.by_pitch / by_filling.cv;
+                let square = by_filling.cv * by_filling.cv;
+                of_variance.push((*patch, of_filling.hypot(by_filling.beyond_filling / square)));
                 estimate.cvs.push(by_filling);
                 continue;
             }
@@ -207,6 +216,7 @@ impl Subsample<'_> {
                 by_chance: all.standard_error.map(|error| error * cv / all.cv),
                 by_pitch,
                 of_halves: off / cv,
+                by_missing: 0.0,
                 own: whole[1],
                 few: all.cv,
                 beyond_filling,
@@ -227,16 +237,16 @@ impl Subsample<'_> {
     /// * `at_random` – what filaments at random places have more, of a CV²
     fn by_filling(
         &self,
-        filled: &FilledMaps,
+        filled_maps: &FilledMaps,
         patch: f64,
         few: f64,
         slot: f64,
         at_random: &dyn Fn(f64) -> f64,
     ) -> Option<(SubsampleCv, Vec<f64>)> {
-        if !filled.patches.contains(&patch) {
+        if !filled_maps.patches.contains(&patch) {
             return None;
         }
-        let maps = [&filled.of_all, &filled.of_every_second];
+        let maps = [&filled_maps.of_all, &filled_maps.of_every_second];
         let [of_blocks, of_half_blocks] = maps.map(|map| blocks(map, self.side(patch), self.blocks));
         let [filled, half] = maps.map(|map| patch_cv(map, self.side(patch)));
         let (filled, half) = (filled?, half?);
@@ -244,25 +254,41 @@ impl Subsample<'_> {
             Arrangement::AtRandom => at_random(cv * cv),
             Arrangement::Rows | Arrangement::Slot => 0.0,
         };
-        let [cv, half] = [filled.cv, half.cv].map(|cv| (cv * cv + own(cv)).max(0.0).sqrt());
+        let [of_map, half] = [filled.cv, half.cv].map(|cv| (cv * cv + own(cv)).max(0.0).sqrt());
+        // Filaments of a slot that are filled in lie more alike than they do, in proportion to the distance of the
+        // simulated ones, which is twice as large for every second one. In a row the error falls faster.
+        let cv = match self.arrangement {
+            Arrangement::Slot => (2.0 * of_map - half).max(0.0),
+            Arrangement::Rows | Arrangement::AtRandom => of_map,
+        };
         // Halves may agree by chance, but not in every block of the sheet.
         let differences =
             of_blocks.iter().zip(&of_half_blocks).map(|(all, half)| (half - all) * (half - all));
-        let by_blocks = 0.5 * differences.sum::<f64>().sqrt() / of_blocks.len() as f64 / cv;
-        // Filled-in filaments lie more alike than they do, and lack what is missing. Over small patches the two
-        // errors may cancel in the halves, which then say too little.
+        let by_blocks = 0.5 * differences.sum::<f64>().sqrt() / of_blocks.len() as f64 / of_map;
+        // They also lack what is missing. Over small patches the two errors may cancel in the halves, which then say
+        // too little.
         let small = if patch < small_patch(self.pitch()) { SMALL * cv } else { 0.0 };
-        let estimate = SubsampleCv {
+        let is_slot = self.arrangement == Arrangement::Slot;
+        let [in_md, in_cd] = filled_maps.missing;
+        let of_halves = half / of_map - 1.0;
+        let mut estimate = SubsampleCv {
             patch,
             cv,
-            by_chance: filled.standard_error.map(|error| error * filled.cv / cv),
-            by_pitch: (half - cv).abs().max(by_blocks).hypot(small),
-            of_halves: half / cv - 1.0,
-            own: if self.arrangement == Arrangement::Slot { slot } else { own(filled.cv) },
+            by_chance: filled.standard_error.map(|error| error * filled.cv / of_map),
+            by_pitch: 0.0,
+            of_halves,
+            by_missing: if is_slot { OFF_BY_MISSING * 0.5 * (in_md + in_cd) } else { 0.0 },
+            own: if is_slot { slot } else { own(filled.cv) },
             few,
-            beyond_filling: 0.0,
+            beyond_filling: cv * cv - of_map * of_map,
             beyond_sheet: 0.0,
         };
+        let off = half - of_map;
+        let by_halves = match is_slot {
+            true => (0.5 * off).hypot(by_blocks).hypot(of_map * estimate.beyond_halves(of_halves)),
+            false => off.abs().max(by_blocks),
+        };
+        estimate.by_pitch = by_halves.hypot(small);
         Some((estimate, of_blocks))
     }
 

@@ -273,7 +273,8 @@ fn stat_small_patches_of_random_places_are_given_by_the_filled_row() {
     let row = |count: usize| even(count).map(|z| field.curve(z));
     let simulated = few(&sheet, Arrangement::AtRandom, 120, row(24));
     let filled = few(&sheet, Arrangement::AtRandom, 120, row(192)).map(None).unwrap();
-    let filled = FilledMaps { of_all: filled.clone(), of_every_second: filled, patches: 0.0..1.0 };
+    let filled =
+        FilledMaps { of_all: filled.clone(), of_every_second: filled, patches: 0.0..1.0, missing: [0.0; 2] };
     let [comb, found] =
         [None, Some(filled)].map(|filled| simulated.estimate(filled.as_ref(), 2).unwrap().cvs[0]);
     let squares = (0..WEBS).map(|seed| {
@@ -319,7 +320,8 @@ fn a_filling_that_the_few_contradict_has_the_difference_as_its_error() {
     let simulated = few(&sheet, Arrangement::Slot, 480, row(48));
     let filled_as = |count: usize| {
         let map = few(&sheet, Arrangement::Slot, 480, row(count)).map(None).unwrap();
-        let filled = FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0 };
+        let filled =
+            FilledMaps { of_all: map.clone(), of_every_second: map, patches: 0.0..1.0, missing: [0.0; 2] };
         simulated.estimate(Some(&filled), 2).unwrap().cvs[0]
     };
     let alone = simulated.estimate(None, 2).unwrap().cvs[0];
@@ -488,18 +490,29 @@ fn analytic_straight_filaments_that_never_meet() {
         assert_eq!((estimate.filaments, estimate.lost, estimate.sheet), (12, 0, [WIDTH, LENGTH]));
         // Filled in to 32 and to 16: CV² of 2 and of 5, which differ alike in each block.
         let at_random = |square: f64| if i == 2 { (95.0 - square) / 48.0 } else { 0.0 };
-        let [cv, half] = [2.0, 5.0].map(|square| (square + at_random(square)).sqrt());
-        let filled = |patches| FilledMaps { of_all: map(32), of_every_second: map(16), patches };
+        let [of_map, half] = [2.0, 5.0].map(|square| (square + at_random(square)).sqrt());
+        // The map of a slot is as much too large as every second filament makes it larger.
+        let cv = if i == 1 { 2.0 * of_map - half } else { of_map };
+        let filled =
+            |patches| FilledMaps { of_all: map(32), of_every_second: map(16), patches, missing: [0.0; 2] };
         let estimate = twelve.estimate(Some(&filled(0.0..1.0)), 1).unwrap();
         let found = estimate.cvs[0];
         close(found.cv, cv);
-        close(found.of_halves, half / cv - 1.0);
-        close(found.by_pitch, (half - cv).max(1.5 / blocks.sqrt() / cv).hypot(0.02 * cv));
+        close(found.of_halves, half / of_map - 1.0);
+        close(found.beyond_filling, cv * cv - of_map * of_map);
+        let by_blocks = 1.5 / blocks.sqrt() / of_map;
+        let by_halves = match i {
+            1 => (0.5 * (half - of_map)).hypot(by_blocks),
+            _ => (half - of_map).max(by_blocks),
+        };
+        // What the simulated ones say of a slot without a filling: a CV of one, within 2 %.
+        let contradiction = if i == 1 { ((1.0 - cv).powi(2) - 0.02 * 0.02).sqrt() } else { 0.0 };
+        close(found.by_pitch, by_halves.hypot(0.02 * cv).max(contradiction));
         close(found.own, [0.0, 2.0, at_random(2.0)][i]);
         close(found.few, 7_f64.sqrt());
         assert!(estimate.blocks[0].iter().all(|block| (block - 2.0).abs() < 1e-9));
         // The error of waves is that of the variance over these patches, or by how much the two maps differ in them.
-        let of_variance = 2.0 * found.by_pitch / found.cv;
+        let of_variance = (2.0 * found.by_pitch / cv).hypot(found.beyond_filling / (cv * cv));
         let [of_all, of_half] = [32, 16].map(|count| Clouds::measure(&map(count)).unwrap());
         for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
             // A comb of filaments has octaves without waves.
@@ -518,11 +531,17 @@ fn analytic_straight_filaments_that_never_meet() {
     }
     // Filled maps that agree: in a slot the simulated ones contradict them beyond their own error of 2 %.
     let [of_all, of_every_second] = [map(32), map(32)];
-    let filled = FilledMaps { of_all, of_every_second, patches: 0.0..1.0 };
+    let filled = FilledMaps { of_all, of_every_second, patches: 0.0..1.0, missing: [0.0; 2] };
     let agreeing =
         |arrangement| few(&sheet, arrangement, 48, straight(12)).estimate(Some(&filled), 1).unwrap().cvs[0];
     close(agreeing(Arrangement::Rows).by_pitch, 0.02 * 2_f64.sqrt());
     close(agreeing(Arrangement::Slot).by_pitch, ((2_f64.sqrt() - 1.0).powi(2) - 0.02 * 0.02).sqrt());
+    // What is missing makes the map of a slot too large by 0.3 of it at least, of 4 on average here.
+    let filled = FilledMaps { missing: [3.0, 5.0], ..filled };
+    let lacking =
+        |arrangement| few(&sheet, arrangement, 48, straight(12)).estimate(Some(&filled), 1).unwrap().cvs[0];
+    close(lacking(Arrangement::Rows).by_pitch, 0.02 * 2_f64.sqrt());
+    close(lacking(Arrangement::Slot).by_pitch, 2_f64.sqrt() * 1.2_f64.hypot(0.02));
     // A row that is too short gives none of it.
     let short = few(&sheet, Arrangement::Slot, 48, straight(8)).estimate(None, 1).unwrap();
     assert_eq!(short.cvs[0].cv, 0.0);

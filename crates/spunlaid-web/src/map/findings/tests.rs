@@ -42,6 +42,7 @@ fn sample(k: f64) -> SubsampleCv {
         by_chance: Some(0.02 * k * k),
         by_pitch: 0.01 * k,
         of_halves: 0.04 / k,
+        by_missing: 0.0,
         own: 0.004 * k,
         few: 0.22 * k,
         beyond_filling: 0.001 * k,

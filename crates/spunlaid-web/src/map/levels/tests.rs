@@ -247,8 +247,10 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     let found = levels.variances().unwrap();
     let of_both = 1.0 + (all - common).powi(2) / (of_all.variance * of_coefficient);
     let by_area = coefficient * coefficient * of_all.of_mean();
-    // A fifth, two fifths and two fifths of the area: their squares are 9/25, and the mean of halves is 0.02.
-    let by_pitch = (0.04_f64.powi(2) + 2.0 * 0.02_f64.powi(2) + 2.0 * 0.05_f64.powi(2)) / 5.0 * 0.36;
+    // A fifth, two fifths and two fifths of the area: their squares are 9/25, and the mean of halves is 0.02, half of
+    // which stays however many sheets there are.
+    let squares = (0.04_f64.powi(2) + 2.0 * 0.02_f64.powi(2) + 2.0 * 0.05_f64.powi(2)) / 5.0;
+    let by_pitch = 0.01_f64.powi(2) + (squares - 0.02_f64.powi(2)) * 0.36;
     let expected = [left * of_both / (4.0 * square * square), by_area / (4.0 * square * square), by_pitch];
     for (found, expected) in [found.by_pairs, found.by_area, found.by_pitch].into_iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
@@ -264,17 +266,18 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     assert!((combined.area - 0.1).abs() < 1e-15 && (combined.fine_area - 0.06).abs() < 1e-15);
     assert_eq!([combined.on_other_sheets, combined.lost_on_other_sheets], [94, 14]);
     assert!(combined.is_of_two_levels() && !levels.coarse[0].is_of_two_levels());
-    // A patch of less than 2.5 pitches has two per cent more, and equal halves a quarter of their square.
+    // A patch of less than 2.5 pitches has two per cent more, equal halves a quarter of their square, and filaments of
+    // which much is missing what it makes beyond the halves.
     let small = |few: &SubsampleEstimate| {
         let mut few = SubsampleEstimate { pitch: 0.005, ..few.clone() };
-        few.cvs[0].of_halves = 0.1;
+        (few.cvs[0].of_halves, few.cvs[0].by_missing) = (0.1, 0.13);
         few
     };
     let pair = |pair: &Pair| Pair { fine: small(&pair.fine), coarse: small(&pair.coarse) };
     let coarse = levels.coarse.iter().map(small).collect();
     let levels = Levels { pairs: levels.pairs.iter().map(pair).collect(), coarse };
     let found = levels.variances().unwrap().by_pitch;
-    assert!((found / (0.36 * 0.01 + 0.0004) - 1.0).abs() < 1e-12, "{found}");
+    assert!((found / (0.0025 + 0.0004 + 0.0009) - 1.0).abs() < 1e-12, "{found}");
 }
 
 /// What a journal keeps of a sheet makes it again, and half of it does not.
