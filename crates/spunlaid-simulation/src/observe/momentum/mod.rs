@@ -354,12 +354,15 @@ impl StretchedBalance {
         let all: Vec<[Vec<f64>; 2]> = whole().map(|balance| [balance.forces(), balance.lengths()]).collect();
         let lengths = || all.iter().flat_map(|[_, lengths]| lengths);
         let of_fibre = (lengths().sum::<f64>() / lengths().count() as f64).round();
-        let memory = of_fibre.max((self.memory / self.stretch).ceil()) as usize;
+        let of_air = (self.memory / self.stretch).ceil();
+        let memory = of_fibre.max(of_air) as usize;
+        // The series does not show how long the air is correlated unless it is much longer.
+        let are_enough = of_air <= 1.0 || all.len() as f64 >= 2.0 * (of_air + 1.0);
         let at = |(class, distance): (usize, f64)| {
             let values =
                 |which: usize| all.iter().filter_map(move |of| of[which].get(class).copied()).collect();
             let [force, fibre]: [Vec<f64>; 2] = [0, 1].map(values);
-            let standard_error = error_of_series(&force, memory);
+            let standard_error = error_of_series(&force, memory).filter(|_| are_enough);
             let [force, fibre] = [force, fibre].map(|values| Estimate::new(values).mean);
             WayPlace { distance, force, standard_error, fibre }
         };
@@ -370,7 +373,7 @@ impl StretchedBalance {
 
 /// Standard error of the mean of values one after the other, which know of each other over some steps: with products of
 /// neighbours that count less the farther they are apart (Bartlett), and with what is lost because the mean is found
-/// from the same values. None of less than two, or less than twice as many as know of each other.
+/// from the same values. None of less than two.
 ///
 /// * `memory` – steps
 fn error_of_series(values: &[f64], memory: usize) -> Option<f64> {
@@ -382,6 +385,5 @@ fn error_of_series(values: &[f64], memory: usize) -> Option<f64> {
         (products + weight * (values[i] - mean) * (values[j] - mean), weights + weight)
     });
     let left = count * count - weights;
-    let are_enough = values.len() > 1 && values.len() >= memory.saturating_add(1).saturating_mul(2);
-    (are_enough && left > 0.0).then(|| (products.max(0.0) / left).sqrt())
+    (values.len() > 1 && left > 0.0).then(|| (products.max(0.0) / left).sqrt())
 }

@@ -173,8 +173,5 @@ fn stat_the_error_of_a_series_contains_what_its_values_have_in_common() {
         assert!((squares / of_mean - 1.0).abs() < allowed, "{kept}: {squares} {of_mean}");
     }
     assert_eq!(error_of_series(&[1.0], 1), None);
-    // Twice as many as know of each other.
-    let values: Vec<f64> = (0..12).map(f64::from).collect();
-    assert!(error_of_series(&values, 5).is_some());
-    assert_eq!([error_of_series(&values[..11], 5), error_of_series(&values, usize::MAX)], [None, None]);
+    assert_eq!(error_of_series(&[1.0, 2.0], usize::MAX), None);
 }
