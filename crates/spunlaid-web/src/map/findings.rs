@@ -406,7 +406,13 @@ fn unsure(laid: &LaidWeb) -> Vec<WebWarning> {
         let number = nearest_to_seen(few.cvs.iter().map(|cv| cv.patch))?;
         let (wanted, cv) = (few.wanted?, few.cvs[number]);
         let reached = cv.by_chance?.hypot(cv.by_pitch) / cv.cv;
-        (reached > WITHIN * wanted).then_some(WebWarning::Unsure { wanted, reached, area: few.area })
+        let by_sample = cv.by_pitch / cv.cv;
+        (reached > WITHIN * wanted).then_some(WebWarning::Unsure {
+            wanted,
+            reached,
+            by_sample,
+            area: few.area,
+        })
     };
     laid.few().filter_map(of_layer).collect()
 }

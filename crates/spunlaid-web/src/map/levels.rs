@@ -39,14 +39,16 @@ pub struct Variances {
     pub by_pairs: f64,
     /// Because the whole area is small.
     pub by_area: f64,
-    /// Because few filaments were simulated.
-    pub by_pitch: f64,
+    /// Because few filaments were simulated: what their places do, which is different on each sheet.
+    pub by_places: f64,
+    /// What their distance does, which is alike on all sheets.
+    pub by_distance: f64,
 }
 
 impl Variances {
     /// Their sum.
     pub fn whole(&self) -> f64 {
-        self.by_pairs + self.by_area + self.by_pitch
+        self.by_pairs + self.by_area + self.by_places + self.by_distance
     }
 }
 
@@ -56,6 +58,15 @@ struct OfPatch {
     variances: Variances,
     /// How far every second filament is off, as a fraction of the CV.
     of_halves: f64,
+}
+
+/// What the sample of filaments does to a CV.
+struct OfSample {
+    /// How far every second filament is off, as a fraction of the CV.
+    of_halves: f64,
+    /// See [`Variances`].
+    by_places: f64,
+    by_distance: f64,
 }
 
 /// A sheet as one of many.
@@ -78,7 +89,7 @@ impl Levels {
             let error = |variance: f64| of_all * variance.sqrt();
             *cv = SubsampleCv {
                 by_chance: Some(error(variances.by_pairs + variances.by_area)),
-                by_pitch: error(variances.by_pitch),
+                by_pitch: error(variances.by_places + variances.by_distance),
                 of_halves,
                 beyond_sheet: of_all * of_all - cv.cv * cv.cv,
                 ..cv.with_square(of_all * of_all)
@@ -139,21 +150,20 @@ impl Levels {
         // The coefficient itself is known only as well as the common part is large.
         let of_common = coarse.variance * regression.of_coefficient;
         let of_coefficient = if of_common > 0.0 { (all - common).powi(2) / of_common } else { 0.0 };
-        let (of_halves, by_pitch) = self.by_pitch(patch, at)?;
+        let OfSample { of_halves, by_places, by_distance } = self.of_sample(patch, at)?;
         let variance = |of_square: f64| of_square / (4.0 * square * square);
         let variances = Variances {
             by_pairs: variance(regression.left * (1.0 + of_coefficient)),
             by_area: variance(coefficient * coefficient * coarse.of_mean()),
-            by_pitch,
+            by_places,
+            by_distance,
         };
         (square > 0.0).then(|| OfPatch { cv: square.sqrt(), variances, of_halves })
     }
 
-    /// The relative difference of the CV from every second filament, and the variance that few filaments leave open.
-    ///
-    /// The part that depends on the places of the few averages out over the sheets. The part that depends on their
-    /// distance is the same on all of them.
-    fn by_pitch(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<(f64, f64)> {
+    /// What the sample of filaments does. What depends on their places averages out over the sheets, and what depends on
+    /// their distance does not.
+    fn of_sample(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<OfSample> {
         let mut squares = 0.0;
         let mut off = 0.0;
         let mut fractions = 0.0;
@@ -165,9 +175,12 @@ impl Levels {
         }
         let first = &self.pairs.first()?.fine;
         let small = if patch < small_patch(first.pitch) { SMALL } else { 0.0 };
-        let scatter = (squares - off * off).max(0.0) * fractions;
         let beyond = first.cvs[at(first)?].beyond_halves(off);
-        Some((off, 0.25 * off * off + scatter + small * small + beyond * beyond))
+        Some(OfSample {
+            of_halves: off,
+            by_places: (squares - off * off).max(0.0) * fractions,
+            by_distance: 0.25 * off * off + small * small + beyond * beyond,
+        })
     }
 }
 

@@ -59,6 +59,8 @@ pub enum WebWarning {
         wanted: f64,
         /// The one that was reached.
         reached: f64,
+        /// The part of it that comes from the sample of filaments.
+        by_sample: f64,
         /// Area that was simulated [m²].
         area: f64,
     },
@@ -110,15 +112,28 @@ impl Display for WebWarning {
                 Dimension::ElectricField.pretty_to(*field, 2),
                 Dimension::ElectricField.pretty(BREAKDOWN)
             ),
-            Self::Unsure { wanted, reached, area } => write!(
-                f,
-                "the standard error of the CV is {} % of the CV after {} m², and {} % were wanted (web.error), which \
-                needs about {} times the area; raise web.time if it ended the simulation",
-                per_cent(*reached, 2),
-                Dimension::Ratio.pretty_to(*area, 2),
-                per_cent(*wanted, 2),
-                Dimension::Ratio.pretty_to((reached / wanted).powi(2), 2)
-            ),
+            Self::Unsure { wanted, reached, by_sample, area } => {
+                let left = wanted * wanted - by_sample * by_sample;
+                let way = match left > 0.0 {
+                    true => {
+                        let times = (reached * reached - by_sample * by_sample) / left;
+                        let times = Dimension::Ratio.pretty_to(times, 2);
+                        format!(
+                            "which needs about {times} times the area; raise web.time if it ended the simulation"
+                        )
+                    }
+                    false => "which needs more filaments per metre (web.simulated)".to_owned(),
+                };
+                write!(
+                    f,
+                    "the standard error of the CV is {} % of the CV after {} m², {} % from the sample of filaments, \
+                    and {} % were wanted (web.error), {way}",
+                    per_cent(*reached, 2),
+                    Dimension::Ratio.pretty_to(*area, 2),
+                    per_cent(*by_sample, 2),
+                    per_cent(*wanted, 2),
+                )
+            }
             Self::FilledIn { missing, sides, apart } => write!(
                 f,
                 "{} % of the variance of the filaments between the simulated ones is not known, so the \

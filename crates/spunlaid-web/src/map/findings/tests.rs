@@ -227,7 +227,7 @@ fn findings_are_warned_of_with_their_numbers() {
         unsure(&laid(vec![simulated(Some(few))]))
     };
     let said = wanted(0.05);
-    let [WebWarning::Unsure { wanted: 0.05, reached, area }] = &said[..] else { panic!("{said:?}") };
+    let [WebWarning::Unsure { wanted: 0.05, reached, area, .. }] = &said[..] else { panic!("{said:?}") };
     close(*reached, 0.1);
     close(*area, 0.02);
     assert_eq!((wanted(0.1), wanted(0.2)), (Vec::new(), Vec::new()));

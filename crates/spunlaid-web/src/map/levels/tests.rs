@@ -250,9 +250,11 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     // A fifth, two fifths and two fifths of the area: their squares are 9/25, and the mean of halves is 0.02, half of
     // which stays however many sheets there are.
     let squares = (0.04_f64.powi(2) + 2.0 * 0.02_f64.powi(2) + 2.0 * 0.05_f64.powi(2)) / 5.0;
-    let by_pitch = 0.01_f64.powi(2) + (squares - 0.02_f64.powi(2)) * 0.36;
-    let expected = [left * of_both / (4.0 * square * square), by_area / (4.0 * square * square), by_pitch];
-    for (found, expected) in [found.by_pairs, found.by_area, found.by_pitch].into_iter().zip(expected) {
+    let [by_places, by_distance] = [(squares - 0.02_f64.powi(2)) * 0.36, 0.01_f64.powi(2)];
+    let of_square = 4.0 * square * square;
+    let expected = [left * of_both / of_square, by_area / of_square, by_places, by_distance];
+    let all = [found.by_pairs, found.by_area, found.by_places, found.by_distance];
+    for (found, expected) in all.into_iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
     }
     assert!((found.whole() / expected.iter().sum::<f64>() - 1.0).abs() < 1e-12);
@@ -260,7 +262,8 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     let cv = combined.cvs[0];
     assert!((cv.cv / square.sqrt() - 1.0).abs() < 1e-12, "{cv:?}");
     assert!((cv.beyond_sheet - (square - 0.04)).abs() < 1e-14 && (cv.of_halves - 0.02).abs() < 1e-15);
-    let errors = [expected[0] + expected[1], expected[2]].map(|variance| (square * variance).sqrt());
+    let errors =
+        [expected[0] + expected[1], by_places + by_distance].map(|variance| (square * variance).sqrt());
     assert!((cv.by_chance.unwrap() / errors[0] - 1.0).abs() < 1e-12, "{cv:?}");
     assert!((cv.by_pitch / errors[1] - 1.0).abs() < 1e-12, "{cv:?}");
     assert!((combined.area - 0.1).abs() < 1e-15 && (combined.fine_area - 0.06).abs() < 1e-15);
@@ -276,7 +279,9 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     let pair = |pair: &Pair| Pair { fine: small(&pair.fine), coarse: small(&pair.coarse) };
     let coarse = levels.coarse.iter().map(small).collect();
     let levels = Levels { pairs: levels.pairs.iter().map(pair).collect(), coarse };
-    let found = levels.variances().unwrap().by_pitch;
+    let found = levels.variances().unwrap();
+    assert!(found.by_places < 1e-15, "{found:?}");
+    let found = found.by_distance;
     assert!((found / (0.0025 + 0.0004 + 0.0009) - 1.0).abs() < 1e-12, "{found}");
 }
 
