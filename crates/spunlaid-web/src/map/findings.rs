@@ -225,6 +225,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         };
         patches.push(PatchFindings { few, warning, of_map, map, single_fibres, straight_fibres, evidence });
     }
+    raise_to_larger(&mut patches);
     let seen = nearest_to_seen(patches.iter().map(|patch| patch.map.patch));
     let side = seen.map_or(1, |i| (patches[i].map.patch / sheet.cell).round() as usize);
     let variance =
@@ -257,6 +258,27 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         reach,
         laid,
     })
+}
+
+/// Raises the CV of a sample to that over larger patches. Patches that consist of whole smaller ones are no more
+/// non-uniform than these, but a sample says less of small patches, and may have a smaller CV there.
+fn raise_to_larger(patches: &mut [PatchFindings]) {
+    let mut order: Vec<usize> = (0..patches.len()).collect();
+    order.sort_by(|a, b| patches[*b].map.patch.total_cmp(&patches[*a].map.patch));
+    for (number, i) in order.iter().enumerate() {
+        let of_larger = |j: &usize| {
+            let times = patches[*j].map.patch / patches[*i].map.patch;
+            let is_whole = (times - times.round()).abs() < 1e-6;
+            patches[*j].reported().filter(|_| is_whole).map(|larger| larger.cv)
+        };
+        let larger = order[..number].iter().filter_map(of_larger).fold(0.0, f64::max);
+        let patch = &mut patches[*i];
+        if let Some(few) = patch.few.filter(|few| patch.warning.is_none() && few.cv < larger) {
+            let few = few.with_square(larger * larger);
+            patch.few = Some(few);
+            (patch.map.cv, patch.map.standard_error) = (few.cv, few.by_chance);
+        }
+    }
 }
 
 /// The CV of straight fibres in all directions in place of the layers.

@@ -50,6 +50,29 @@ fn sample(k: f64) -> SubsampleCv {
     }
 }
 
+/// Only the patches of 10 mm consist of whole ones of 5 mm, and only a sample gives way to them.
+#[test]
+fn a_sample_has_no_smaller_cv_over_smaller_patches() {
+    let of = |side: f64, cv: f64, few: bool| PatchFindings {
+        map: PatchCv { patch: side, cv, standard_error: None },
+        few: few.then(|| SubsampleCv { patch: side, cv, ..sample(1.0) }),
+        single_fibres: None,
+        straight_fibres: 0.1,
+        evidence: Evidence::FewInOneAir,
+        warning: None,
+        of_map: cv,
+    };
+    for (few, raised) in [(true, 0.3), (false, 0.2)] {
+        let mut patches = [of(0.012, 0.4, few), of(0.005, 0.2, few), of(0.01, 0.3, few), of(0.02, 0.1, few)];
+        raise_to_larger(&mut patches);
+        let found = patches.map(|patch| patch.map.cv);
+        found.iter().zip([0.4, raised, 0.3, 0.1]).for_each(|(found, wanted)| close(*found, wanted));
+        // The error of the square stays.
+        let errors = patches[1].few.map(|few| [few.by_pitch, few.by_chance.unwrap_or(0.0)]);
+        errors.iter().flatten().zip([0.01, 0.02]).for_each(|(found, own)| close(*found, own * 0.2 / 0.3));
+    }
+}
+
 /// * `cvs` – of the only sample
 fn estimate(cv: SubsampleCv, sheet: [f64; 2]) -> SubsampleEstimate {
     SubsampleEstimate { sheet, area: sheet[0] * sheet[1], cvs: vec![cv], ..SubsampleEstimate::default() }
