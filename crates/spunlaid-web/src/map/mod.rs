@@ -291,7 +291,7 @@ impl Web {
     }
 
     /// [`Web::places`] of filaments that share an air, which makes streaks too. What the map has of streaks beyond those
-    /// of defects at random counts as the same in all webs, because one map does not tell.
+    /// of defects at random counts as the same in all webs, because one map does not show it.
     fn places_in_one_air(&self, width: f64) -> Places {
         Places::Known(Streaks { variance_of_mean: 0.0, has_rows: true, ..self.streaks(width) })
     }

@@ -30,7 +30,7 @@ fn has_converged(check: &FinerCheck, change: &Change) -> bool {
 pub(super) struct FromFinest {
     /// Their length [m].
     pub length: f64,
-    /// The difference as a share, of the number or of its size.
+    /// The difference as a fraction, of the number or of its size.
     pub difference: f64,
     /// Root mean square of a number of both signs, in its unit; none of another one.
     pub size: Option<f64>,
@@ -66,7 +66,7 @@ pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String>
             follow them"
         ),
         Silence::Chance => format!(
-            "error not known: this number is close to zero, and the check of the {refined} is too short to tell how \
+            "error not known: this number is close to zero, and the check of the {refined} is too short to show how \
             much it changes"
         ),
     });
@@ -341,7 +341,7 @@ mod tests {
         assert!(!is_known(true, "peak_root_tension") && is_known(false, "sigma_md"));
     }
 
-    /// The mean of a number of both signs may be close to zero by chance. Its change is a share of its root mean square,
+    /// The mean of a number of both signs may be close to zero accidentally. Its change is a fraction of its root mean square,
     /// and its error does not follow how close to zero it is.
     #[test]
     fn the_error_of_a_number_close_to_zero_does_not_follow_the_number() {

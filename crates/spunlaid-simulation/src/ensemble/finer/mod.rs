@@ -103,8 +103,8 @@ pub struct Change {
     pub from_quarter: Option<(f64, Estimate)>,
     /// Whether both refinements show that the error falls with the square of the element length.
     pub is_second_order: bool,
-    /// Root mean square of a statistic that has both signs, in its unit: changes are shares of it. None of one that
-    /// keeps its sign, whose changes are shares of itself.
+    /// Root mean square of a statistic that has both signs, in its unit: changes are fractions of it. None of one that
+    /// keeps its sign, whose changes are fractions of itself.
     pub size: Option<f64>,
 }
 
@@ -163,7 +163,7 @@ pub struct FinerCheck {
 pub enum Silence {
     /// The axial waves of the fibre decide the measure, and they are others in another scheme.
     AxialWaves,
-    /// The measure has both signs, and the flights of the check are too few to tell what changes.
+    /// The measure has both signs, and the flights of the check are too few to show what changes.
     Chance,
 }
 
