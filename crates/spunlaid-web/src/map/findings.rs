@@ -113,6 +113,15 @@ impl PatchFindings {
         self.warning.is_none().then_some(self.map)
     }
 
+    /// Gives the CV of a sample another value. Its errors do not become larger, and those of its square neither.
+    fn raise_or_lower(&mut self, cv: f64) {
+        if let Some(few) = self.few.filter(|few| self.warning.is_none() && few.cv != cv) {
+            let few = if cv > few.cv { few.with_square(cv * cv) } else { SubsampleCv { cv, ..few } };
+            self.few = Some(few);
+            (self.map.cv, self.map.standard_error) = (few.cv, few.by_chance);
+        }
+    }
+
     /// The CV of the web with its error by all causes, or by chance where another one is not known; None if it is
     /// not reported.
     pub fn with_total_error(&self) -> Option<PatchCv> {
@@ -225,7 +234,7 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         };
         patches.push(PatchFindings { few, warning, of_map, map, single_fibres, straight_fibres, evidence });
     }
-    raise_to_larger(&mut patches);
+    put_in_order(&mut patches);
     let seen = nearest_to_seen(patches.iter().map(|patch| patch.map.patch));
     let side = seen.map_or(1, |i| (patches[i].map.patch / sheet.cell).round() as usize);
     let variance =
@@ -260,24 +269,29 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
     })
 }
 
-/// Raises the CV of a sample to that over larger patches. Patches that consist of whole smaller ones are no more
-/// non-uniform than these, but a sample says less of small patches, and may have a smaller CV there.
-fn raise_to_larger(patches: &mut [PatchFindings]) {
+/// Makes the CVs of a sample fall with the side of the patches. Patches that consist of whole smaller ones are no more
+/// non-uniform than these, but a sample may say so where it says little of one of the two: that one gives way.
+fn put_in_order(patches: &mut [PatchFindings]) {
     let mut order: Vec<usize> = (0..patches.len()).collect();
-    order.sort_by(|a, b| patches[*b].map.patch.total_cmp(&patches[*a].map.patch));
-    for (number, i) in order.iter().enumerate() {
-        let of_larger = |j: &usize| {
-            let times = patches[*j].map.patch / patches[*i].map.patch;
-            let is_whole = (times - times.round()).abs() < 1e-6;
-            patches[*j].reported().filter(|_| is_whole).map(|larger| larger.cv)
-        };
-        let larger = order[..number].iter().filter_map(of_larger).fold(0.0, f64::max);
-        let patch = &mut patches[*i];
-        if let Some(few) = patch.few.filter(|few| patch.warning.is_none() && few.cv < larger) {
-            let few = few.with_square(larger * larger);
-            patch.few = Some(few);
-            (patch.map.cv, patch.map.standard_error) = (few.cv, few.by_chance);
-        }
+    order.sort_by(|a, b| patches[*a].map.patch.total_cmp(&patches[*b].map.patch));
+    let is_whole = |small: &PatchFindings, large: &PatchFindings| {
+        let times = large.map.patch / small.map.patch;
+        times > 1.5 && (times - times.round()).abs() < 1e-6
+    };
+    let error = |patch: &PatchFindings| patch.with_total_error().and_then(|patch| patch.standard_error);
+    let is_known_better = |one: &PatchFindings, other: &PatchFindings| {
+        error(one).is_some_and(|own| error(other).is_none_or(|other| own < other))
+    };
+    for i in order.iter().rev() {
+        let small = patches[*i];
+        let larger = patches.iter().filter(|large| is_whole(&small, large) && is_known_better(large, &small));
+        patches[*i].raise_or_lower(larger.map(|large| large.map.cv).fold(small.map.cv, f64::max));
+    }
+    for i in order {
+        let large = patches[i];
+        let smaller =
+            patches.iter().filter(|small| is_whole(small, &large) && is_known_better(small, &large));
+        patches[i].raise_or_lower(smaller.map(|small| small.map.cv).fold(large.map.cv, f64::min));
     }
 }
 

@@ -50,26 +50,39 @@ fn sample(k: f64) -> SubsampleCv {
     }
 }
 
-/// Only the patches of 10 mm consist of whole ones of 5 mm, and only a sample gives way to them.
+/// Of 5 mm only the patches of 10 and 20 mm consist of whole ones, and what is known less gives way, if it is of a sample.
 #[test]
 fn a_sample_has_no_smaller_cv_over_smaller_patches() {
-    let of = |side: f64, cv: f64, few: bool| PatchFindings {
-        map: PatchCv { patch: side, cv, standard_error: None },
-        few: few.then(|| SubsampleCv { patch: side, cv, ..sample(1.0) }),
+    let of = |side: f64, cv: f64, by_pitch: f64, few: bool| PatchFindings {
+        map: PatchCv { patch: side, cv, standard_error: Some(0.02) },
+        few: few.then(|| SubsampleCv { patch: side, cv, by_pitch, ..sample(1.0) }),
         single_fibres: None,
         straight_fibres: 0.1,
         evidence: Evidence::FewInOneAir,
         warning: None,
         of_map: cv,
     };
-    for (few, raised) in [(true, 0.3), (false, 0.2)] {
-        let mut patches = [of(0.012, 0.4, few), of(0.005, 0.2, few), of(0.01, 0.3, few), of(0.02, 0.1, few)];
-        raise_to_larger(&mut patches);
-        let found = patches.map(|patch| patch.map.cv);
-        found.iter().zip([0.4, raised, 0.3, 0.1]).for_each(|(found, wanted)| close(*found, wanted));
-        // The error of the square stays.
-        let errors = patches[1].few.map(|few| [few.by_pitch, few.by_chance.unwrap_or(0.0)]);
-        errors.iter().flatten().zip([0.01, 0.02]).for_each(|(found, own)| close(*found, own * 0.2 / 0.3));
+    for (by_pitch, few, expected) in [
+        (0.01, true, [0.4, 0.3, 0.3, 0.1]),
+        (0.03, true, [0.4, 0.2, 0.2, 0.1]),
+        (0.01, false, [0.4, 0.2, 0.3, 0.1]),
+    ] {
+        let mut patches = [
+            of(0.012, 0.4, 0.01, few),
+            of(0.005, 0.2, 0.02, few),
+            of(0.01, 0.3, by_pitch, few),
+            of(0.02, 0.1, 0.01, few),
+        ];
+        put_in_order(&mut patches);
+        patches.iter().zip(expected).for_each(|(found, wanted)| close(found.map.cv, wanted));
+        // The error of the square stays where it is raised, and that of a CV where it is lowered.
+        if let Some(lowered) = patches[2].few {
+            close(lowered.by_pitch, by_pitch);
+        }
+        if let Some(raised) = patches[1].few {
+            close(raised.by_pitch, 0.02 * 0.2 / expected[1]);
+            close(raised.by_chance.unwrap_or(0.0), 0.02 * 0.2 / expected[1]);
+        }
     }
 }
 
