@@ -94,7 +94,10 @@ fn cell(number: Option<String>, unit: Unit) -> String {
 /// error by chance, and interval.
 fn cells_of_map(patch: &PatchFindings) -> [String; 4] {
     let reported = patch.with_total_error();
-    let ends = |ends: [f64; 2]| ends.map(|end| significant(100.0 * end, 3)).join(" to ");
+    let ends = |ends: [f64; 2]| {
+        let [low, high] = ends.map(|end| significant(100.0 * end, 3));
+        if ends[1].is_finite() { format!("{low} to {high}") } else { format!("at least {low}") }
+    };
     [
         format!("{}{THIN}mm", significant(patch.map.patch * 1e3, 3)),
         reported.map_or("–".to_owned(), |reported| per_cent(reported.cv, reported.standard_error)),
