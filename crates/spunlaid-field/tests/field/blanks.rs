@@ -1,5 +1,8 @@
 //! Points and cells of a field that hold no air, and plane flows on meshes of faces.
 
+use crate::air::mesh;
+use crate::meshes::Made;
+use crate::vtk::{ASCII, vtu};
 use spunlaid_field::{Description, Field, Hint};
 use spunlaid_ground::{Fault, Vec3};
 use std::path::Path;
@@ -57,7 +60,7 @@ fn analytic_rows_that_are_hidden_or_lack_a_number_end_the_air() {
         "1 point is hidden (vtkGhostType or vtkValidPointMask); there is no air there, and it is left out";
     for (names, last, said) in [
         (",vtkValidPointMask", "0,0,0,0,0", hidden.to_owned()),
-        (",vtkGhostType", "900,0,1,5,2", "no ghost".to_owned()),
+        (",vtkGhostType", "900,0,-9,5,2", "no ghost".to_owned()),
         ("", "nan,0,1,5", missing("u")),
         ("", "13,0,inf,5", missing("k")),
         ("", "13,0,1,", missing("epsilon")),
@@ -226,7 +229,7 @@ fn analytic_hidden_columns_of_legacy_grids_are_no_air() {
             ),
             (
                 format!(
-                    "CELL_DATA 8\nSCALARS vtkGhostType unsigned_char 1\nLOOKUP_TABLE default\n{of_cells}\n"
+                    "CELL_DATA 8\nSCALARS vtkGhostType unsigned_char\nLOOKUP_TABLE default\n{of_cells}\n"
                 ),
                 "2 cells are hidden",
             ),
@@ -272,8 +275,9 @@ fn piece(is_image: bool, in_cells: bool, [from, to, own]: [usize; 3]) -> String 
             "<DataArray type=\"Float64\" Name=\"U\" NumberOfComponents=\"3\" format=\"ascii\">{values}</DataArray>\n"
         )
     };
-    let marks =
-        format!("<DataArray type=\"UInt8\" Name=\"vtkGhostType\" format=\"ascii\">{ghosts}</DataArray>\n");
+    // Rectilinear grids have the older name.
+    let name = if is_image { "vtkGhostType" } else { "vtkGhostLevels" };
+    let marks = format!("<DataArray type=\"UInt8\" Name=\"{name}\" format=\"ascii\">{ghosts}</DataArray>\n");
     let (point_data, cell_data) = match in_cells {
         true => (String::new(), velocity(&of_cells) + &marks),
         false => (velocity(&of_points), marks),
@@ -339,19 +343,19 @@ fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
 /// as far as twice their usual distance.
 #[test]
 fn analytic_holes_go_as_far_as_their_cells() {
-    // Cells of 2 × 0.5; points off their rows by turns, in a box of 8 × 1.6.
+    // Cells of 2 × 0.5, and of 3 × 0.5 at the hole; points off their rows by turns, in a box of 9 × 1.5.
     let bent = |i: usize| if i % 2 == 1 && i < 15 { 0.1 } else { 0.0 };
-    let of_cells = 4.25_f64.sqrt();
-    let of_points = 2.0 * (8.0 * 1.5 / 20.0_f64).sqrt();
+    let of_cells = 9.25_f64.sqrt();
+    let of_points = 2.0 * (9.0 * 1.5 / 20.0_f64).sqrt();
     for (off, reach) in [(0.0, of_cells), (1.0, of_points)] {
         let row = |i: usize| {
-            let (x, y) = (2 * (i % 5), 0.5 * (i / 5) as f64 + off * bent(i));
+            let (x, y) = ([0, 2, 4, 6, 9][i % 5], 0.5 * (i / 5) as f64 + off * bent(i));
             let speed = if i == 19 { "nan".to_owned() } else { (10 + x).to_string() };
             format!("{x},{y},{speed},0\n")
         };
         let text = format!("x,y,u,v\n{}", (0..20).map(row).collect::<String>());
         let (field, _) = Field::parse(text.as_bytes(), "a.csv").unwrap();
-        let why = |share: f64| field.why_no_air(Vec3::new(8.0 + share * reach, 1.5, 0.0)).is_some();
+        let why = |share: f64| field.why_no_air(Vec3::new(9.0 + share * reach, 1.5, 0.0)).is_some();
         assert_eq!([0.5, 0.999, 1.001].map(why), [true, true, false], "{off}");
     }
 }
@@ -380,6 +384,20 @@ fn analytic_the_first_point_or_cell_without_a_number_is_where_it_is_said_to_be()
     }
 }
 
+/// Missing numbers are counted over all pieces.
+#[test]
+fn analytic_missing_numbers_of_all_pieces_are_counted() {
+    let halves = [0.0, 1.0].map(|shift| {
+        let mut half = mesh(Made::Hexahedra, 0.0);
+        half.points.iter_mut().for_each(|point| point[0] += shift);
+        half.point_data[1].2[0] = f64::NAN;
+        half
+    });
+    let (_, warnings) = Field::parse(&vtu(&halves, ASCII), "a.vtu").unwrap();
+    let said = "U has no number at 2 points; the first is point 1, at (0, 0, 0)";
+    assert!(warnings.iter().any(|warning| warning.message.starts_with(said)), "{warnings:?}");
+}
+
 /// Two cells in two pieces, of which one has the points between them too, with other values: those of their owner hold.
 #[test]
 fn analytic_points_that_another_piece_of_a_mesh_has_too_have_its_values() {
@@ -393,18 +411,23 @@ fn analytic_points_that_another_piece_of_a_mesh_has_too_have_its_values() {
     let piece = |from: usize, copies: Option<usize>| {
         let corners =
             [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
-        let points = corners.map(|[x, y, z]| [from + x, y, z].map(|at| at as f64));
-        let is_copy = points.map(|[x, ..]| copies == Some(x as usize));
-        let of = |own: fn(f64) -> f64| {
-            [0, 1, 2, 3, 4, 5, 6, 7].map(|i| if is_copy[i] { 999.0 } else { own(points[i][0]) })
+        let is_copy = corners.map(|[x, ..]| copies == Some(from + x));
+        // The points that both have are at x = 0. The copies write −0 there, and for y and z.
+        let points: [[f64; 3]; 8] = std::array::from_fn(|i| {
+            let [x, y, z] = corners[i].map(|at| at as f64);
+            [from as f64 + x - 1.0, y, z].map(|at| if is_copy[i] && at == 0.0 { -0.0 } else { at })
+        });
+        let of = |middle: f64| -> [f64; 8] {
+            let own = points.map(|[x, y, z]| middle + x + 2.0 * y + 4.0 * z);
+            std::array::from_fn(|i| if is_copy[i] { 999.0 } else { own[i] })
         };
-        let velocity = of(|x| 10.0 + x).map(|u| [u, 0.0, 0.0]);
+        let velocity = of(10.0).map(|u| [u, 0.0, 0.0]);
         format!(
             "<Piece NumberOfPoints=\"8\" NumberOfCells=\"1\">\n<PointData>\n{}{}{}{}</PointData>\n\
             <Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n</Piece>\n",
             numbers("U", "Float64", 3, velocity.as_flattened()),
-            numbers("k", "Float64", 1, &of(|x| 2.0 + x)),
-            numbers("epsilon", "Float64", 1, &of(|x| 3.0 + x)),
+            numbers("k", "Float64", 1, &of(2.0)),
+            numbers("epsilon", "Float64", 1, &of(3.0)),
             numbers("vtkGhostType", "UInt8", 1, &is_copy.map(f64::from)),
             numbers("Points", "Float64", 3, points.as_flattened()),
             numbers("connectivity", "Int64", 1, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
@@ -424,11 +447,11 @@ fn analytic_points_that_another_piece_of_a_mesh_has_too_have_its_values() {
                 pieces.concat()
             );
             let (field, _) = Field::parse(text.as_bytes(), "a.vtu").unwrap();
-            for x in [0.25, 0.75, 1.25, 1.75] {
-                let local = field.sample(Vec3::new(x, 0.5, 0.5), &mut Hint::default());
+            for x in [-0.75, -0.25, 0.25, 0.75] {
+                let local = field.sample(Vec3::new(x, 0.5, 0.25), &mut Hint::default());
                 let found = [local.velocity.x - 10.0, local.k - 2.0, local.epsilon - 3.0];
                 assert!(
-                    local.inside && found.iter().all(|off| (off - x).abs() < 1e-9),
+                    local.inside && found.iter().all(|off| (off - x - 2.0).abs() < 1e-9),
                     "{left:?} {x}: {local:?}"
                 );
             }

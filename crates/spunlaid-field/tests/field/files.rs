@@ -39,7 +39,7 @@ fn identical_in_every_encoding_of_an_unstructured_grid() {
             let (field, _) = read(&vtu(std::slice::from_ref(&mesh), style), "a.vtu");
             assert_eq!(samples(&field), samples(&plain), "{style:?}");
         }
-        for integer in ["Int16", "UInt16", "UInt32", "UInt64"] {
+        for integer in ["Int16", "UInt16", "UInt32", "UInt64", "Float64"] {
             let style = Style { place: DataPlace::Inline, integer, ..ASCII };
             let (field, _) = read(&vtu(std::slice::from_ref(&mesh), style), "a.vtu");
             assert_eq!(samples(&field), samples(&plain), "{style:?}");
@@ -192,6 +192,23 @@ fn identical_plane_flows_in_pieces_without_gaps() {
     }
 }
 
+/// Structured grids of one point along each of the axes: u = 2 + x + 3 y + 5 z.
+#[test]
+fn analytic_grids_of_one_point_along_an_axis_are_plane_flows() {
+    for axis in 0..3 {
+        let (mut size, mut at) = ([3, 4, 5], [0.75, 1.25, 2.5]);
+        (size[axis], at[axis]) = (1, 0.0);
+        let place = |i: usize| [i % size[0], i / size[0] % size[1], i / size[0] / size[1]];
+        let points: Vec<[f64; 3]> = (0..size.iter().product()).map(|i| place(i).map(|i| i as f64)).collect();
+        let speed = |[x, y, z]: [f64; 3]| 2.0 + x + 3.0 * y + 5.0 * z;
+        let data = [("U", 3, points.iter().flat_map(|at| [speed(*at), 0.0, 0.0]).collect())];
+        let (field, _) = read(&vts(size, &points, [&data, &[]], ASCII), "a.vts");
+        assert_eq!(field.plane_axis(), Some(axis));
+        let local = field.sample(Vec3::new(at[0], at[1], at[2]), &mut Hint::default());
+        assert!(local.inside && (local.velocity.x - speed(at)).abs() < 1e-12, "{axis}: {local:?}");
+    }
+}
+
 #[test]
 fn analytic_values_of_cells_are_the_mean_at_points() {
     // Two cubes side by side with 1 and 3 m/s: 2 m/s between them.
@@ -238,6 +255,7 @@ fn analytic_epsilon_is_from_omega() {
     assert_eq!((local.k, local.epsilon), (2.0, 0.09 * 2.0 * 100.0));
     // k alone does not make turbulence.
     let (field, _) = read(&vti([2, 2, 2], [0.0; 3], [1.0; 3], [&data[..2], &[]], ASCII), "a.vti");
+    assert_eq!(field.sources(), [("velocity", "velocity".to_owned())]);
     assert!(!field.has_turbulence() && field.sample(Vec3::default(), &mut Hint::default()).k == 0.0);
     // Negative values become zero, with a warning.
     let data = [
@@ -442,6 +460,10 @@ fn published_types_of_cells_of_vtk_are_read() {
     // Each point of a strip makes a triangle with the two before it.
     let (strip, _) = of_cells(&in_rows(0.0), &[(6, 4)]);
     assert_eq!(strip.describe(), Description::Mesh { points: 4, cells: 2 });
+    // Polygons of two points are none, and points without a face need not lie in the plane.
+    let points = [ring(3, 0.0), vec![[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 9.0]]].concat();
+    let (face, _) = of_cells(&points, &[(5, 3), (7, 2)]);
+    assert_eq!((face.describe(), face.plane_axis()), (Description::Mesh { points: 3, cells: 1 }, Some(2)));
     // Points, lines and faces next to cells with a volume are left out.
     let points = [cone(3), ring(3, 0.0)].concat();
     for (kind, count) in [(0, 0), (1, 1), (2, 3), (3, 2), (4, 3), (5, 3), (21, 3), (35, 3), (68, 3), (75, 3)]

@@ -89,10 +89,10 @@ fn identical_in_one_file_and_in_a_list_of_files() {
 fn identical_image_in_one_file_and_in_a_list() {
     // Three points along x, in two files of two columns each.
     let image = |columns: &[f64], origin: f64| {
-        let points: Vec<[f64; 3]> = (0..4)
+        let points: Vec<[f64; 3]> = (0..6)
             .flat_map(|i| columns.iter().map(move |x| [*x, f64::from(i % 2), f64::from(i / 2)]))
             .collect();
-        vti([columns.len(), 2, 2], [origin, 0.0, 0.0], [0.5, 1.0, 1.0], [&values(&points), &[]], ASCII)
+        vti([columns.len(), 2, 3], [origin, 0.0, 0.0], [0.5, 1.0, 1.0], [&values(&points), &[]], ASCII)
     };
     let folder = folder(&[
         ("whole.vti", &image(&[0.0, 0.5, 1.0], 0.0)),
@@ -102,7 +102,7 @@ fn identical_image_in_one_file_and_in_a_list() {
     ]);
     let read = |name: &str| Field::read(&folder.path().join(name)).unwrap().0;
     let (whole, list) = (read("whole.vti"), read("list.pvti"));
-    assert_eq!(list.describe(), Description::Lattice { points: [3, 2, 2] });
+    assert_eq!(list.describe(), Description::Lattice { points: [3, 2, 3] });
     assert_eq!(samples(&list), samples(&whole));
 }
 
@@ -151,6 +151,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
         ("absolute.vtm", blocks(&[absolute.to_str().unwrap()]).as_bytes()),
         ("mixed.pvtu", list(&["a.vtu", "image.vti"]).as_bytes()),
         ("twice.pvtu", list(&["a.vtu", "./a.vtu"]).as_bytes()),
+        ("walls.pvtu", list(&["a.vtu", "walls.vtp"]).as_bytes()),
         ("surfaces.vtm", blocks(&["walls.vtp", "outlet.vtp"]).as_bytes()),
         ("empty.pvtu", list(&[]).as_bytes()),
         ("some.vtm", blocks(&["a.vtu", "laminar.vtu"]).as_bytes()),
@@ -165,6 +166,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
             "missing.pvtu",
             "missing.pvtu:5: names the part \"b.vtu\", which is not there; copy it to that path next to the list",
         ),
+        ("walls.pvtu", "walls.pvtu:5: names the part \"walls.vtp\", which is not there;"),
         (
             "itself.pvtu",
             "itself.pvtu:4: names the part \"itself.pvtu\", which is this list itself or a list that names it;",

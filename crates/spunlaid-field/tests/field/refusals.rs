@@ -3,9 +3,10 @@
 
 use crate::air::{mesh, samples, values};
 use crate::meshes::{Block, Made};
-use crate::vtk::{ASCII, DataPlace, Squeeze, Style, legacy, vti, vtu};
+use crate::vtk::{ASCII, DataPlace, Squeeze, Style, legacy, vti, vts, vtu};
 use proptest::prelude::*;
-use spunlaid_field::{Field, FieldLayout};
+use spunlaid_field::{Field, FieldLayout, Hint};
+use spunlaid_ground::Vec3;
 use std::path::Path;
 
 fn refused(bytes: &[u8]) -> String {
@@ -30,6 +31,11 @@ fn rejects_meshes_with_place_and_way_out() {
             "0 1 4 3",
             "0 1 99 3",
             "a.vtu: cell 1: names point 99 (counted from 0), but there are 27 points; is the file complete?",
+        ),
+        (
+            "0 1 4 3",
+            "0 1 27 3",
+            "a.vtu: cell 1: names point 27 (counted from 0), but there are 27 points; is the file complete?",
         ),
         (
             "0 1 4 3",
@@ -97,6 +103,17 @@ fn rejects_meshes_with_place_and_way_out() {
     ] {
         assert_eq!(changed(&plain, from, to), said);
     }
+    let row = vts(
+        [5, 1, 1],
+        &[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| [x, 0.0, 0.0]),
+        [&[("U", 3, vec![1.0; 15])], &[]],
+        ASCII,
+    );
+    assert_eq!(
+        refused(&row),
+        "a.vtu: has no cells with a volume, only 4 points, lines and faces; write the interior of the flow as well, \
+        and a plane flow one cell thick or as a table of points"
+    );
     let mut flat = mesh(Made::Hexahedra, 0.0);
     flat.cells.iter_mut().for_each(|cell| *cell = (9, cell.1[..4].to_vec(), vec![]));
     assert_eq!(
@@ -216,6 +233,17 @@ fn rejects_legacy_files_with_place_and_way_out() {
         ),
         (
             "ASCII",
+            "DATASET STRUCTURED_GRID\nDIMENSION 2 2 2",
+            "a.vtu:5: \"DIMENSION\" was found instead of DIMENSIONS; is the file complete, and is it the right one?",
+        ),
+        (
+            "BINARY",
+            "DATASET STRUCTURED_POINTS\nFIELD a 1\nb 1 1 string\nc\nDIMENSIONS 2 2 2",
+            "a.vtu: byte 87: \"string\" was found instead of a type of number; is the file complete, and is it the \
+            right one?",
+        ),
+        (
+            "ASCII",
             "DATASET STRUCTURED_POINTS\nDIMENSIONS 2 0 2",
             "a.vtu:5: \"0\" was found instead of a number of points, at least 1; is the file complete, and is it \
              the right one?",
@@ -248,6 +276,11 @@ fn rejects_tables_with_place_and_way_out() {
         (
             "x,y,z,p,T\n1,2,3,4,5\n",
             "a.vtu: none of the arrays is a velocity (x, y, z, p and T); name it U or velocity, with three \
+            components, or write u, v and w, or name its arrays with air.field_velocity",
+        ),
+        (
+            "x,y,z,u,w\n1,2,3,4,5\n",
+            "a.vtu: none of the arrays is a velocity (x, y, z, u and w); name it U or velocity, with three \
             components, or write u, v and w, or name its arrays with air.field_velocity",
         ),
         (
@@ -303,8 +336,18 @@ fn rejects_columns_that_stand_twice_and_a_missing_component() {
     // Without w: the air of a plane flow, and that of another one.
     let plane = table("x,y,z,u,v", |[x, y, _]| format!("{},{y}", 20.0 + x));
     assert!(Field::parse(plane.as_bytes(), "a.csv").is_ok());
-    let along_z = refused(table("x,y,z,u,v", |[x, y, z]| format!("{},{y}", 20.0 + x - z)).as_bytes());
-    assert!(along_z.contains("has no velocity along z, and its points lie at different z"), "{along_z}");
+    // Rounding along z, and a component that is zero.
+    let rounded = table("x,y,z,u,v", |[x, _, z]| format!("{},0", 20.0 + x + 1e-4 * z));
+    assert!(Field::parse(rounded.as_bytes(), "a.csv").is_ok());
+    let level = "x,y,z,u,v\n0,0,1,2,0\n1,0,1,2,0\n0,1,1,3,0\n1,1,1,3,0\n";
+    assert!(Field::parse(level.as_bytes(), "a.csv").is_ok());
+    let none_above: String = (0..20).map(|i| format!("{i},{},{},2,0\n", i % 4, i % 3)).collect();
+    for text in
+        [table("x,y,z,u,v", |[x, y, z]| format!("{},{y}", 20.0 + x - z)), format!("x,y,z,u,v\n{none_above}")]
+    {
+        let said = refused(text.as_bytes());
+        assert!(said.contains("has no velocity along z, and its points lie at different z"), "{said}");
+    }
 }
 
 /// A mean is zero before its averaging begins; the velocity of the time stands beside it.
@@ -318,8 +361,16 @@ fn rejects_a_mean_that_is_zero_everywhere() {
         "{said}"
     );
     Field::parse(mean(9.0).as_bytes(), "a").unwrap();
-    let layout = FieldLayout { velocity: Some("U:0, U:1, U:2".to_owned()), ..FieldLayout::default() };
-    Field::parse_as(mean(0.0).as_bytes(), "a", &layout).unwrap();
+    let named = |velocity: &str| {
+        let layout = FieldLayout { velocity: Some(velocity.to_owned()), ..FieldLayout::default() };
+        Field::parse_as(mean(0.0).as_bytes(), "a", &layout)
+    };
+    named("U:0, U:1, U:2").unwrap();
+    // One array is not two components.
+    assert!(named("U:0, U:1").is_ok() && named("U:0, U:0").is_err());
+    // The ending of a component is no unit.
+    let other = FieldLayout { velocity: Some("W[i],W[j],W[k]".to_owned()), ..FieldLayout::default() };
+    Field::parse_as(table("x,y,z,W[i],W[j],W[k]", |_| "1,2,3".to_owned()).as_bytes(), "a", &other).unwrap();
 }
 
 /// Programs mark places without a number by one of their own, in any component; NaN is left out.
@@ -495,7 +546,10 @@ fn rejects_energies_below_zero_by_more_than_rounding() {
             .collect();
         let text = format!("x,y,u,v,k,epsilon\n{rows}");
         let read = Field::parse(text.as_bytes(), "a.csv").map_err(|error| error.to_string());
-        read.map(|(_, warnings)| {
+        read.map(|(field, warnings)| {
+            // In the middle between that point and the next.
+            let k = field.sample(Vec3::new(2.5, 1.0, 0.0), &mut Hint::default()).k;
+            assert_eq!(k, 1.0, "{least}");
             warnings.into_iter().map(|warning| warning.message.into_owned()).collect::<Vec<_>>()
         })
     };

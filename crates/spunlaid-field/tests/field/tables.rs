@@ -28,6 +28,25 @@ fn velocities_with_few_digits_are_reported() {
     }
 }
 
+/// Whole steps, but for rounding, are reported if each value occurs often and a step is above a hundredth of the largest.
+#[test]
+fn few_digits_are_whole_steps_of_values_that_occur_often() {
+    let is_reported = |value: &dyn Fn(u32) -> f64| {
+        let row = |i: u32| {
+            let [u, v, w] = [0, 1, 2].map(|part| value(3 * i + part));
+            format!("{},{},{},{u},{v},{w}\n", i % 8, i / 8 % 8, i / 64)
+        };
+        let text = format!("x,y,z,u,v,w\n{}", (0..512).map(row).collect::<String>());
+        let (_, warnings) = Field::parse(text.as_bytes(), "air.csv").unwrap();
+        warnings.iter().any(|warning| warning.message.starts_with("has velocities in steps of "))
+    };
+    assert!(is_reported(&|i| 0.5 * f64::from(i % 20)));
+    assert!(is_reported(&|i| f64::from(i % 20) + 2e-6 * f64::from(i % 3)));
+    // Each value occurs 7.96 times; steps of a hundred-and-fiftieth.
+    assert!(!is_reported(&|i| f64::from(i % 193) - 96.0));
+    assert!(!is_reported(&|i| f64::from(i % 151)));
+}
+
 #[test]
 fn tables_of_many_programs_are_read() {
     let rows = |numbers: &str, parting: &str| -> String {
@@ -119,6 +138,18 @@ fn tables_of_many_programs_are_read() {
     // Rows that lack any number are left out.
     let (field, warnings) =
         read(b"x,y,u,v\n0,0,1,2\n1,0,1,2\n5,5,nan,2\n0,1,3,2\n7,7,,1\n1,1,3,2\n8,8,1,\n", "a.csv");
+    let without_place = |rows: &str| {
+        let text = format!("x,y,u,v\n0,0,1,2\n1,0,1,2\n{rows}0,1,3,2\n1,1,3,2\n");
+        let (field, warnings) = read(text.as_bytes(), "a.csv");
+        assert_eq!(field.describe(), Description::Lattice { points: [2, 2, 1] });
+        warnings
+    };
+    for (rows, said) in [
+        ("nan,0,9,9\n", "the row in line 4 lacks a coordinate and is left out"),
+        ("nan,0,9,9\n5,,9,9\n", "2 rows lack a coordinate and are left out; the first is in line 4"),
+    ] {
+        assert_eq!(without_place(rows), [Fault::plain(said)]);
+    }
     let dropped = [
         "u has no number at 2 points; the first is in line 4",
         "v has no number at 1 point; it is in line 8",
