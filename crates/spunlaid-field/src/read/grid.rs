@@ -46,14 +46,6 @@ impl Grid {
         }
     }
 
-    /// Whether its cells are faces.
-    pub(super) fn is_flat(&self) -> bool {
-        match self {
-            Self::Unstructured { parts, .. } => parts.are_faces,
-            _ => self.size().is_some_and(|size| size.contains(&1)),
-        }
-    }
-
     /// All points.
     pub(super) fn points(&self) -> Cow<'_, [Vec3<f64>]> {
         match self {

@@ -154,7 +154,7 @@ impl Collection {
         let before = self.points.len() as u32;
         // Faces beside cells may have points of their own, at the same places, with the values of the wall.
         let has_flat = matches!(&grid, Grid::Unstructured { parts, .. } if parts.flat > 0);
-        let kept = match grid.is_flat() || has_flat {
+        let kept = match has_flat {
             true => Some(blanks.used_points(&grid)?),
             false => blanks.kept_points(&grid)?,
         };

@@ -343,19 +343,19 @@ fn analytic_cells_that_another_piece_of_a_grid_has_too_count_once() {
 /// as far as twice their usual distance.
 #[test]
 fn analytic_holes_go_as_far_as_their_cells() {
-    // Cells of 2 × 0.5, and of 3 × 0.5 at the hole; points off their rows by turns, in a box of 9 × 1.5.
+    // Cells of 2 × 0.5, and of 3 × 1 at the hole; points off their rows by turns, in a box of 9 × 2.
     let bent = |i: usize| if i % 2 == 1 && i < 15 { 0.1 } else { 0.0 };
-    let of_cells = 9.25_f64.sqrt();
-    let of_points = 2.0 * (9.0 * 1.5 / 20.0_f64).sqrt();
+    let of_cells = 10.0_f64.sqrt();
+    let of_points = 2.0 * (9.0 * 2.0 / 20.0_f64).sqrt();
     for (off, reach) in [(0.0, of_cells), (1.0, of_points)] {
         let row = |i: usize| {
-            let (x, y) = ([0, 2, 4, 6, 9][i % 5], 0.5 * (i / 5) as f64 + off * bent(i));
+            let (x, y) = ([0, 2, 4, 6, 9][i % 5], [0.0, 0.5, 1.0, 2.0][i / 5] + off * bent(i));
             let speed = if i == 19 { "nan".to_owned() } else { (10 + x).to_string() };
             format!("{x},{y},{speed},0\n")
         };
         let text = format!("x,y,u,v\n{}", (0..20).map(row).collect::<String>());
         let (field, _) = Field::parse(text.as_bytes(), "a.csv").unwrap();
-        let why = |share: f64| field.why_no_air(Vec3::new(9.0 + share * reach, 1.5, 0.0)).is_some();
+        let why = |share: f64| field.why_no_air(Vec3::new(9.0 + share * reach, 2.0, 0.0)).is_some();
         assert_eq!([0.5, 0.999, 1.001].map(why), [true, true, false], "{off}");
     }
 }
