@@ -159,6 +159,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
         ("table.vtm", blocks(&["table.csv"]).as_bytes()),
         ("cut.vtm", blocks(&["cut.vtu"]).as_bytes()),
         ("folder.vtm", blocks(&["."]).as_bytes()),
+        ("latin.pvtu", b"<VTKFile type=\"PImageData\">\n\xfc"),
         ("broken.pvtu", &list(&["a.vtu"]).as_bytes()[..100]),
     ]);
     for (name, wanted) in [
@@ -195,6 +196,7 @@ fn rejects_lists_with_the_part_that_is_to_blame() {
         ("table.vtm", "table.csv: is not a VTK file; write this part as one"),
         ("cut.vtm", "cut.vtu:"),
         ("folder.vtm", "is a folder; name the field of air in it"),
+        ("latin.pvtu", "latin.pvtu:2: is not valid XML: it is not UTF-8 text"),
         ("broken.pvtu", "broken.pvtu:"),
     ] {
         let said = said(&folder, name);

@@ -114,6 +114,10 @@ fn rejects_meshes_with_place_and_way_out() {
         "a.vtu: has no cells with a volume, only 4 points, lines and faces; write the interior of the flow as well, \
         and a plane flow one cell thick or as a table of points"
     );
+    let mut lines = mesh(Made::Hexahedra, 0.0);
+    lines.cells.iter_mut().for_each(|cell| *cell = (3, cell.1[..2].to_vec(), vec![]));
+    let said = refused(&vtu(&[lines], ASCII));
+    assert!(said.contains("has no cells with a volume, only 8 points, lines and faces"), "{said}");
     let mut flat = mesh(Made::Hexahedra, 0.0);
     flat.cells.iter_mut().for_each(|cell| *cell = (9, cell.1[..4].to_vec(), vec![]));
     assert_eq!(
@@ -430,6 +434,8 @@ fn rejects_a_slice_of_a_flow_around_an_axis() {
 fn rejects_entities_and_depth() {
     let bomb = "<?xml version=\"1.0\"?><!DOCTYPE a [<!ENTITY b \"bb\"><!ENTITY c \"&b;&b;\">]><VTKFile \
         type=\"ImageData\">&c;</VTKFile>";
+    let latin = b"<VTKFile type=\"ImageData\">\n\xfc";
+    assert_eq!(refused(latin), "a.vtu:2: is not valid XML: it is not UTF-8 text");
     assert_eq!(refused(bomb.as_bytes()), "a.vtu:1: is not valid XML: XML with DTD detected");
     for start in ["", "<VTKFile type=\"ImageData\"><ImageData>"] {
         let deep = format!("{start}{}", "<a>".repeat(100_000));

@@ -87,6 +87,8 @@ fn tables_of_many_programs_are_read() {
             Energy (J/kg),Turbulent Dissipation Rate (m^2/s^3)\n{}",
             rows("1;2;3;4;5", ",")
         ),
+        // The usual names come before those of other programs.
+        format!("x,y,z,u,v,w,k,epsilon,Points:0,Points:1,Points:2\n{}", rows("1;2;3;4;5;7;7;7", ",")),
         format!("% x y z u v w k ep\n{}", rows("1;2;3;4;5", "   ")),
         format!(
             "% Model:              channel.mph\n% Version:            COMSOL 6.1.0.252\n\
