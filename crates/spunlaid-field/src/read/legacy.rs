@@ -248,12 +248,13 @@ impl<'a> Scanner<'a> {
                 self.metadata();
             }
             let name = self.name()?;
-            let components = self.parse("a number of components")?;
+            let components: usize = self.parse("a number of components")?;
             let tuples: usize = self.parse("a number of points or cells")?;
             match self.word()? {
                 // An array of texts, one on each line.
                 "string" if !self.binary => {
-                    for _ in 0..tuples.saturating_add(1).min(self.bytes.len()) {
+                    let texts = components.saturating_mul(tuples);
+                    for _ in 0..texts.saturating_add(1).min(self.bytes.len()) {
                         self.rest_of_line();
                     }
                 }

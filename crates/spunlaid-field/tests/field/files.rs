@@ -502,8 +502,10 @@ fn published_types_of_numbers_of_legacy_files_are_read() {
         "vtktypeint64",
         "vtktypeuint64",
     ] {
+        // VTK writes each component of a text on a line.
         let text = format!(
-            "# vtk DataFile Version 3.0\na\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n\
+            "# vtk DataFile Version 3.0\na\nASCII\nDATASET STRUCTURED_POINTS\nFIELD FieldData 1\n\
+            note 2 2 string\na%20b\nORIGIN 9\nc\n\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n\
             SPACING 1 1 1\nPOINT_DATA 8\nVECTORS U {word}\n{}",
             "7 0 1\n".repeat(8)
         );
