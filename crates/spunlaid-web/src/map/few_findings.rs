@@ -63,6 +63,8 @@ impl SubsampleCv {
 /// off if that matters beside chance.
 const TOLD_WELL: f64 = 0.01;
 const FAR_OFF: f64 = 0.05;
+/// The same where what every second one adds is taken off, and half of it is in the error.
+const FAR_OFF_THAT_IS_TAKEN_OFF: f64 = 0.1;
 /// Correlation of the places where neighbours come down, at the pitch of the few, below which those between
 /// them are not reported.
 const TOGETHER: f64 = 0.7;
@@ -163,7 +165,8 @@ impl SubsampleEstimate {
         }
         // Where chance leaves more open, more filaments would give hardly more.
         let matters = cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
-        let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > FAR_OFF && matters;
+        let far = if cv.by_missing > 0.0 { FAR_OFF_THAT_IS_TAKEN_OFF } else { FAR_OFF };
+        let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > far && matters;
         is_off.then_some(SubsampleWarning::Halves(patch, cv.of_halves))
     }
 
@@ -222,7 +225,13 @@ mod tests {
         assert_eq!(estimate.warning(), Some(SubsampleWarning::Halves(0.02, 0.08)));
         let within_chance = |cv: &SubsampleCv| SubsampleCv { by_chance: Some(0.012), ..*cv };
         let cvs = estimate.cvs.iter().map(within_chance).collect();
-        assert_eq!(SubsampleEstimate { cvs, ..estimate }.warning(), None);
+        assert_eq!(SubsampleEstimate { cvs, ..estimate.clone() }.warning(), None);
+        // What is taken off may be twice as much.
+        let filled = |of_halves: f64| {
+            let cvs = vec![SubsampleCv { by_missing: 0.01, ..cv(0.01, of_halves) }];
+            SubsampleEstimate { cvs, ..estimate.clone() }.warning().is_some()
+        };
+        assert!(!filled(0.09) && filled(0.11) && filled(-0.11));
     }
 
     #[test]
