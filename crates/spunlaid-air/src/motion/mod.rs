@@ -203,7 +203,7 @@ impl Air {
     /// of the shortest period. Zero without turbulence.
     pub fn memory(&self) -> f64 {
         const TIMES: f64 = 3.0;
-        match self.turbulence_intensity > 0.0 {
+        match self.turbulence_intensity * self.velocity.abs() > 0.0 {
             true => TIMES * (self.length_scale / self.velocity.abs()).max(0.25 / self.cutoff_frequency),
             false => 0.0,
         }

@@ -172,4 +172,5 @@ fn analytic_air_is_correlated_while_eddies_pass_or_for_its_shortest_period() {
     for (found, wanted) in [(memory(0.1, 10e3), 5e-4), (memory(0.1, 50.0), 15e-3), (memory(0.0, 50.0), 0.0)] {
         assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
     }
+    assert_eq!(Air::uniform(0.0, 0.1, 10e-3, 50.0).memory(), 0.0);
 }

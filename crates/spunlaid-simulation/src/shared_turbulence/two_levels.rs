@@ -35,10 +35,8 @@ const MOST_AREA: f64 = 30.0;
 const FARTHER: f64 = 0.15;
 /// Most coarse sheets that fly before their error is looked at.
 const MOST_AT_FIRST: u64 = 8;
-/// Part of the wanted variance that may come from the pairs before another pair is simulated.
+/// Part of what area and pairs may have that may come from the pairs before another pair is simulated.
 const BY_PAIRS: f64 = 0.5;
-/// Least part of the wanted variance that the area may have, whatever else there is.
-const LEAST_LEFT: f64 = 0.5 * BY_PAIRS;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
 /// What is expected before anything is simulated: relative variance of a CV that an area of 1 m² leaves open, and the
@@ -239,28 +237,29 @@ impl<'a> LayerSheets<'a> {
             let Some(variances) = levels.variances() else { return Ok(alone) };
             let (limit, area) = (wanted * wanted, AREA * airs as f64);
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
-            // What more sheets can lower. The distance of the filaments does the same on all of them, so that they may
-            // not reach the limit.
+            if !variances.whole().is_finite() {
+                return Ok(alone);
+            }
+            // What the area and the pairs may have. The distance of the filaments does the same on all sheets; a smaller
+            // part than half of that would cost more than it is worth.
+            let rest = (limit - variances.by_distance).max(0.5 * variances.by_distance);
             let open = variances.by_area + variances.by_places;
-            let by_pairs = variances.by_pairs;
-            let left = (limit - by_pairs - variances.by_distance).max(LEAST_LEFT * limit);
-            // Half of what stays anyway, because a smaller part would cost more than it is worth.
-            let left = left.max(0.5 * variances.by_distance);
-            let is_enough = variances.whole() <= limit || (open <= left && by_pairs <= BY_PAIRS * limit);
+            let is_enough = open + variances.by_pairs <= rest;
             if is_enough || area >= MOST_AREA || is_late {
                 let combined = levels.combine().unwrap_or(alone);
                 return Ok(SubsampleEstimate { wanted: Some(wanted), ..combined });
             }
-            let mut spared = 0.0;
+            let mut by_pairs = variances.by_pairs;
             pair = None;
-            if by_pairs > BY_PAIRS * limit {
+            if by_pairs > BY_PAIRS * rest {
                 pair = Some(NextPair { on: &of_pairs, air: PAIRS | pairs, fine: None });
                 pairs += 1;
                 // The sheets that it spares are not simulated.
-                spared = by_pairs / pairs as f64;
+                by_pairs *= (pairs - 1) as f64 / pairs as f64;
             }
+            let left = (rest - by_pairs).max((1.0 - BY_PAIRS) * rest);
             // No more than as many again, because the variance is not known well yet.
-            let needed = airs as f64 * (open / (left + spared) - 1.0);
+            let needed = airs as f64 * (open / left - 1.0);
             more = (needed.ceil() as u64).clamp(1, airs);
             if let Some(time) = spec.time {
                 // Nothing is known of the time where all sheets were kept.

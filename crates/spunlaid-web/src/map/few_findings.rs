@@ -12,7 +12,7 @@ pub struct SubsampleCv {
     pub by_chance: Option<f64>,
     /// Its standard error because few filaments were simulated: from what every second one of them says.
     pub by_pitch: f64,
-    /// How far every second filament is off, as a share of the CV.
+    /// How far every second filament is off, as a fraction of the CV, or of that of the map where they are filled in.
     pub of_halves: f64,
     /// How far it is off at least by what filling in leaves out of the filaments of a slot, as a fraction of the CV; zero
     /// where nothing is filled in. Counts where every second filament shows less.
@@ -22,7 +22,8 @@ pub struct SubsampleCv {
     /// CV of the few filaments alone.
     pub few: f64,
     /// What CV² of all has more than that of a map in which those between the few are filled in, each at its own place
-    /// and without a defect; of filaments at random places, that of an even row. Zero where such a map gives it.
+    /// and without a defect; of filaments at random places, that of an even row. Zero where such a map gives it; in a
+    /// slot what (83p) takes off the map, below zero.
     pub beyond_filling: f64,
     /// What CV² over a larger area, which was simulated coarsely, has more than that of the sheet; zero without.
     pub beyond_sheet: f64,
@@ -49,6 +50,11 @@ impl SubsampleCv {
     /// * `of_halves` – as in [`SubsampleCv`]
     pub(crate) fn beyond_halves(&self, of_halves: f64) -> f64 {
         (self.by_missing - of_halves.abs()).max(0.0)
+    }
+
+    /// How far every second filament may be off, as a fraction of the CV.
+    fn far_off(&self) -> f64 {
+        if self.by_missing > 0.0 { FAR_OFF_THAT_IS_TAKEN_OFF } else { FAR_OFF }
     }
 
     /// With another square of the CV: the errors of the square stay.
@@ -165,8 +171,7 @@ impl SubsampleEstimate {
         }
         // Where chance leaves more open, more filaments would give hardly more.
         let matters = cv.by_chance.is_none_or(|by_chance| cv.by_pitch > by_chance);
-        let far = if cv.by_missing > 0.0 { FAR_OFF_THAT_IS_TAKEN_OFF } else { FAR_OFF };
-        let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > far && matters;
+        let is_off = patch >= TOLD_WELL && cv.of_halves.abs() > cv.far_off() && matters;
         is_off.then_some(SubsampleWarning::Halves(patch, cv.of_halves))
     }
 
@@ -186,7 +191,10 @@ impl SubsampleEstimate {
     /// ones give it.
     pub fn enough_per_metre(&self) -> Option<f64> {
         let times = match self.warning()? {
-            SubsampleWarning::Halves(_, off) => (off.abs() / FAR_OFF).max(MORE),
+            SubsampleWarning::Halves(patch, off) => {
+                let of_patch = self.cvs.iter().find(|cv| cv.patch == patch);
+                (off.abs() / of_patch.map_or(FAR_OFF, SubsampleCv::far_off)).max(MORE)
+            }
             SubsampleWarning::Own(_) | SubsampleWarning::Neighbours(_) => MORE,
         };
         let enough = TRIED.map(|tried| (tried / self.usual_pitch - WHOLE).ceil());

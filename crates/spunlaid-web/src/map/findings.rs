@@ -113,8 +113,9 @@ impl PatchFindings {
         self.warning.is_none().then_some(self.map)
     }
 
-    /// Gives the CV of a sample another value. Its errors do not become larger, and those of its square neither.
-    fn raise_or_lower(&mut self, cv: f64) {
+    /// Gives the CV of a sample another value. Where it is raised the errors of its square stay, where it is lowered
+    /// those of the CV.
+    fn set_sample_cv(&mut self, cv: f64) {
         if let Some(few) = self.few.filter(|few| self.warning.is_none() && few.cv != cv) {
             let few = if cv > few.cv { few.with_square(cv * cv) } else { SubsampleCv { cv, ..few } };
             self.few = Some(few);
@@ -209,7 +210,8 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
         Some(layers) => Some(expected(web, layers, &sides, sample, columns.clone(), by)?),
         None => None,
     };
-    // The air displaces neighbours together, so their streaks are chance; those of defects are not.
+    // Without defects, all streaks of filaments in one air are random. With them, those of holes at random are, and the
+    // rest counts as the same in all webs.
     let width = columns.len() as f64 * sheet.cell;
     let places = match evidence {
         Evidence::Known => web.places(width),
@@ -285,13 +287,13 @@ fn put_in_order(patches: &mut [PatchFindings]) {
     for i in order.iter().rev() {
         let small = patches[*i];
         let larger = patches.iter().filter(|large| is_whole(&small, large) && is_known_better(large, &small));
-        patches[*i].raise_or_lower(larger.map(|large| large.map.cv).fold(small.map.cv, f64::max));
+        patches[*i].set_sample_cv(larger.map(|large| large.map.cv).fold(small.map.cv, f64::max));
     }
     for i in order {
         let large = patches[i];
         let smaller =
             patches.iter().filter(|small| is_whole(small, &large) && is_known_better(small, &large));
-        patches[i].raise_or_lower(smaller.map(|small| small.map.cv).fold(large.map.cv, f64::min));
+        patches[i].set_sample_cv(smaller.map(|small| small.map.cv).fold(large.map.cv, f64::min));
     }
 }
 

@@ -39,7 +39,7 @@ pub struct Variances {
     pub by_pairs: f64,
     /// Because the whole area is small.
     pub by_area: f64,
-    /// Because few filaments were simulated: what their places do, which is different on each sheet.
+    /// Because a sample of filaments was simulated: what their positions do, which is different on each sheet.
     pub by_places: f64,
     /// What their distance does, which is alike on all sheets.
     pub by_distance: f64,
@@ -176,9 +176,11 @@ impl Levels {
         let first = &self.pairs.first()?.fine;
         let small = if patch < small_patch(first.pitch) { SMALL } else { 0.0 };
         let beyond = first.cvs[at(first)?].beyond_halves(off);
+        // Of the mean of values that scatter, from their own scatter; one sheet shows none.
+        let scatter = (squares - off * off).max(0.0) * fractions / (1.0 - fractions);
         Some(OfSample {
             of_halves: off,
-            by_places: (squares - off * off).max(0.0) * fractions,
+            by_places: if fractions < 0.999 { scatter } else { off * off },
             by_distance: 0.25 * off * off + small * small + beyond * beyond,
         })
     }

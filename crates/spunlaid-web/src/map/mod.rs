@@ -244,7 +244,7 @@ impl Layer {
     }
 }
 
-/// Power of the streaks of a layer that are chance, if they had no width.
+/// Power of the random streaks of a layer, if they had no width.
 struct LayerStreaks<'a> {
     layer: &'a Layer,
     /// By the number of filaments at a place.
@@ -253,25 +253,12 @@ struct LayerStreaks<'a> {
     by_defects: f64,
 }
 
-/// Holes among which chance gives some a defect.
-#[derive(Clone, Copy, Debug)]
-struct DefectiveHoles {
-    among: f64,
-    share: f64,
-    /// What is missing by each, as a fraction of what the layer lays without defects.
-    each: f64,
-}
-
-impl DefectiveHoles {
-    /// What is missing on average, as a fraction.
-    fn mean(self) -> f64 {
-        self.among * self.share * self.each
-    }
-
-    /// Its variance over webs.
-    fn variance(self) -> f64 {
-        self.among * self.share * (1.0 - self.share) * self.each.powi(2)
-    }
+/// What a layer lays with its defects over what it lays without them.
+struct WithDefects {
+    /// Mean over webs.
+    mean: f64,
+    /// Variance over webs, by which of the holes have a defect.
+    variance: f64,
 }
 
 /// Most waves of streaks across a sheet.
@@ -297,72 +284,85 @@ impl Web {
     }
 
     fn streaks(&self, width: f64) -> Streaks {
-        let weight = self.weight_with_defects();
-        let of_layer = |number: usize| {
-            let layer = &self.layers[number];
+        let layers = self.with_defects();
+        let weight = self.weight_of(&layers);
+        let fraction = width / self.sheet.width;
+        let mut streaks = Vec::new();
+        for (layer, with) in self.layers.iter().zip(&layers).filter(|_| weight > 0.0) {
             let part = (layer.basis_weight(&self.sheet) / weight).powi(2);
             // Of a web that is wide everywhere, so many filaments lie in this width on average: a Poisson number.
-            let share = width / self.sheet.width;
-            let count = layer.count(&self.sheet) as f64 * share;
-            let by_number = if layer.filaments.are_at_random() { part / count } else { 0.0 };
-            let by_defects =
-                part * self.defective_holes(number, layer).map(DefectiveHoles::variance).sum::<f64>();
-            LayerStreaks { layer, by_number, by_defects: by_defects / share }
-        };
-        let layers: Vec<LayerStreaks<'_>> = (0..self.layers.len()).map(of_layer).collect();
+            let count = layer.count(&self.sheet) as f64 * fraction;
+            let by_number = match layer.filaments.are_at_random() {
+                true => part * with.mean.powi(2) / count,
+                false => 0.0,
+            };
+            streaks.push(LayerStreaks { layer, by_number, by_defects: part * with.variance / fraction });
+        }
         let power = |number: usize| {
             let wave = 2.0 * std::f64::consts::PI * number as f64 / width;
-            layers.iter().map(|of| (of.by_number + of.by_defects) * of.layer.fibres.power_across(wave)).sum()
+            streaks.iter().map(|of| (of.by_number + of.by_defects) * of.layer.fibres.power_across(wave)).sum()
         };
         // Shorter waves have hardly a part in streaks.
-        let least = 1e-6 * layers.iter().map(|of| of.by_number + of.by_defects).sum::<f64>();
+        let least = 1e-6 * streaks.iter().map(|of| of.by_number + of.by_defects).sum::<f64>();
         Streaks {
-            variance_of_mean: layers.iter().map(|of| of.by_number).sum(),
+            variance_of_mean: streaks.iter().map(|of| of.by_number).sum(),
             powers: (1..=MOST_STREAKS).map(power).take_while(|power| *power > least).collect(),
             has_rows: self.layers.iter().any(|layer| !layer.filaments.are_at_random()),
         }
     }
 
     /// Variance of the mean basis weight over webs of this kind by the holes that have a defect at random, over its
-    /// square.
+    /// square; zero of a web without fibre.
     pub fn variance_by_defects(&self) -> f64 {
-        let weight = self.weight_with_defects();
-        let of_layer = |(number, layer): (usize, &Layer)| {
-            let part = layer.basis_weight(&self.sheet) / weight;
-            part * part * self.defective_holes(number, layer).map(DefectiveHoles::variance).sum::<f64>()
-        };
-        self.layers.iter().enumerate().map(of_layer).sum()
+        let layers = self.with_defects();
+        let weight = self.weight_of(&layers);
+        if weight <= 0.0 {
+            return 0.0;
+        }
+        let part = |layer: &Layer| (layer.basis_weight(&self.sheet) / weight).powi(2);
+        self.layers.iter().zip(&layers).map(|(layer, with)| part(layer) * with.variance).sum()
     }
 
     /// Mean basis weight of webs of this kind, with their defects [kg/m²].
-    fn weight_with_defects(&self) -> f64 {
-        let of_layer = |(number, layer): (usize, &Layer)| {
-            let missing = self.defective_holes(number, layer).map(DefectiveHoles::mean).sum::<f64>();
-            layer.basis_weight(&self.sheet) * (1.0 - missing)
-        };
-        self.layers.iter().enumerate().map(of_layer).sum()
+    fn weight_of(&self, layers: &[WithDefects]) -> f64 {
+        self.layers.iter().zip(layers).map(|(layer, with)| with.mean * layer.basis_weight(&self.sheet)).sum()
     }
 
-    /// The holes of each defect of a layer.
-    fn defective_holes<'a>(
-        &'a self,
-        number: usize,
-        layer: &'a Layer,
-    ) -> impl Iterator<Item = DefectiveHoles> + 'a {
-        let count = layer.count(&self.sheet) as f64;
-        layer.defects.iter().map(move |defect| {
+    /// What defects make of each layer.
+    fn with_defects(&self) -> Vec<WithDefects> {
+        self.layers.iter().enumerate().map(|(number, layer)| self.layer_with_defects(number, layer)).collect()
+    }
+
+    fn layer_with_defects(&self, number: usize, layer: &Layer) -> WithDefects {
+        let count = layer.count(&self.sheet) as usize;
+        // Mean and mean square over webs of what each hole lays, over what it lays without a defect.
+        let mut of_holes = vec![[1.0; 2]; count];
+        for defect in &layer.defects {
             let of_all = Defect { share: 1.0, ..*defect };
-            let holes = holes(self.layer_filaments(number, layer), 0, &of_all).len() as f64;
-            // Of filaments at random places, as many as come down there.
-            let is_one = defect.from.is_some() && defect.to.is_none();
-            let (among, share) = match layer.filaments.are_at_random() && !is_one {
-                true => (count, defect.share * holes / count),
-                false => (holes, defect.share),
-            };
+            let holes = holes(self.layer_filaments(number, layer), 0, &of_all);
             let length =
                 (defect.until(self.sheet.length, layer.belt_speed) / self.sheet.length).clamp(0.0, 1.0);
-            DefectiveHoles { among, share, each: (1.0 - defect.titre) * length / count }
-        })
+            let left = 1.0 - (1.0 - defect.titre) * length;
+            let mut give = |hole: usize, share: f64| {
+                for (power, moment) in (1..).zip(&mut of_holes[hole]) {
+                    *moment *= 1.0 - share * (1.0 - left.powi(power));
+                }
+            };
+            // Of filaments at random places, any may be one of those that come down there.
+            let is_one = defect.from.is_some() && defect.to.is_none();
+            match layer.filaments.are_at_random() && !is_one {
+                true => {
+                    (0..count).for_each(|hole| give(hole, defect.share * holes.len() as f64 / count as f64))
+                }
+                false => holes.iter().for_each(|(hole, _)| give(*hole, defect.share)),
+            }
+        }
+        let count = count as f64;
+        WithDefects {
+            mean: of_holes.iter().map(|[mean, _]| mean).sum::<f64>() / count,
+            variance: of_holes.iter().map(|[mean, square]| square - mean * mean).sum::<f64>()
+                / (count * count),
+        }
     }
 
     /// Mass of all filaments over the sheet's area [kg/m²]. With [`Edges::Cut`] some of it may lie beyond the edges.

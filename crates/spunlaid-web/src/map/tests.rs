@@ -98,16 +98,18 @@ fn analytic_streaks_of_holes_with_a_defect_at_random() {
         let by_defects = 0.2 * 0.8 * 0.75 * 0.75 / count;
         // On a third of the width a third of the holes, with three times the variance.
         let [whole, third] = [0.3, 0.1].map(|width| web(vec![layer.clone()]).streaks(width));
-        let expected = (by_number + by_defects) / 0.85_f64.powi(2);
+        let expected = by_number + by_defects / 0.85_f64.powi(2);
         for (streaks, width, times) in [(whole, 0.3, 1.0), (third, 0.1, 3.0)] {
-            close(streaks.variance_of_mean, times * by_number / 0.85_f64.powi(2));
+            close(streaks.variance_of_mean, times * by_number);
             let width_of_one = (-(2.0 * PI / width * 8e-3_f64).powi(2)).exp();
             close(streaks.powers[0], times * expected * width_of_one);
             assert_eq!(streaks.has_rows, by_number == 0.0);
         }
     }
-    let in_one_air = web(vec![with(rows())]).places_in_one_air(0.3);
-    assert_eq!(in_one_air, web(vec![with(rows())]).places(0.3));
+    let at_random = web(vec![with(Filaments::AtRandom { per_metre: 500.0 })]);
+    let Places::Known(in_one_air) = at_random.places_in_one_air(0.3) else { panic!("unknown places") };
+    assert!(in_one_air.has_rows && in_one_air.variance_of_mean == 0.0);
+    assert_eq!(in_one_air.powers, at_random.streaks(0.3).powers);
 }
 
 /// Of holes with a defect at random the number is binomial, each with its missing mass. So is, of filaments at random
@@ -140,7 +142,17 @@ fn analytic_the_mean_weight_varies_with_the_holes_that_have_a_defect() {
     let both = web(vec![of(rows(), defect), layer(at_random)]).variance_by_defects();
     close(both, 20.0 * 0.2 * 0.8 * (0.75_f64 / (170.0 - 20.0 * 0.2 * 0.75)).powi(2));
     let twice = Layer { defects: vec![defect; 2], ..layer(rows()) };
-    close(alone(twice), 40.0 * 0.2 * 0.8 * (0.75_f64 / (20.0 - 40.0 * 0.2 * 0.75)).powi(2));
+    // Titres of holes with both defects multiply: their means are 0.85, and their mean squares 0.8125.
+    close(alone(twice), (0.8125_f64.powi(2) - 0.85_f64.powi(4)) / 20.0 / 0.85_f64.powi(4));
+    // A row is dead, and half of all holes are blocked.
+    let dead = Defect { row: Some(2), ..Defect::USUAL };
+    let blocked = Defect { share: 0.5, ..Defect::USUAL };
+    let left = web(vec![Layer { defects: vec![dead, blocked], ..layer(rows()) }]);
+    close(left.weight_of(&left.with_defects()) / left.basis_weight(), 0.25);
+    close(left.variance_by_defects(), 10.0 * 0.25 / (20.0 * 0.25_f64).powi(2));
+    // Nothing is left.
+    let none = web(vec![Layer { defects: vec![Defect::USUAL], ..layer(rows()) }]);
+    assert_eq!((none.variance_by_defects(), none.streaks(0.3).powers.len()), (0.0, 0));
 }
 
 #[test]

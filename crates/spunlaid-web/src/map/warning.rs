@@ -114,7 +114,8 @@ impl Display for WebWarning {
             ),
             Self::Unsure { wanted, reached, by_sample, area } => {
                 let left = wanted * wanted - by_sample * by_sample;
-                let way = match left > 0.0 {
+                // Most of the error of the sample does not become smaller with the area.
+                let way = match left > 0.5 * wanted * wanted {
                     true => {
                         let times = (reached * reached - by_sample * by_sample) / left;
                         let times = Dimension::Ratio.pretty_to(times, 2);

@@ -22,7 +22,7 @@ pub enum Places {
 /// of the mean basis weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Streaks {
-    /// Variance of the mean basis weight of sheets like this one.
+    /// Variance of the mean basis weight of sheets like this one, by the number of filaments at random places.
     pub variance_of_mean: f64,
     /// Mean power of the wave with so many periods across the sheet and none along it, from one period on.
     /// All waves have twice that, since each counts in both senses.

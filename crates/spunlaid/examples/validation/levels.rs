@@ -180,10 +180,7 @@ fn print_bias(name: &str, spec: &WebSpec, seeds: u64) {
             let is_side = |patch: f64| (patch / side - 1.0).abs() < 1e-6;
             let patch = found.patches.iter().find(|found| is_side(found.map.patch)).expect("a patch");
             match patch.few {
-                Some(few) => {
-                    let of_map = (few.cv * few.cv - few.beyond_filling).sqrt();
-                    OfSide { cv: few.cv, by_pitch: few.by_pitch, of_map }
-                }
+                Some(few) => OfSide { cv: few.cv, by_pitch: few.by_pitch, of_map: patch.of_map },
                 None => OfSide { cv: patch.of_map, by_pitch: 0.0, of_map: patch.of_map },
             }
         })

@@ -79,9 +79,10 @@ fn stat_intervals_of_cv_and_clouds_hold_for_webs_of_each_kind() {
         ("rows, even", rows(2e-3, 240)),
         ("rows far apart", rows(48e-3, 10)),
         ("some holes at random", rows(2e-3, 240)),
+        ("some filaments at random", Filaments::AtRandom { per_metre: 800.0 }),
     ] {
         let mut web = web(filaments, Edges::Periodic, [0.48, 0.3]);
-        if name == "some holes at random" {
+        if name.starts_with("some") {
             // On a slow belt there is little else than their streaks.
             web.layers[0].defects = vec![Defect { share: 0.2, titre: 0.5, ..Defect::USUAL }];
             web.layers[0].belt_speed = 1.0;

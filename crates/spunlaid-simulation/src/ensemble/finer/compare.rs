@@ -113,7 +113,7 @@ impl FinerPlan {
 /// Root mean square of a statistic that has both signs; none of one that keeps its sign. The mean of such a statistic
 /// may be close to zero accidentally, so that no change is a fraction of it.
 fn size_of_both_signs(each: &[[f64; 3]]) -> Option<f64> {
-    let all = || each.iter().flatten();
+    let all = || each.iter().flat_map(|of| &of[..2]);
     let has_both_signs = all().any(|value| *value > 0.0) && all().any(|value| *value < 0.0);
     has_both_signs.then(|| (all().map(|value| value * value).sum::<f64>() / all().count() as f64).sqrt())
 }

@@ -96,7 +96,8 @@ impl Statistic {
 pub struct Change {
     /// Which statistic.
     pub statistic: &'static Statistic,
-    /// The ratio of the means over the replicates, minus one, with the standard error of the paired ratio;
+    /// The ratio of the means over the replicates, minus one, with the standard error of the paired ratio, or, with
+    /// `size`, the mean difference as a fraction of it;
     /// the values are those of each replicate [-].
     pub estimate: Estimate,
     /// Elements of a quarter of the length [m], and the same change from them; none if they were not simulated.

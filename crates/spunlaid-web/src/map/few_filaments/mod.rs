@@ -196,9 +196,9 @@ impl Subsample<'_> {
                     let apart = (by_filling.cv - cv).powi(2) - by_pitch * by_pitch;
                     by_filling.by_pitch = by_filling.by_pitch.max(apart.max(0.0).sqrt());
                 }
-                let of_filling = 2.0 * by_filling.by_pitch / by_filling.cv;
-                let square = by_filling.cv * by_filling.cv;
-                of_variance.push((*patch, of_filling.hypot(by_filling.beyond_filling / square)));
+                let SubsampleCv { cv, by_pitch, beyond_filling, .. } = by_filling;
+                let of_map = cv * cv - beyond_filling;
+                of_variance.push((*patch, (2.0 * by_pitch * cv / of_map).hypot(beyond_filling / of_map)));
                 estimate.cvs.push(by_filling);
                 continue;
             }
@@ -274,7 +274,7 @@ impl Subsample<'_> {
         let mut estimate = SubsampleCv {
             patch,
             cv,
-            by_chance: filled.standard_error.map(|error| error * filled.cv / of_map),
+            by_chance: filled.standard_error.map(|error| error * filled.cv * cv / (of_map * of_map)),
             by_pitch: 0.0,
             of_halves,
             by_missing: if is_slot { OFF_BY_MISSING * 0.5 * (in_md + in_cd) } else { 0.0 },

@@ -512,7 +512,8 @@ fn analytic_straight_filaments_that_never_meet() {
         close(found.few, 7_f64.sqrt());
         assert!(estimate.blocks[0].iter().all(|block| (block - 2.0).abs() < 1e-9));
         // The error of waves is that of the variance over these patches, or by how much the two maps differ in them.
-        let of_variance = (2.0 * found.by_pitch / cv).hypot(found.beyond_filling / (cv * cv));
+        let square = of_map * of_map;
+        let of_variance = (2.0 * found.by_pitch * cv / square).hypot(found.beyond_filling / square);
         let [of_all, of_half] = [32, 16].map(|count| Clouds::measure(&map(count)).unwrap());
         for ((_, error), (_, apart)) in estimate.octaves.iter().zip(of_all.apart(&of_half)) {
             // A comb of filaments has octaves without waves.

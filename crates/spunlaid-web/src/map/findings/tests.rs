@@ -263,8 +263,15 @@ fn findings_are_warned_of_with_their_numbers() {
         unsure(&laid(vec![simulated(Some(few))]))
     };
     let said = wanted(0.05);
-    let [WebWarning::Unsure { wanted: 0.05, reached, area, .. }] = &said[..] else { panic!("{said:?}") };
+    let [WebWarning::Unsure { wanted: 0.05, reached, by_sample, area }] = &said[..] else {
+        panic!("{said:?}")
+    };
     close(*reached, 0.1);
+    close(*by_sample, 0.06);
+    assert!(said[0].to_string().ends_with("which needs more filaments per metre (web.simulated)"));
+    // 0.0064 by the area, which may have 0.0081 − 0.0036.
+    let of_area = wanted(0.09)[0].to_string();
+    assert!(of_area.contains("which needs about 1.4 times the area; raise web.time"), "{of_area}");
     close(*area, 0.02);
     assert_eq!((wanted(0.1), wanted(0.2)), (Vec::new(), Vec::new()));
     let field = |edge_field: f64| {

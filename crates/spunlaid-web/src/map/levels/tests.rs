@@ -250,7 +250,7 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     // A fifth, two fifths and two fifths of the area: their squares are 9/25, and the mean of halves is 0.02, half of
     // which stays however many sheets there are.
     let squares = (0.04_f64.powi(2) + 2.0 * 0.02_f64.powi(2) + 2.0 * 0.05_f64.powi(2)) / 5.0;
-    let [by_places, by_distance] = [(squares - 0.02_f64.powi(2)) * 0.36, 0.01_f64.powi(2)];
+    let [by_places, by_distance] = [(squares - 0.02_f64.powi(2)) * 0.36 / 0.64, 0.01_f64.powi(2)];
     let of_square = 4.0 * square * square;
     let expected = [left * of_both / of_square, by_area / of_square, by_places, by_distance];
     let all = [found.by_pairs, found.by_area, found.by_places, found.by_distance];

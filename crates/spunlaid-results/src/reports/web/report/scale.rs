@@ -95,8 +95,11 @@ pub(crate) fn words(Judged { patch, reported, interval, chance, .. }: Judged) ->
         return format!("The CV of this web over patches of {size} is not known.{chance}");
     };
     let interval = interval.map_or_else(String::new, |ends| {
-        let ends = ends.map(|end| significant(100.0 * end, 3));
-        format!("; 95{THIN}% of such webs lie between {}{THIN}%", ends.join(" and "))
+        let [low, high] = ends.map(|end| significant(100.0 * end, 3));
+        match ends[1].is_finite() {
+            true => format!("; 95{THIN}% of such webs lie between {low} and {high}{THIN}%"),
+            false => format!("; 95{THIN}% of such webs have at least {low}{THIN}%"),
+        }
     });
     format!("This web has {} over patches of {size}{interval}.{chance}", per_cent(cv, error))
 }
