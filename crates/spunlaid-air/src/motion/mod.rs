@@ -199,8 +199,8 @@ impl Air {
         self.harmonics as f64 / self.cutoff_frequency
     }
 
-    /// How long the turbulence at a place is correlated [s]: for as long as three eddies take to pass, or three quarters
-    /// of the shortest period. Zero without turbulence.
+    /// How long the turbulence at a place is correlated [s]: for as long as three eddies take to pass, or three
+    /// quarters of the shortest period. Zero without turbulence.
     pub fn memory(&self) -> f64 {
         const TIMES: f64 = 3.0;
         match self.turbulence_intensity * self.velocity.abs() > 0.0 {

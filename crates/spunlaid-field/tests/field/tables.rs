@@ -28,7 +28,8 @@ fn velocities_with_few_digits_are_reported() {
     }
 }
 
-/// Whole steps, but for rounding, are reported if each value occurs often and a step is above a hundredth of the largest.
+/// Whole steps, but for rounding, are reported if each value occurs often and a step is above a hundredth of the
+/// largest.
 #[test]
 fn few_digits_are_whole_steps_of_values_that_occur_often() {
     let is_reported = |value: &dyn Fn(u32) -> f64| {

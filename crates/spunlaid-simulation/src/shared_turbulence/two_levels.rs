@@ -240,8 +240,8 @@ impl<'a> LayerSheets<'a> {
             if !variances.whole().is_finite() {
                 return Ok(alone);
             }
-            // What the area and the pairs may have. The distance of the filaments does the same on all sheets; a smaller
-            // part than half of that would cost more than it is worth.
+            // What the area and the pairs may have. The distance of the filaments does the same on all sheets; a
+            // smaller part than half of that would cost more than it is worth.
             let rest = (limit - variances.by_distance).max(0.5 * variances.by_distance);
             let open = variances.by_area + variances.by_places;
             let is_enough = open + variances.by_pairs <= rest;

@@ -14,8 +14,8 @@ pub struct SubsampleCv {
     pub by_pitch: f64,
     /// How far every second filament is off, as a fraction of the CV, or of that of the map where they are filled in.
     pub of_halves: f64,
-    /// How far it is off at least by what filling in leaves out of the filaments of a slot, as a fraction of the CV; zero
-    /// where nothing is filled in. Counts where every second filament shows less.
+    /// How far it is off at least by what filling in leaves out of the filaments of a slot, as a fraction of the CV;
+    /// zero where nothing is filled in. Counts where every second filament shows less.
     pub by_missing: f64,
     /// Part of CV² that filaments make each for itself, which falls with their number. Zero of rows.
     pub own: f64,
@@ -44,8 +44,8 @@ impl SubsampleCv {
         beyond_sheet: 0.0,
     };
 
-    /// How far it may be off beyond what every second filament shows, as a fraction of the CV: where much is missing, two
-    /// maps lack nearly all that small eddies do, and agree.
+    /// How far it may be off beyond what every second filament shows, as a fraction of the CV: where much is missing,
+    /// two maps lack nearly all that small eddies do, and agree.
     ///
     /// * `of_halves` – as in [`SubsampleCv`]
     pub(crate) fn beyond_halves(&self, of_halves: f64) -> f64 {

@@ -161,8 +161,8 @@ impl Levels {
         (square > 0.0).then(|| OfPatch { cv: square.sqrt(), variances, of_halves })
     }
 
-    /// What the sample of filaments does. What depends on their places averages out over the sheets, and what depends on
-    /// their distance does not.
+    /// What the sample of filaments does. What depends on their places averages out over the sheets, and what depends
+    /// on their distance does not.
     fn of_sample(&self, patch: f64, at: impl Fn(&SubsampleEstimate) -> Option<usize>) -> Option<OfSample> {
         let mut squares = 0.0;
         let mut off = 0.0;

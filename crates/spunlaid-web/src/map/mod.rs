@@ -277,8 +277,8 @@ impl Web {
         Places::Known(self.streaks(width))
     }
 
-    /// [`Web::places`] of filaments that share an air, which makes streaks too. What the map has of streaks beyond those
-    /// of defects at random counts as the same in all webs, because one map does not show it.
+    /// [`Web::places`] of filaments that share an air, which makes streaks too. What the map has of streaks beyond
+    /// those of defects at random counts as the same in all webs, because one map does not show it.
     fn places_in_one_air(&self, width: f64) -> Places {
         Places::Known(Streaks { variance_of_mean: 0.0, has_rows: true, ..self.streaks(width) })
     }

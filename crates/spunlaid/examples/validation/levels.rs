@@ -166,8 +166,8 @@ struct OfSide {
     of_map: f64,
 }
 
-/// Of one sheet, how far the CV from some of its filaments is from that of all in the same air, and the error that it has
-/// for that; then how far the map is in which the others are filled in. In per cent of the CV of all.
+/// Of one sheet, how far the CV from some of its filaments is from that of all in the same air, and the error that it
+/// has for that; then how far the map is in which the others are filled in. In per cent of the CV of all.
 fn print_bias(name: &str, spec: &WebSpec, seeds: u64) {
     let of = |seed: u64, simulated: Flown| {
         let sheet = Sheet { width: SHEET[0], length: SHEET[1], ..spec.sheet.clone() };

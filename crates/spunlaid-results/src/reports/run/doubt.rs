@@ -65,7 +65,7 @@ pub(super) fn why_unknown(measure: &str, checks: &FinerChecks) -> Option<String>
             "error not known: waves along the fibre decide this number, and the check of the {refined} does not \
             follow them"
         ),
-        Silence::Chance => format!(
+        Silence::SamplingError => format!(
             "error not known: this number is close to zero, and the check of the {refined} is too short to show how \
             much it changes"
         ),
@@ -341,8 +341,8 @@ mod tests {
         assert!(!is_known(true, "peak_root_tension") && is_known(false, "sigma_md"));
     }
 
-    /// The mean of a number of both signs may be close to zero accidentally. Its change is a fraction of its root mean square,
-    /// and its error does not follow how close to zero it is.
+    /// The mean of a number of both signs may be close to zero accidentally. Its change is a fraction of its root mean
+    /// square, and its error does not follow how close to zero it is.
     #[test]
     fn the_error_of_a_number_close_to_zero_does_not_follow_the_number() {
         let error = |mean: f64, change: f64, of_change: f64, size: Option<f64>| {

@@ -117,7 +117,7 @@ impl Change {
 
     /// Whether it is known to no better than a quarter of the size of a statistic that has both signs. Pairs that have
     /// nothing in common know it to a half.
-    fn is_lost_in_chance(&self) -> bool {
+    fn is_lost_in_sampling_error(&self) -> bool {
         self.size.is_some() && self.estimate.standard_error.is_none_or(|error| error > 0.25)
     }
 
@@ -165,7 +165,7 @@ pub enum Silence {
     /// The axial waves of the fibre decide the measure, and they are others in another scheme.
     AxialWaves,
     /// The measure has both signs, and the flights of the check are too few to show what changes.
-    Chance,
+    SamplingError,
 }
 
 /// What there is for each refinement, or the reason why there is nothing.
@@ -224,7 +224,7 @@ impl FinerCheck {
         if is_other_scheme && follows_axial_waves(measure, self.is_fed) {
             return Some(Silence::AxialWaves);
         }
-        change.is_some_and(Change::is_lost_in_chance).then_some(Silence::Chance)
+        change.is_some_and(Change::is_lost_in_sampling_error).then_some(Silence::SamplingError)
     }
 
     /// What differs, by its name, `path_difference` or `amplitude_difference`, and the factor from it to the error, as

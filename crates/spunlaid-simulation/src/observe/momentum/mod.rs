@@ -346,8 +346,8 @@ impl StretchedBalance {
     }
 
     /// Means and standard errors over the stretches; empty without one. The last one is left out if it is not
-    /// whole. A slack fibre takes longer to the belt, and its stretches know of more of those before, as do those in air
-    /// that changes slowly.
+    /// whole. A slack fibre takes longer to the belt, and its stretches know of more of those before, as do those in
+    /// air that changes slowly.
     pub(crate) fn way(&self) -> Vec<WayPlace> {
         let fullest = self.stretches.iter().map(|balance| balance.instants).fold(0.0, f64::max);
         let whole = || self.stretches.iter().filter(|balance| balance.instants > 0.9 * fullest);

@@ -89,8 +89,8 @@ pub(super) const SMALL: f64 = 0.02;
 /// Side of a block, which is larger than a cloud, so that one is hardly correlated with the next [m].
 const BLOCK: f64 = 0.05;
 
-/// By how much of the variance that is missing the map of a slot is too non-uniform at least: 0.2 to 0.5 of it, as three
-/// slots showed of which all filaments were simulated.
+/// By how much of the variance that is missing the map of a slot is too non-uniform at least: 0.2 to 0.5 of it, as
+/// three slots showed of which all filaments were simulated.
 const OFF_BY_MISSING: f64 = 0.3;
 
 /// The error of the variance of waves from one length to another, as a part of it: that of the patches which are half

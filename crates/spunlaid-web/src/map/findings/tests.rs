@@ -50,7 +50,8 @@ fn sample(k: f64) -> SubsampleCv {
     }
 }
 
-/// Of 5 mm only the patches of 10 and 20 mm consist of whole ones, and what is known less gives way, if it is of a sample.
+/// Of 5 mm only the patches of 10 and 20 mm consist of whole ones, and what is known less gives way, if it is of a
+/// sample.
 #[test]
 fn a_sample_has_no_smaller_cv_over_smaller_patches() {
     let of = |side: f64, cv: f64, by_pitch: f64, few: bool| PatchFindings {
