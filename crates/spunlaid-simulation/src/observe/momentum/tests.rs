@@ -175,3 +175,19 @@ fn stat_the_error_of_a_series_contains_what_its_values_have_in_common() {
     assert_eq!(error_of_series(&[1.0], 1), None);
     assert_eq!(error_of_series(&[1.0, 2.0], usize::MAX), None);
 }
+
+/// Air with a shortest period of 67 ms is correlated for 50 ms, three stretches of 20 ms: eight of them have an error.
+#[test]
+fn a_balance_in_slow_air_has_an_error_from_many_stretches_only() {
+    let mut case = line(40.0);
+    case.air.cutoff_frequency = 15.0;
+    let mut flight = Flight::new(&[Job::new(&case, 0)], Isa::detect()).unwrap();
+    flight.advance(1000);
+    let snapshot = flight.observe();
+    let nodes = NodeStates::of(&snapshot, tension_lag(&flight), |lane| lane == 0);
+    for (stretches, is_known) in [(7, false), (8, true)] {
+        let mut balance = StretchedBalance::new(&case);
+        (0..stretches).for_each(|number| balance.see(&nodes, 0.02 * f64::from(number) + 0.01));
+        assert_eq!(balance.way()[10].standard_error.is_some(), is_known, "{stretches}");
+    }
+}
