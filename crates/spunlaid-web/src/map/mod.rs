@@ -357,7 +357,8 @@ impl Web {
                 false => holes.iter().for_each(|(hole, _)| give(*hole, defect.share)),
             }
         }
-        let count = count as f64;
+        // A layer without filaments has no weight either.
+        let count = count.max(1) as f64;
         WithDefects {
             mean: of_holes.iter().map(|[mean, _]| mean).sum::<f64>() / count,
             variance: of_holes.iter().map(|[mean, square]| square - mean * mean).sum::<f64>()
