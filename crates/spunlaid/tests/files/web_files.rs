@@ -406,3 +406,16 @@ fn rejects_assumed_values_that_have_no_half() {
     assert_reads_back(&file);
     assert!(read_web(FLOWN, &set("web.assumed", "none")[..]).unwrap().spec.assumed.is_empty());
 }
+
+/// A list of names may be empty, and is then written as it is read.
+#[test]
+fn no_name_at_all_is_the_word_none() {
+    let file = read_web(KNOWN, &set("web.turnable", "none")[..]).unwrap();
+    assert_eq!(file.spec.turnable, Some(Vec::new()));
+    assert!(file.text.contains("turnable = \"none\""), "{}", file.text);
+    assert_reads_back(&file);
+    for key in ["web.turnable", "web.assumed"] {
+        let refused = read_web(KNOWN, &set(key, ", ,")[..]).unwrap_err().to_string();
+        assert!(refused.contains("is a text without a name") && refused.contains("\"none\""), "{refused}");
+    }
+}

@@ -16,8 +16,11 @@ const NONE: &str = "none";
 /// The names in a text, with commas between them.
 fn names(value: &Value) -> Result<Vec<String>, Fault> {
     let names = text(value)?;
-    let names = names.split(',').map(str::trim).filter(|name| !["", NONE].contains(name));
-    Ok(names.map(ToOwned::to_owned).collect())
+    let names: Vec<_> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+    if names.is_empty() {
+        return Err(Fault::wrong_type("a text without a name", "names with commas between them, or \"none\""));
+    }
+    Ok(names.into_iter().filter(|name| *name != NONE).map(ToOwned::to_owned).collect())
 }
 
 /// What becomes of fibre beyond the edges.
@@ -177,7 +180,10 @@ pub(super) const KEYS: &[WebKey] = &[
         .label("Assumed values"),
     key("web.turnable", Kind::Text("throughput, air_speed, slot_gap"))
         .access(Access {
-            get: |web| web.turnable.as_ref().map(|names| names.join(", ").into()),
+            get: |web| {
+                let names = web.turnable.as_ref()?;
+                Some(if names.is_empty() { NONE.into() } else { names.join(", ").into() })
+            },
             set: |web, value| {
                 web.turnable = Some(names(value)?);
                 Ok(())
