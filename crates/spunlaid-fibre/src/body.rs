@@ -31,6 +31,70 @@ pub fn diameter_of(linear_density: f64, density: f64) -> f64 {
     (4.0 * linear_density / (PI * density)).sqrt()
 }
 
+/// How the size of a filament is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// Its diameter [m].
+    Diameter(f64),
+    /// Its mass per length [kg/m].
+    LinearDensity(f64),
+}
+
+/// How the speed of a filament is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feed {
+    /// The speed at which it is fed [m/s].
+    Speed(f64),
+    /// The mass flow of its hole [kg/s].
+    Throughput(f64),
+}
+
+/// A filament on its way to the belt: each number in the way that it is given, and the others from them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FedFilament {
+    /// Density of the polymer [kg/m³].
+    pub density: f64,
+    /// Its diameter, or what gives it.
+    pub size: Size,
+    /// Its speed, or what gives it.
+    pub feed: Feed,
+}
+
+impl FedFilament {
+    /// A filament of which nothing is known yet.
+    pub const UNKNOWN: Self =
+        Self { density: f64::NAN, size: Size::Diameter(f64::NAN), feed: Feed::Speed(f64::NAN) };
+
+    /// Diameter [m].
+    pub fn diameter(&self) -> f64 {
+        match self.size {
+            Size::Diameter(diameter) => diameter,
+            Size::LinearDensity(linear_density) => diameter_of(linear_density, self.density),
+        }
+    }
+
+    /// Mass per length [kg/m].
+    pub fn linear_density(&self) -> f64 {
+        linear_density(self.diameter(), self.density)
+    }
+
+    /// Speed at which it is fed [m/s].
+    pub fn feed_speed(&self) -> f64 {
+        match self.feed {
+            Feed::Speed(speed) => speed,
+            Feed::Throughput(throughput) => throughput / self.linear_density(),
+        }
+    }
+
+    /// Mass flow of its hole [kg/s].
+    pub fn throughput(&self) -> f64 {
+        match self.feed {
+            Feed::Speed(speed) => self.linear_density() * speed,
+            Feed::Throughput(throughput) => throughput,
+        }
+    }
+}
+
 /// A fibre of elements with equal rest length, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fibre {

@@ -88,7 +88,7 @@ fn read(text: &str, set: &[(String, String)]) -> Option<WebFile> {
     let web = read_web((text, "web.toml"), set).ok()?;
     let sheet = &web.spec.sheet;
     let fibre = web.spec.layers.iter().map(|layer| {
-        layer.filaments.count(sheet) as f64 * sheet.length * layer.feed_speed / layer.belt_speed
+        layer.filaments.count(sheet) as f64 * sheet.length * layer.filament.feed_speed() / web.spec.belt_speed
     });
     (implausible(&web.spec).is_empty() && fibre.sum::<f64>() < MOST_FIBRE).then_some(web)
 }

@@ -8,7 +8,7 @@ mod remarks;
 mod step;
 mod usual;
 
-use crate::body::{Fibre, linear_density};
+use crate::body::{FedFilament, Feed, Fibre, Size};
 use crate::chain::{FibreParameters, Scheme};
 use crate::drag::Drag;
 use crate::line::Line;
@@ -124,14 +124,21 @@ impl Case {
         }
     }
 
+    /// The fibre as the filament of a hole, which has no speed if it has a fixed length.
+    pub fn filament(&self) -> FedFilament {
+        let speed = self.line.map_or(f64::NAN, |line| line.feed_speed);
+        let size = Size::Diameter(self.fibre.diameter);
+        FedFilament { density: self.fibre.density, size, feed: Feed::Speed(speed) }
+    }
+
     /// Mass per length of the fibre [kg/m].
     pub fn linear_density(&self) -> f64 {
-        linear_density(self.fibre.diameter, self.fibre.density)
+        self.filament().linear_density()
     }
 
     /// Mass flow of a fed fibre, which is that of its hole [kg/s]; `None` if the fibre has a fixed length.
     pub fn throughput(&self) -> Option<f64> {
-        Some(self.linear_density() * self.line?.feed_speed)
+        self.line.map(|_| self.filament().throughput())
     }
 
     /// Vector from the root to the free end of the straight fibre [m].

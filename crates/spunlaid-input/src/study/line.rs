@@ -10,6 +10,7 @@ use super::web::WebBase;
 use spunlaid_air::{Air, Flow};
 use spunlaid_experiment::plausible::outside;
 use spunlaid_experiment::{Change, ChangedWeb, setting};
+use spunlaid_fibre::Feed;
 use spunlaid_fibre::case::keys::VariedKey;
 use spunlaid_ground::{ChangedKey, Dimension, Error, Setting};
 use spunlaid_simulation::layers::full_names::{replaced_by, web_key};
@@ -250,7 +251,7 @@ impl WebToChange<'_> {
     pub(super) fn value(&self, knob: &LineKnob) -> Option<f64> {
         let key = &knob.known.first()?.key;
         match knob.setting {
-            setting::BELT_SPEED => Some(self.spec().belt_speed()),
+            setting::BELT_SPEED => Some(self.spec().belt_speed),
             setting::BASIS_WEIGHT => Some(self.spec().weight()),
             _ => self.number(&key.name, key),
         }
@@ -289,7 +290,8 @@ impl WebToChange<'_> {
         let values = self.values(knob, step, CHANGED);
         let mut made = self.with(&values).ok()?;
         let belt = made.spec.belt_speed_for(self.weight());
-        let slowest = made.spec.layers.iter().map(|layer| layer.feed_speed).fold(f64::INFINITY, f64::min);
+        let slowest =
+            made.spec.layers.iter().map(|layer| layer.filament.feed_speed()).fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
             return None;
         }
@@ -307,7 +309,10 @@ impl WebToChange<'_> {
         let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
         let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
         let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
-        layer.is_some_and(|layer| layer.throughput.is_some() && layer.throughput == self.base.value(key))
+        layer.is_some_and(|layer| match layer.filament.feed {
+            Feed::Throughput(throughput) => Some(throughput) == self.base.value(key),
+            Feed::Speed(_) => false,
+        })
     }
 
     /// Values as they are set in the file, without those that stand there.
@@ -333,7 +338,7 @@ impl WebToChange<'_> {
             let known = vec![KnownKey { key, from, power: 1.0 }];
             Some(LineKnob { setting, layers: Vec::new(), known, changes: Vec::new() })
         };
-        let speed = (setting::BELT_SPEED, BELT_SPEED, spec.belt_speed());
+        let speed = (setting::BELT_SPEED, BELT_SPEED, spec.belt_speed);
         let weight = (setting::BASIS_WEIGHT, BASIS_WEIGHT, spec.weight());
         [speed, weight].into_iter().filter_map(knob).collect()
     }
@@ -393,7 +398,7 @@ impl WebToChange<'_> {
             Err(why) => (self.base.spec().clone(), Some(why.to_string())),
         };
         let ends = [self.base.spec(), &spec];
-        let belt_speed = ends.map(WebSpec::belt_speed);
+        let belt_speed = ends.map(|spec| spec.belt_speed);
         let mass_flow = ends.map(WebSpec::mass_flow);
         let file = self.base.path().to_owned();
         let experiment = ChangedWeb { file, set, spec, belt_speed, mass_flow };

@@ -5,12 +5,12 @@
 use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::read::{CASE, THROUGHPUT, WebParser};
-use spunlaid_fibre::Case;
 use spunlaid_fibre::case::keys::{self, Value};
+use spunlaid_fibre::{Case, FedFilament, Feed};
 use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
 use spunlaid_simulation::layers::full_names::layer_and_name;
 use spunlaid_simulation::layers::keys::{EITHER, WEB, WEB_FILE};
-use spunlaid_simulation::{LaydownSource, LayerSpec, WebKey};
+use spunlaid_simulation::{LaydownSource, WebKey};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -42,8 +42,8 @@ impl Filament {
         self.values.set(name, WrittenValue::new(&written.place, shown, number.into()));
     }
 
-    /// A case of which nothing but the size of the filament is known.
-    fn sized(&self) -> Case {
+    /// Its size and how it is fed, as far as they are known before it is spun.
+    pub(super) fn size_and_feed(&self) -> FedFilament {
         let mut case = Case::unset();
         // The titre gives the diameter with the density.
         for name in ["fibre.density", "fibre.diameter", "fibre.linear_density"] {
@@ -53,21 +53,17 @@ impl Filament {
                 drop(key.apply(&mut case, value));
             }
         }
-        case
+        let number = |name| self.values.number(name).unwrap_or(f64::NAN);
+        let feed = match self.is_spun() {
+            true => Feed::Throughput(number("spinline.throughput")),
+            false => Feed::Speed(number("feed.speed")),
+        };
+        FedFilament { feed, ..case.filament() }
     }
 
     /// Whether it comes from a die.
     fn is_spun(&self) -> bool {
         self.values.has_table("spinline")
-    }
-
-    /// Reports a layer the size of its filament and the speed, as far as they are known before it is spun.
-    /// Returns the throughput of a hole of a die, if it comes from one.
-    pub(super) fn tell_flow(&self, layer: &mut LayerSpec) -> Option<f64> {
-        let fibre = self.sized().fibre;
-        (layer.diameter, layer.density) = (fibre.diameter, fibre.density);
-        layer.feed_speed = self.values.number("feed.speed").unwrap_or(f64::NAN);
-        self.is_spun().then(|| self.values.number("spinline.throughput").unwrap_or(f64::NAN))
     }
 
     /// Whether another filament has the same values.
@@ -134,7 +130,8 @@ impl WebParser<'_> {
                 if filament.is_spun() {
                     filament.values.set("spinline.throughput", written_value);
                 } else {
-                    let speed = throughput / filament.sized().linear_density();
+                    let feed = Feed::Throughput(throughput);
+                    let speed = FedFilament { feed, ..filament.size_and_feed() }.feed_speed();
                     filament.derive("feed.speed", Dimension::Velocity, speed, &full, &written_value);
                 }
             }

@@ -4,7 +4,7 @@
 use super::super::Resources;
 use super::super::written_values::{WrittenValue, WrittenValues, sorted};
 use super::filament::Filament;
-use super::read::{CASE, WebParser, as_web};
+use super::read::{CASE, THROUGHPUT, WebParser, web_of};
 use super::{WrittenWeb, flies_none};
 use spunlaid_fibre::case::keys;
 use spunlaid_ground::{Diagnostic, Error, Fault};
@@ -16,7 +16,8 @@ use spunlaid_web::map::Filaments;
 pub(super) struct OpenWeb<'a> {
     reading: WebParser<'a>,
     web: WebSpec,
-    layers: Vec<Layer>,
+    /// The filament of each layer, if it has to be simulated.
+    filaments: Vec<Option<Filament>>,
 }
 
 /// Reads the layers, the sheet, and what is written of the filaments.
@@ -28,11 +29,12 @@ pub(super) fn open(written: WrittenWeb, resources: &Resources) -> OpenWeb<'_> {
     let mut reading =
         WebParser { key_values, path, named, resources, notes, prefixes: prefixes.clone(), basis_weight_key };
     let mut web = WebSpec::unknown();
-    let mut layers: Vec<Layer> = prefixes.iter().map(|prefix| reading.layer(prefix)).collect();
+    let mut filaments: Vec<Option<Filament>> =
+        prefixes.iter().map(|prefix| reading.add_layer(&mut web, prefix)).collect();
     reading.fill(&mut web, "web", "web.", false);
     reading.fill(&mut web, "fabric", "fabric.", false);
-    reading.lay_weight(&mut web, &mut layers);
-    OpenWeb { reading, web, layers }
+    reading.lay_weight(&mut web, &mut filaments);
+    OpenWeb { reading, web, filaments }
 }
 
 /// What comes before the names of each layer's keys.
@@ -50,7 +52,7 @@ impl OpenWeb<'_> {
     /// What is written of the filament of each layer; none of one that flies none.
     pub(super) fn filaments(&self) -> Vec<Option<WrittenValues>> {
         let values = |filament: &Filament| filament.values.clone();
-        self.layers.iter().map(|layer| layer.filament.as_ref().map(values)).collect()
+        self.filaments.iter().map(|filament| filament.as_ref().map(values)).collect()
     }
 
     /// The web, and notes about its cases.
@@ -58,17 +60,16 @@ impl OpenWeb<'_> {
     /// # Errors
     /// Every problem with any key.
     pub(super) fn spec(self) -> Result<(WebSpec, Vec<Diagnostic>), Error> {
-        let Self { mut reading, mut web, layers } = self;
+        let Self { mut reading, mut web, filaments } = self;
         let prefixes = reading.prefixes.clone();
-        for (Layer { spec: mut layer, filament, .. }, prefix) in layers.into_iter().zip(&prefixes) {
-            if let Some(filament) = filament {
-                match reading.fly(prefix, filament)? {
-                    Some(source) => layer.source = source,
-                    None => reading.excuse_numbers_of_case(prefix),
-                }
+        for (number, filament) in filaments.into_iter().enumerate() {
+            let Some(filament) = filament else { continue };
+            let prefix = &prefixes[number];
+            let layer = &mut web.layers[number];
+            match reading.fly(prefix, filament)? {
+                Some(source) => layer.simulate(source, reading.is_written(&format!("{prefix}{THROUGHPUT}"))),
+                None => reading.excuse_numbers_of_case(prefix),
             }
-            layer.take_flown();
-            web.layers.push(layer);
         }
         reading.check_names(&prefixes);
         reading.complete_sheet(&mut web);
@@ -105,8 +106,8 @@ impl OpenWeb<'_> {
     /// # Errors
     /// Every problem with the file, and if several layers have different filaments.
     pub(super) fn filament(self) -> Result<Option<WrittenValues>, Error> {
-        let Self { mut reading, layers, .. } = self;
-        let filaments: Vec<Filament> = layers.into_iter().filter_map(|layer| layer.filament).collect();
+        let Self { mut reading, filaments, .. } = self;
+        let filaments: Vec<Filament> = filaments.into_iter().flatten().collect();
         if let Some(number) = filaments.iter().position(|filament| !filament.is_same(&filaments[0])) {
             let fault = Fault::new(
                 format!(
@@ -126,8 +127,9 @@ impl OpenWeb<'_> {
 }
 
 impl WebParser<'_> {
-    /// A layer. Its values are NaN where there is a problem with them, which is noted.
-    fn layer(&mut self, prefix: &str) -> Layer {
+    /// Adds a layer to a web, with the belt if it says one. Its values are NaN where there is a problem with them, which
+    /// is noted. Returns its filament, if it has to be simulated.
+    fn add_layer(&mut self, web: &mut WebSpec, prefix: &str) -> Option<Filament> {
         let way = self.way(prefix);
         let by_case = way == Way::Fly;
         let filament = if by_case { self.filament(prefix) } else { None };
@@ -136,23 +138,27 @@ impl WebParser<'_> {
         {
             self.excuse_numbers_of_case(prefix);
         }
-        let mut spec = LayerSpec::unknown(LaydownSource::UNKNOWN);
-        as_web(&mut spec, |web| {
-            self.fill(web, "layer", prefix, by_case);
-            for table in ["fibre", "laydown", "line"]
-                .iter()
-                .filter(|table| **table != "laydown" || way == Way::Numbers)
-            {
-                self.fill(web, table, &format!("{prefix}{table}."), by_case);
-            }
-        });
+        let mut alone = web_of(LayerSpec::unknown(LaydownSource::UNKNOWN));
+        self.fill(&mut alone, "layer", prefix, by_case);
+        for table in
+            ["fibre", "laydown", "line"].iter().filter(|table| **table != "laydown" || way == Way::Numbers)
+        {
+            self.fill(&mut alone, table, &format!("{prefix}{table}."), by_case);
+        }
+        if web.belt_speed.is_nan() {
+            web.belt_speed = alone.belt_speed;
+        }
+        let mut spec = alone.layers.remove(0);
         let rows = self.rows(&format!("{prefix}line."));
         if !rows.is_empty() {
             spec.filaments = Filaments::Rows(rows);
         }
         spec.defects = self.defects(&format!("{prefix}line."));
-        let spun = filament.as_ref().and_then(|filament| filament.tell_flow(&mut spec));
-        Layer { spec, filament, spun }
+        if let Some(filament) = &filament {
+            spec.filament = filament.size_and_feed();
+        }
+        web.layers.push(spec);
+        filament
     }
 
     /// Excuses that the numbers are missing which a case would give.
@@ -172,15 +178,6 @@ enum Way {
     Numbers,
     /// It is not known, because of a problem that is noted.
     Unknown,
-}
-
-/// A layer before its filament is spun and simulated.
-pub(super) struct Layer {
-    pub(super) spec: LayerSpec,
-    /// Its filament, if it has to be simulated.
-    pub(super) filament: Option<Filament>,
-    /// The throughput of its holes, if the filament comes from a die [kg/s].
-    pub(super) spun: Option<f64>,
 }
 
 impl WebParser<'_> {

@@ -36,11 +36,9 @@ pub(super) struct WebParser<'a> {
     pub(super) basis_weight_key: String,
 }
 
-/// Changes a layer through the keys, which are those of a web.
-pub(super) fn as_web(layer: &mut LayerSpec, change: impl FnOnce(&mut WebSpec)) {
-    let mut web = WebSpec { layers: vec![layer.clone()], ..WebSpec::unknown() };
-    change(&mut web);
-    web.layers.into_iter().for_each(|changed| *layer = changed);
+/// A web of one layer, which is read through the keys of a web.
+pub(super) fn web_of(layer: LayerSpec) -> WebSpec {
+    WebSpec { layers: vec![layer], ..WebSpec::unknown() }
 }
 
 impl WebParser<'_> {
@@ -171,13 +169,12 @@ impl WebParser<'_> {
         let entry = |number| {
             let mut layer = LayerSpec::unknown(LaydownSource::UNKNOWN);
             unknown(&mut layer);
-            as_web(&mut layer, |web| {
-                web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
-                self.fill(web, list, &format!("{full}.{number}."), false);
-            });
-            layer
+            let mut web = web_of(layer);
+            web.sheet.width = self.key_values.number("web.width").unwrap_or(f64::NAN);
+            self.fill(&mut web, list, &format!("{full}.{number}."), false);
+            web.layers
         };
-        (1..=count).map(entry).collect()
+        (1..=count).flat_map(entry).collect()
     }
 
     /// Whether a layer gives the numbers of a surrogate.

@@ -1,6 +1,6 @@
 //! The sheet: its size, cells, patches and edges.
 
-use super::open::Layer;
+use super::filament::Filament;
 use super::read::{BELT_SPEED, CASE, WebParser};
 use spunlaid_fibre::case::whole_parts;
 use spunlaid_ground::{Dimension, Fault};
@@ -147,7 +147,7 @@ const BASIS_WEIGHT: &str = "line.basis_weight";
 impl WebParser<'_> {
     /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
     /// are simulated above it.
-    pub(super) fn lay_weight(&mut self, web: &mut WebSpec, layers: &mut [Layer]) {
+    pub(super) fn lay_weight(&mut self, web: &mut WebSpec, filaments: &mut [Option<Filament>]) {
         let Some(key) = self.of_all_layers(BASIS_WEIGHT) else { return };
         self.basis_weight_key.clone_from(&key);
         let of_same_layer = key.replace(BASIS_WEIGHT, BELT_SPEED);
@@ -157,21 +157,14 @@ impl WebParser<'_> {
         }
         let Some(weight) = self.key_values.number(&key) else { return };
         web.basis_weight = Some(weight);
-        let flow = |layer: &Layer| {
-            let each = layer.spun.unwrap_or(layer.spec.hole_flow());
-            each * layer.spec.filaments.count(&web.sheet) as f64
-        };
-        let belt = layers.iter().map(flow).sum::<f64>() / web.sheet.width / weight;
+        let belt = web.belt_speed_for(weight);
         // What is missing, or that nothing is laid, is reported elsewhere.
-        let belt = if belt == 0.0 { f64::NAN } else { belt };
-        let written_value = self.key_values.get(&key).cloned();
-        for layer in layers {
-            layer.spec.belt_speed = belt;
-            if let (Some(filament), Some(written_value)) = (&mut layer.filament, &written_value)
-                && !belt.is_nan()
-            {
-                filament.derive("belt.speed", Dimension::Velocity, belt, &key, written_value);
-            }
+        web.belt_speed = if belt == 0.0 { f64::NAN } else { belt };
+        let Some(written_value) = self.key_values.get(&key).filter(|_| !web.belt_speed.is_nan()) else {
+            return;
+        };
+        for filament in filaments.iter_mut().flatten() {
+            filament.derive("belt.speed", Dimension::Velocity, web.belt_speed, &key, written_value);
         }
     }
 
@@ -208,13 +201,14 @@ impl WebParser<'_> {
     pub(super) fn settle_belt(&mut self, web: &mut WebSpec) {
         let by_weight = !self.basis_weight_key.is_empty();
         if !by_weight {
-            self.lay_on_common_belt(&mut web.layers);
+            self.lay_on_common_belt(web);
         }
-        let torn = (0..).zip(&web.layers).filter(|(_, layer)| layer.belt_speed > layer.feed_speed);
+        let is_torn = |(_, layer): &(usize, &LayerSpec)| web.belt_speed > layer.filament.feed_speed();
+        let torn = (0..).zip(&web.layers).filter(is_torn);
         // The belt of a basis weight is one number for all.
         for (number, layer) in torn.take(if by_weight { 1 } else { usize::MAX }) {
             let [belt, feed] =
-                [layer.belt_speed, layer.feed_speed].map(|speed| Dimension::Velocity.pretty(speed));
+                [web.belt_speed, layer.filament.feed_speed()].map(|speed| Dimension::Velocity.pretty(speed));
             if by_weight {
                 let message = format!(
                     "takes a belt of {belt}, which is more than line.feed_speed = {feed} and would tear the fibre"
@@ -229,27 +223,31 @@ impl WebParser<'_> {
         }
     }
 
-    /// Gives every layer the speed of the belt, which is written in one layer or is that of the simulated cases.
-    fn lay_on_common_belt(&mut self, layers: &mut [LayerSpec]) {
+    /// Gives the web the speed of the belt, which is written in one layer or is that of the simulated cases.
+    fn lay_on_common_belt(&mut self, web: &mut WebSpec) {
         self.of_all_layers(BELT_SPEED);
-        let keys: Vec<String> = self.prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
-        let Some(first) = layers.iter().position(|layer| !layer.belt_speed.is_nan()) else {
+        let of_case = |layer: &LayerSpec| Some(layer.source.case()?.line?.belt_speed);
+        let belts: Vec<Option<f64>> = web.layers.iter().map(of_case).collect();
+        let first = belts.iter().position(Option::is_some);
+        if let Some(of_cases) = first.and_then(|first| belts[first]) {
+            web.belt_speed = of_cases;
+        }
+        if web.belt_speed.is_nan() {
+            let keys: Vec<String> =
+                self.prefixes.iter().map(|prefix| format!("{prefix}{BELT_SPEED}")).collect();
             if let Some(key) = keys.first().filter(|_| !keys.iter().any(|key| self.is_given(key))) {
                 let table = without_numbers(key.trim_end_matches(".belt_speed"));
                 self.key_values.reject(key, Fault::missing(&table, "belt_speed = \"3 m/s\""));
             }
             return;
-        };
-        let belt = layers[first].belt_speed;
-        for (layer, prefix) in layers.iter_mut().zip(self.prefixes.clone()) {
-            if layer.belt_speed.is_nan() {
-                layer.belt_speed = belt;
-            } else if layer.source.case().is_some() && (layer.belt_speed / belt - 1.0).abs() > SAME {
-                let [own, belt] = [layer.belt_speed, belt].map(|speed| Dimension::Velocity.pretty(speed));
+        }
+        for (own, prefix) in belts.into_iter().zip(self.prefixes.clone()) {
+            if let Some(own) = own.filter(|own| (own / web.belt_speed - 1.0).abs() > SAME) {
+                let [own, belt] = [own, web.belt_speed].map(|speed| Dimension::Velocity.pretty(speed));
                 let message = format!(
                     "has belt.speed = {own}, which differs from the belt speed of layer {}, {belt}, and all layers \
                     lie on one belt",
-                    first + 1
+                    first.unwrap_or_default() + 1
                 );
                 let key = self.says(&prefix, "belt.speed").unwrap_or_else(|| format!("{prefix}{CASE}"));
                 self.key_values.reject(&key, Fault::new(message, "give all cases the same belt.speed"));

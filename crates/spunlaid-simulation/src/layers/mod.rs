@@ -12,8 +12,7 @@ pub mod keys;
 use crate::ensemble::LineFilaments;
 pub use full_names::{place_in_web, web_key};
 pub use keys::{WEB, WEB_KEYS, WEB_TABLES, WebKey};
-use spunlaid_fibre::Case;
-use spunlaid_fibre::body::linear_density;
+use spunlaid_fibre::{Case, FedFilament};
 use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
 use spunlaid_web::map::LayerFilaments;
 use spunlaid_web::map::{Filaments, inlets};
@@ -46,6 +45,8 @@ pub struct WebSpec {
     pub window: f64,
     /// Most memory that the air of a web in shared turbulence may take [B].
     pub memory_limit: f64,
+    /// Speed of the belt, on which all layers lie [m/s].
+    pub belt_speed: f64,
     /// Mass of all layers per area, if it is given in place of the speed of the belt, which follows from it [kg/m²].
     pub basis_weight: Option<f64>,
     /// What is given of the fabric and of its tests.
@@ -87,20 +88,10 @@ pub const USUAL_ERROR: f64 = 0.04;
 pub struct LayerSpec {
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// Diameter of a filament [m].
-    pub diameter: f64,
-    /// Mass per length of a filament, if it is given in place of the diameter, which follows from it [kg/m].
-    pub titre: Option<f64>,
-    /// Density of the polymer [kg/m³].
-    pub density: f64,
+    /// A filament: its size and how it is fed.
+    pub filament: FedFilament,
     /// How the filaments lie, or what determines it.
     pub source: LaydownSource,
-    /// Speed at which each filament is fed [m/s].
-    pub feed_speed: f64,
-    /// Mass flow of a hole, if it is given in place of the feed speed, which follows from it [kg/s].
-    pub throughput: Option<f64>,
-    /// Speed of the belt [m/s].
-    pub belt_speed: f64,
     /// Where the filaments come down.
     pub filaments: Filaments,
     /// Holes that feed more or less than the others.
@@ -150,46 +141,26 @@ impl LaydownSource {
 impl LayerSpec {
     /// A layer whose keys are set one after another.
     pub fn unknown(source: LaydownSource) -> Self {
-        let nan = f64::NAN;
         Self {
             name: None,
-            diameter: nan,
-            titre: None,
-            density: nan,
+            filament: FedFilament::UNKNOWN,
             source,
-            feed_speed: nan,
-            throughput: None,
-            belt_speed: nan,
-            filaments: Filaments::AtRandom { per_metre: nan },
+            filaments: Filaments::AtRandom { per_metre: f64::NAN },
             defects: Vec::new(),
             charge: None,
             walls: None,
         }
     }
 
-    /// Takes the size and the speeds with which its fibres are simulated, if they are.
-    pub fn take_flown(&mut self) {
-        let Some(case) = self.source.case() else { return };
-        let (fibre, line) = (case.fibre, case.line);
-        (self.diameter, self.density) = (fibre.diameter, fibre.density);
-        if let Some(line) = line {
-            (self.feed_speed, self.belt_speed) = (line.feed_speed, line.belt_speed);
+    /// Takes what is to be simulated, with the size and the speed of its filament.
+    ///
+    /// * `feed_is_given` – whether the layer keeps the feed that it has, which is that of the case in other words
+    pub fn simulate(&mut self, source: LaydownSource, feed_is_given: bool) {
+        if let Some(case) = source.case() {
+            let feed = if feed_is_given { self.filament.feed } else { case.filament().feed };
+            self.filament = FedFilament { feed, ..case.filament() };
         }
-    }
-
-    /// Mass per length of a filament [kg/m].
-    pub fn linear_density(&self) -> f64 {
-        linear_density(self.diameter, self.density)
-    }
-
-    /// Mass flow of a hole [kg/s].
-    pub fn hole_flow(&self) -> f64 {
-        self.linear_density() * self.feed_speed
-    }
-
-    /// Feeds the filaments so that a hole has this mass flow [kg/s].
-    pub(crate) fn feed(&mut self, throughput: f64) {
-        (self.feed_speed, self.throughput) = (throughput / self.linear_density(), Some(throughput));
+        self.source = source;
     }
 
     /// Whether other webs have other streaks, by the places of its filaments or by their defects.
@@ -198,11 +169,13 @@ impl LayerSpec {
     }
 
     /// The layer, once its fibres are known.
-    pub(crate) fn layer(&self, fibres: Fibres) -> Layer {
+    ///
+    /// * `belt_speed` – of the belt on which it lies [m/s]
+    fn layer(&self, fibres: Fibres, belt_speed: f64) -> Layer {
         Layer {
-            linear_density: self.linear_density(),
-            feed_speed: self.feed_speed,
-            belt_speed: self.belt_speed,
+            linear_density: self.filament.linear_density(),
+            feed_speed: self.filament.feed_speed(),
+            belt_speed,
             filaments: self.filaments.clone(),
             defects: self.defects.clone(),
             fibres,
@@ -223,6 +196,7 @@ impl WebSpec {
             time: None,
             window: nan,
             memory_limit: nan,
+            belt_speed: nan,
             basis_weight: None,
             fabric: FabricKeys::USUAL,
             assumed: Vec::new(),
@@ -244,27 +218,23 @@ impl WebSpec {
     /// What the defects of a layer make of its filaments.
     pub(crate) fn titres(&self, number: usize) -> Titres {
         let of = |layer: &LayerSpec| {
-            let LayerSpec { filaments, defects, belt_speed, .. } = layer;
+            let LayerSpec { filaments, defects, .. } = layer;
             let layer = LayerFilaments { sheet: &self.sheet, seed: self.seed, number, filaments };
-            Titres::new(layer, defects, *belt_speed)
+            Titres::new(layer, defects, self.belt_speed)
         };
         self.layers.get(number).map(of).unwrap_or_default()
     }
 
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
     pub fn mass_flow(&self) -> f64 {
-        let flow = |layer: &LayerSpec| layer.hole_flow() * layer.filaments.count(&self.sheet) as f64;
+        let flow =
+            |layer: &LayerSpec| layer.filament.throughput() * layer.filaments.count(&self.sheet) as f64;
         self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
-    }
-
-    /// Speed of the belt, on which all layers lie [m/s].
-    pub fn belt_speed(&self) -> f64 {
-        self.layers.first().map_or(f64::NAN, |layer| layer.belt_speed)
     }
 
     /// Mass of all layers per area [kg/m²].
     pub fn weight(&self) -> f64 {
-        self.mass_flow() / self.belt_speed()
+        self.mass_flow() / self.belt_speed
     }
 
     /// The speed of a belt on which all layers together have this mass per area [m/s].
@@ -276,14 +246,14 @@ impl WebSpec {
     ///
     /// * `belt` – its speed [m/s]
     pub fn set_belt_speed(&mut self, belt: f64) {
-        for layer in &mut self.layers {
+        let has_changed = (self.belt_speed / belt - 1.0).abs() > SAME;
+        self.belt_speed = belt;
+        for layer in self.layers.iter_mut().filter(|_| has_changed) {
             if let LaydownSource::Case { case, .. } = &mut layer.source
-                && (layer.belt_speed / belt - 1.0).abs() > SAME
                 && let Some(line) = &mut Arc::make_mut(case).line
             {
                 line.belt_speed = belt;
             }
-            layer.belt_speed = belt;
         }
     }
 
@@ -300,7 +270,12 @@ impl WebSpec {
 
     /// The web, once the fibres of each layer are known, in their order.
     pub fn web(&self, fibres: impl IntoIterator<Item = Fibres>) -> Web {
-        let layers = self.layers.iter().zip(fibres).map(|(layer, fibres)| layer.layer(fibres)).collect();
+        let layers = self
+            .layers
+            .iter()
+            .zip(fibres)
+            .map(|(layer, fibres)| layer.layer(fibres, self.belt_speed))
+            .collect();
         Web { sheet: self.sheet.clone(), layers, seed: self.seed }
     }
 

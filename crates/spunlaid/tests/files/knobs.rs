@@ -250,7 +250,7 @@ fn knobs_turned_together_are_some_turned_after_the_others() {
 #[test]
 fn analytic_the_belt_follows_the_weight_unless_it_is_turned() {
     let line = spun();
-    let of = |spec: &WebSpec| [spec.mass_flow(), spec.belt_speed(), spec.weight()];
+    let of = |spec: &WebSpec| [spec.mass_flow(), spec.belt_speed, spec.weight()];
     let base = of(line.spec());
     let throughput = knob(&line, "throughput").value;
     let belt = knob(&line, "belt_speed").value;

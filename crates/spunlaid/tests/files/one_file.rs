@@ -122,8 +122,8 @@ fn identical_filament_of_a_web_and_of_a_case() {
 #[test]
 fn a_speed_that_is_set_takes_the_place_of_what_gives_it() {
     let speeds = |values: &[(&str, &str)]| {
-        let layer = &read(LINE, values).spec.layers[0];
-        [layer.feed_speed, layer.belt_speed]
+        let spec = read(LINE, values).spec;
+        [spec.layers[0].filament.feed_speed(), spec.belt_speed]
     };
     let [feed, belt] = speeds(&[]);
     assert_eq!(speeds(&[("belt.speed", "3 m/s")]), [feed, 3.0]);

@@ -118,8 +118,8 @@ fn the_known_web_is_what_its_file_says() {
 fn a_case_gives_the_fibre_and_the_speeds() {
     let spec = read_web(FLOWN, &[]).unwrap().spec;
     let [layer] = &spec.layers[..] else { panic!("one layer") };
-    assert_eq!((layer.diameter, layer.density), (18e-6, 910.0));
-    assert_eq!((layer.feed_speed, layer.belt_speed), (50.0, 3.0));
+    assert_eq!((layer.filament.diameter(), layer.filament.density), (18e-6, 910.0));
+    assert_eq!((layer.filament.feed_speed(), spec.belt_speed), (50.0, 3.0));
     assert!(
         matches!(&layer.source, LaydownSource::Case { path, .. } if path.ends_with("cases/spunbond.toml"))
     );
@@ -137,7 +137,11 @@ fn rows_and_layers_are_read_in_their_order() {
     let row = |offset: f64| Row::new(offset, 0.5e-3, 2100);
     assert_eq!(first.filaments, Filaments::Rows(vec![row(0.0), row(-0.25e-3)]));
     assert_eq!(second.filaments, Filaments::AtRandom { per_metre: 1200.0 });
-    assert!((second.linear_density() / 1.1e-7 - 1.0).abs() < 1e-12, "{}", second.linear_density());
+    assert!(
+        (second.filament.linear_density() / 1.1e-7 - 1.0).abs() < 1e-12,
+        "{}",
+        second.filament.linear_density()
+    );
     // Patches come sorted, each once.
     assert_eq!((spec.sheet.patches, spec.sheet.edges), (vec![1e-3, 5e-3], Edges::Cut));
 }

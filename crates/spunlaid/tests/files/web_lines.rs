@@ -47,8 +47,8 @@ fn analytic_speeds_follow_from_throughput_and_basis_weight() {
     let layer = &file.spec.layers[0];
     // 0.5 g/min over 2 dtex; 5000 of them over 20 g/m².
     let near = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
-    near(layer.feed_speed, 0.5e-3 / 60.0 / 2e-7);
-    near(layer.belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
+    near(layer.filament.feed_speed(), 0.5e-3 / 60.0 / 2e-7);
+    near(file.spec.belt_speed, 5000.0 * 0.5e-3 / 60.0 / 20e-3);
     let LaydownSource::Surrogate(surrogate) = layer.source else { panic!("numbers") };
     near(file.spec.web([Fibres::Surrogate(surrogate)]).basis_weight(), 20e-3);
     // The holes of a row stay even when their number or the width changes.
@@ -64,7 +64,7 @@ fn analytic_speeds_follow_from_throughput_and_basis_weight() {
 #[test]
 fn any_complete_set_of_numbers_is_read() {
     let [feed, belt] = [0.5e-3 / 60.0 / 2e-7, 5000.0 * 0.5e-3 / 60.0 / 20e-3];
-    let speeds = |file: &WebFile| [file.spec.layers[0].feed_speed, file.spec.layers[0].belt_speed];
+    let speeds = |file: &WebFile| [file.spec.layers[0].filament.feed_speed(), file.spec.belt_speed];
     let of_text = |text: &str| read_web((text, "line.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
     for (line, wanted) in [
         ("throughput = \"0.5 g/min\"\nbasis_weight = \"20 gsm\"", [feed, belt]),
@@ -83,22 +83,23 @@ fn any_complete_set_of_numbers_is_read() {
 /// An override stands in place of what the file says in other words.
 #[test]
 fn an_override_replaces_the_other_key() {
-    let layer = |key: &str, value: &str| {
+    let line = |key: &str, value: &str| {
         let file = read_line(&[(key, value)]);
         assert_reads_back(&file);
-        file.spec.layers[0].clone()
+        file.spec
     };
-    assert_eq!(layer("line.feed_speed", "50 m/s").feed_speed, 50.0);
-    assert_eq!(layer("line.belt_speed", "3 m/s").belt_speed, 3.0);
-    assert_eq!(layer("fibre.diameter", "18 µm").diameter, 18e-6);
-    let known = |key: &str, value: &str| read_web(KNOWN, &set(key, value)).unwrap().spec.layers[0].clone();
-    assert!((known("line.throughput", "0.5 g/min").feed_speed - 35.99).abs() < 0.01);
+    assert_eq!(line("line.feed_speed", "50 m/s").layers[0].filament.feed_speed(), 50.0);
+    assert_eq!(line("line.belt_speed", "3 m/s").belt_speed, 3.0);
+    assert_eq!(line("fibre.diameter", "18 µm").layers[0].filament.diameter(), 18e-6);
+    let known = |key: &str, value: &str| read_web(KNOWN, &set(key, value)).unwrap().spec;
+    let filament = |key: &str, value: &str| known(key, value).layers[0].filament;
+    assert!((filament("line.throughput", "0.5 g/min").feed_speed() - 35.99).abs() < 0.01);
     assert!((known("line.basis_weight", "30 g/m²").belt_speed - 0.5 * 3.8594).abs() < 1e-4);
-    assert!((known("fibre.linear_density", "2 dtex").diameter - 16.73e-6).abs() < 1e-8);
-    let rows = known("line.rows", "[{ pitch = 'even', filaments = 1000 }]").filaments;
+    assert!((filament("fibre.linear_density", "2 dtex").diameter() - 16.73e-6).abs() < 1e-8);
+    let rows = known("line.rows", "[{ pitch = 'even', filaments = 1000 }]").layers.remove(0).filaments;
     assert!(matches!(&rows, Filaments::Rows(rows) if rows[0].filaments == 1000), "{rows:?}");
     assert_eq!(
-        layer("line.filaments_per_metre", "4000").filaments,
+        line("line.filaments_per_metre", "4000").layers[0].filaments,
         Filaments::AtRandom { per_metre: 4000.0 }
     );
     // Nothing is said twice.
@@ -135,12 +136,10 @@ fn analytic_several_layers_make_up_the_basis_weight() {
         let file = read_web((&text, "layers.toml"), &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_reads_back(&file);
         let belt = (5000.0 * 0.5e-3 / 60.0 + 3000.0 * 1e-7 * 40.0) / 20e-3;
-        for layer in &file.spec.layers {
-            assert!((layer.belt_speed / belt - 1.0).abs() < 1e-12, "{}", layer.belt_speed);
-        }
+        assert!((file.spec.belt_speed / belt - 1.0).abs() < 1e-12, "{}", file.spec.belt_speed);
         // Whichever layer is named, the belt is that of both.
         let faster = read_web((&text, "layers.toml"), &set("layer.2.line.belt_speed", "5 m/s")).unwrap().spec;
-        assert!(faster.layers.iter().all(|layer| layer.belt_speed == 5.0), "{faster:?}");
+        assert_eq!(faster.belt_speed, 5.0);
     }
 }
 
@@ -166,7 +165,7 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let Some(speeds) = simulated.line.map(|line| [line.feed_speed, line.belt_speed]) else {
         panic!("no line")
     };
-    assert_eq!([layer.feed_speed, layer.belt_speed], speeds);
+    assert_eq!([layer.filament.feed_speed(), file.spec.belt_speed], speeds);
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     for note in [
         "line.throughput = \"0.5 g/min\" is laid with feed.speed = 35.99 m/s instead of the 50 m/s of ",
@@ -311,13 +310,13 @@ fn a_key_without_the_number_of_a_layer_is_set_in_all_that_have_it() {
         |key: &str, change: &str| read_web((&text.concat(), "two.toml"), &set(key, change)).unwrap().spec;
     let speeds = |spec: &WebSpec| {
         let g_min = 1e-3 / 60.0;
-        [0, 1].map(|layer| (spec.layers[layer].feed_speed * 2e-7 / g_min * 1e6).round() / 1e6)
+        [0, 1].map(|layer| (spec.layers[layer].filament.feed_speed() * 2e-7 / g_min * 1e6).round() / 1e6)
     };
     assert_eq!(speeds(&read("line.throughput", "+20 %")), [0.72, 0.6]);
     assert_eq!(speeds(&read("line.throughput", "0.4 g/min")), [0.4, 0.4]);
     assert_eq!(speeds(&read("layer.2.line.throughput", "-0.1 g/min")), [0.6, 0.4]);
     // Only one of them has the speed of the belt.
-    assert_eq!(read("line.belt_speed", "+1 m/s").layers[0].belt_speed, 5.0);
+    assert_eq!(read("line.belt_speed", "+1 m/s").belt_speed, 5.0);
 }
 
 /// By hand, with γ = 1.4, 101,325 Pa and 1.204 kg/m³: 0.9 × 343.25 m/s × √(5 (1.034542^0.285714 − 1)) = 68.21 m/s.

@@ -311,10 +311,11 @@ fn keys_of_a_flown_case_are_set_in_a_study() {
                  fibre.diameter = ['18 µm', '20 µm']\n[link]\nbelt.speed = 'feed.speed / 10'\n";
     let points = study_beside_cases(text, study, &[]).unwrap().study.points;
     for (point, diameter) in points.iter().zip([18e-6, 20e-6]) {
-        let layer = &point.experiment.web().unwrap().layers[0];
+        let web = point.experiment.web().unwrap();
+        let layer = &web.layers[0];
         let LaydownSource::Case { case, .. } = &layer.source else { panic!("no case") };
         assert_eq!((case.run.replicates, case.run.seed), (3, 9));
-        assert_eq!((case.fibre.diameter, layer.diameter), (diameter, diameter));
-        assert_eq!((layer.belt_speed, case.line.unwrap().belt_speed), (5.0, 5.0));
+        assert_eq!((case.fibre.diameter, layer.filament.diameter()), (diameter, diameter));
+        assert_eq!((web.belt_speed, case.line.unwrap().belt_speed), (5.0, 5.0));
     }
 }

@@ -45,9 +45,13 @@ pub fn web_beside_cases(web: &str, set: &[(String, String)]) -> Result<WebFile, 
 
 const BESIDE_CASES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/bad_webs/web.toml");
 
+fn web_of(point: &Point) -> &spunlaid_input::WebSpec {
+    point.experiment.web().unwrap()
+}
+
 /// The only layer of a point's web.
 fn layer(point: &Point) -> &spunlaid_input::LayerSpec {
-    &point.experiment.web().unwrap().layers[0]
+    &web_of(point).layers[0]
 }
 
 fn study(text: &str) -> Result<StudyFile, Error> {
@@ -58,7 +62,7 @@ fn study(text: &str) -> Result<StudyFile, Error> {
 fn what_is_asked_for_replaces_what_a_study_sets_in_other_words() {
     let study = "web = 'web.toml'\ndesign = 'grid'\n[set]\n'line.basis_weight' = '20 g/m²'\n[vary]\n'web.seed' = [3]\n";
     let belt =
-        |set: &[(String, String)]| layer(&study_of(WEB, study, set).unwrap().study.points[0]).belt_speed;
+        |set: &[(String, String)]| web_of(&study_of(WEB, study, set).unwrap().study.points[0]).belt_speed;
     let asked = ("line.belt_speed".to_owned(), "4 m/s".to_owned());
     assert_ne!(belt(&[]), 4.0);
     assert_eq!(belt(&[asked]), 4.0);
@@ -102,8 +106,8 @@ fn keys_of_the_case_that_is_flown_vary_too() {
     let belts: Vec<f64> = (file.study.points.iter())
         .map(|point| {
             let LaydownSource::Case { case, .. } = &layer(point).source else { panic!("no case") };
-            assert_eq!(case.line.unwrap().belt_speed, layer(point).belt_speed);
-            layer(point).belt_speed
+            assert_eq!(case.line.unwrap().belt_speed, web_of(point).belt_speed);
+            web_of(point).belt_speed
         })
         .collect();
     // The first point is the web as it stands.
@@ -217,13 +221,13 @@ fn keys_of_one_layer_vary_by_its_number_and_by_its_name() {
     assert_eq!(by_number.text, by_name.text);
     assert_eq!(by_number.study.factors[0].key.name, "layer.2.line.filaments_per_metre");
     for (point, wanted) in by_number.study.points.iter().zip([100.0, 300.0]) {
-        let [first, second] = &point.experiment.web().unwrap().layers[..] else { panic!("two layers") };
+        let [first, second] = &web_of(point).layers[..] else { panic!("two layers") };
         assert_eq!(first.filaments, Filaments::AtRandom { per_metre: 5000.0 });
         assert_eq!(second.filaments, Filaments::AtRandom { per_metre: wanted });
         let LaydownSource::Surrogate(surrogate) = second.source else { panic!("numbers") };
         assert_eq!(surrogate.sigma_md, 1000.0 * 4e-6);
         // All layers lie on the belt of the first one.
-        assert_eq!((first.belt_speed, second.belt_speed), (5.0, 5.0));
+        assert_eq!(web_of(point).belt_speed, 5.0);
     }
     // The study as it was run gives the same points.
     let again = study_beside_cases(&by_number.base_text, &by_number.text, &[]).unwrap();

@@ -70,7 +70,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
 }
 
 fn weight(spec: &WebSpec) -> f64 {
-    spec.mass_flow() / spec.layers[0].belt_speed
+    spec.weight()
 }
 
 /// The settings that are changed, each with its layer.
@@ -87,7 +87,7 @@ fn no_change_makes_a_filament_faster_than_its_air() {
     let fastest = |set: &[(&str, &str)]| {
         let (_, changes) = read(&file, set);
         let tried = changes.iter().filter(|change| change.refusal.is_none());
-        let feeds = tried.map(|change| change.experiment.spec.layers[0].feed_speed);
+        let feeds = tried.map(|change| change.experiment.spec.layers[0].filament.feed_speed());
         let why = changes.iter().find_map(|change| change.refusal.clone());
         (feeds.fold(0.0, f64::max), why.unwrap_or_default())
     };
@@ -158,14 +158,14 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
             assert!((common / weight(&base.spec) - 1.0).abs() < tolerance, "{name}");
             for (before, after) in base.spec.layers.iter().zip(&change.experiment.spec.layers) {
                 // All lie on one belt, above which the cases are simulated.
-                assert_eq!(after.belt_speed, change.experiment.spec.layers[0].belt_speed, "{name}");
                 if let LaydownSource::Case { case, .. } = &after.source {
-                    assert_eq!(case.line.unwrap().belt_speed, after.belt_speed, "{name}");
+                    assert_eq!(case.line.unwrap().belt_speed, change.experiment.spec.belt_speed, "{name}");
                 }
-                let throughput = |of: &spunlaid_input::LayerSpec| of.linear_density() * of.feed_speed;
+                let throughput = |of: &spunlaid_input::LayerSpec| of.filament.throughput();
                 if change.setting != setting::THROUGHPUT {
                     // Five digits, where the file does not give it.
-                    let tolerance = if before.throughput.is_some() { 1e-9 } else { 5e-5 };
+                    let is_given = matches!(before.filament.feed, spunlaid_fibre::Feed::Throughput(_));
+                    let tolerance = if is_given { 1e-9 } else { 5e-5 };
                     assert!((throughput(after) / throughput(before) - 1.0).abs() < tolerance, "{name}");
                 }
             }
@@ -232,11 +232,13 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
             let name = format!("{:?}: {:?}", change.setting, change.experiment.set);
             let pasted =
                 read_web((text, &cases()), set).unwrap_or_else(|error| panic!("{name}: {error}")).spec;
-            for (found, wanted) in pasted.layers.iter().zip(&change.experiment.spec.layers) {
+            let wanted = &change.experiment.spec;
+            assert!((pasted.belt_speed / wanted.belt_speed - 1.0).abs() < 1e-9, "{name}");
+            for (found, wanted) in pasted.layers.iter().zip(&wanted.layers) {
                 let numbers = |of: &spunlaid_input::LayerSpec| {
                     let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
-                    let filaments = of.filaments.count(&change.experiment.spec.sheet) as f64;
-                    [of.linear_density(), of.feed_speed, of.belt_speed, distance, filaments]
+                    let filaments = of.filaments.count(&pasted.sheet) as f64;
+                    [of.filament.linear_density(), of.filament.feed_speed(), distance, filaments]
                 };
                 for (found, wanted) in numbers(found).iter().zip(numbers(wanted)) {
                     assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");

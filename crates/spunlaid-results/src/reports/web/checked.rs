@@ -26,7 +26,7 @@ pub fn about_web(spec: &WebSpec) -> Vec<String> {
 pub fn numbers_of_line(spec: &WebSpec) -> [String; 3] {
     [
         format!("{} g/m²", significant(spec.weight() * 1e3, 4)),
-        Dimension::Velocity.pretty(spec.belt_speed()),
+        Dimension::Velocity.pretty(spec.belt_speed),
         format!("{} kg/h", significant(spec.mass_flow() * 3600.0, 4)),
     ]
 }
@@ -39,17 +39,17 @@ fn line(spec: &WebSpec) -> Vec<String> {
     let layer = |(number, layer): (usize, &LayerSpec)| {
         let name = layer.name.as_ref().map_or_else(|| (number + 1).to_string(), |name| format!("\"{name}\""));
         let filaments = layer.filaments.count(&spec.sheet);
-        let alone = spec.alone(number).mass_flow() / layer.belt_speed;
+        let alone = spec.alone(number).weight();
         format!(
             "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of \
             filament on each metre of belt{}",
             if several { format!("layer {name}: ") } else { String::new() },
             significant(filaments as f64 / spec.sheet.width, 4),
-            significant(layer.hole_flow() * 6e4, 4),
-            significant(layer.linear_density() * 1e7, 4),
-            Dimension::Length.pretty(layer.diameter),
-            Dimension::Velocity.pretty(layer.feed_speed),
-            Dimension::Length.pretty_to(layer.feed_speed / layer.belt_speed, 3),
+            significant(layer.filament.throughput() * 6e4, 4),
+            significant(layer.filament.linear_density() * 1e7, 4),
+            Dimension::Length.pretty(layer.filament.diameter()),
+            Dimension::Velocity.pretty(layer.filament.feed_speed()),
+            Dimension::Length.pretty_to(layer.filament.feed_speed() / spec.belt_speed, 3),
             if several { format!("; {} g/m²", significant(alone * 1e3, 4)) } else { String::new() },
         )
     };
@@ -284,7 +284,8 @@ pub fn expected_of_web(
         .map(|(flight, each)| (flight.steps + flight.coarse_steps) as f64 * each)
         .sum::<f64>();
     let laid = |layer: &LayerSpec| {
-        layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.feed_speed / layer.belt_speed
+        layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.filament.feed_speed()
+            / spec.belt_speed
     };
     let cells = spec.layers.iter().map(laid).sum::<f64>() / spec.sheet.cell;
     let web = format!("  the web: {}", duration(FIGURES + FINDING * flying + LAYING * cells / concurrent));

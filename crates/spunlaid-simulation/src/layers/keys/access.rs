@@ -1,6 +1,7 @@
 //! How keys read and change a web.
 
 use crate::layers::{LayerSpec, WebSpec};
+use spunlaid_fibre::FedFilament;
 use spunlaid_fibre::case::keys::Key;
 use spunlaid_fibre::case::keys::row::AccessTo;
 use spunlaid_ground::Fault;
@@ -26,6 +27,24 @@ macro_rules! of_surrogate {
 
 pub(super) use of_surrogate;
 
+/// Access to a number of the filament where it is given in this way.
+macro_rules! given {
+    ($field:ident, $way:path) => {
+        Access {
+            get: |web| match filament(web)?.$field {
+                $way(number) => Some(number.into()),
+                _ => None,
+            },
+            set: |web, value| {
+                filament_mut(web)?.$field = $way(number(value)?);
+                Ok(())
+            },
+        }
+    };
+}
+
+pub(super) use given;
+
 /// The fault of a depth beside rows.
 pub fn in_rows() -> Fault {
     Fault::excludes(
@@ -45,6 +64,15 @@ pub(super) fn layer(web: &WebSpec) -> Option<&LayerSpec> {
 
 pub(super) fn layer_mut(web: &mut WebSpec) -> Result<&mut LayerSpec, Fault> {
     web.layers.first_mut().ok_or_else(|| Fault::needs("[line]", "write the tables of a layer"))
+}
+
+/// The filament of the first layer.
+pub(super) fn filament(web: &WebSpec) -> Option<&FedFilament> {
+    layer(web).map(|layer| &layer.filament)
+}
+
+pub(super) fn filament_mut(web: &mut WebSpec) -> Result<&mut FedFilament, Fault> {
+    layer_mut(web).map(|layer| &mut layer.filament)
 }
 
 /// The first row of holes.

@@ -57,10 +57,11 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[LayerSummary])
     let piece = format!("this piece {}; {faster}", grams_with_error(findings.basis_weight()));
     let mut rows = vec![
         row("Per metre of width", shown(HOUR * spec.mass_flow(), "kg/h")),
-        row("Belt", speed(spec.belt_speed())),
+        row("Belt", speed(spec.belt_speed)),
         row("Basis weight", grams(made)).detail(piece),
     ];
-    let numbers = |(layer, of): (&LayerSummary, &LayerSpec)| numbers(layer, of.density, spec.sheet.width);
+    let numbers =
+        |(layer, of): (&LayerSummary, &LayerSpec)| numbers(layer, of.filament.density, spec.sheet.width);
     let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
     // Equal layers are shown once.
     let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));

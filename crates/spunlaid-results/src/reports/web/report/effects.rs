@@ -157,7 +157,9 @@ fn per_cent(effect: &Effect<f64>) -> String {
 fn of_line(spec: &WebSpec, ChangedWeb { spec: changed, belt_speed, mass_flow, .. }: &ChangedWeb) -> String {
     let layers = spec.layers.iter().zip(&changed.layers);
     let mut titres: Vec<String> = layers
-        .map(|(before, after)| from_to([before, after].map(|layer| 1e7 * layer.linear_density()), "dtex"))
+        .map(|(before, after)| {
+            from_to([before, after].map(|layer| 1e7 * layer.filament.linear_density()), "dtex")
+        })
         .collect();
     titres.dedup();
     let mass = from_to(mass_flow.map(|flow| HOUR * flow), "kg/h");

@@ -1,37 +1,25 @@
 //! The keys of the tables `[layer]`, `[fibre]` and `[laydown]`.
 
-use super::super::access::{Access, WebKey, is_flown, layer, layer_mut, of_surrogate};
+use super::super::access::{
+    Access, WebKey, filament, filament_mut, given, is_flown, layer, layer_mut, of_surrogate,
+};
 use super::positive;
 use crate::layers::{LaydownSource, WebSpec};
-use spunlaid_fibre::body::diameter_of;
+use spunlaid_fibre::Size;
 use spunlaid_fibre::case::keys::row::{at, key, number};
-use spunlaid_fibre::case::keys::{Condition, Kind, Value, row_of};
+use spunlaid_fibre::case::keys::{Condition, Kind, row_of};
 use spunlaid_ground::{Dimension, Fault};
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    row_of("fibre.diameter")
-        .of_input(Access {
-            get: |web| layer(web).filter(|layer| layer.titre.is_none()).map(|layer| layer.diameter.into()),
-            set: |web, value| {
-                let layer = layer_mut(web)?;
-                (layer.diameter, layer.titre) = (number(value)?, None);
-                Ok(())
-            },
-        })
+    row_of("fibre.diameter").of_input(given!(size, Size::Diameter)).derived(is_flown).required("18 µm"),
+    row_of("fibre.density")
+        .of_input(at!(filament, filament_mut, density))
         .derived(is_flown)
-        .required("18 µm"),
-    row_of("fibre.density").of_input(at!(layer, layer_mut, density)).derived(is_flown).required("910 kg/m³"),
+        .required("910 kg/m³"),
     row_of("fibre.linear_density")
-        .of_input(Access {
-            get: |web| layer(web)?.titre.map(Value::Number),
-            set: |web, value| {
-                let (titre, layer) = (number(value)?, layer_mut(web)?);
-                (layer.diameter, layer.titre) = (diameter_of(titre, layer.density), Some(titre));
-                Ok(())
-            },
-        })
-        .in_other_words(|web| Some(layer(web)?.linear_density().into())),
+        .of_input(given!(size, Size::LinearDensity))
+        .in_other_words(|web| Some(filament(web)?.linear_density().into())),
 ];
 
 /// In the order of the file.

@@ -1,9 +1,11 @@
 //! The keys of the table `[line]`, with the defects of a line, `line.defects`.
 
 use super::super::access::{
-    Access, WebKey, defect, defect_mut, in_rows, is_flown, layer, layer_mut, row, row_mut,
+    Access, WebKey, defect, defect_mut, filament, filament_mut, given, in_rows, is_flown, layer, layer_mut,
+    row, row_mut,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
+use spunlaid_fibre::Feed;
 use spunlaid_fibre::case::keys::row::{at, key, number, quantity, whole};
 use spunlaid_fibre::case::keys::{EVEN, Kind, Sign, Value, row_of};
 use spunlaid_ground::{Dimension, Fault};
@@ -12,16 +14,7 @@ use spunlaid_web::map::Filaments;
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     row_of("feed.speed")
-        .of_input(Access {
-            get: |web| {
-                layer(web).filter(|layer| layer.throughput.is_none()).map(|layer| layer.feed_speed.into())
-            },
-            set: |web, value| {
-                let layer = layer_mut(web)?;
-                (layer.feed_speed, layer.throughput) = (number(value)?, None);
-                Ok(())
-            },
-        })
+        .of_input(given!(feed, Feed::Speed))
         .called("line.feed_speed")
         .derived(is_flown)
         .gives_case(&["feed.speed"])
@@ -31,17 +24,10 @@ pub(super) const KEYS: &[WebKey] = &[
              simulated filament.",
         ),
     row_of("spinline.throughput")
-        .of_input(Access {
-            get: |web| layer(web)?.throughput.map(Value::Number),
-            set: |web, value| {
-                let throughput = number(value)?;
-                layer_mut(web)?.feed(throughput);
-                Ok(())
-            },
-        })
+        .of_input(given!(feed, Feed::Throughput))
         .named("line.throughput")
         .alternative_to(&["line.feed_speed"], EITHER)
-        .in_other_words(|web| layer(web).map(|layer| layer.hole_flow().into()))
+        .in_other_words(|web| Some(filament(web)?.throughput().into()))
         .gives_case(&["feed.speed", "spinline.throughput"])
         .follows("`feed_speed` and the filament give it")
         .meaning(
@@ -50,11 +36,9 @@ pub(super) const KEYS: &[WebKey] = &[
         ),
     row_of("belt.speed")
         .of_input(Access {
-            get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|layer| layer.belt_speed.into()),
+            get: |web| web.basis_weight.is_none().then_some(web.belt_speed.into()),
             set: |web, value| {
-                let belt_speed = number(value)?;
-                layer_mut(web)?;
-                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.belt_speed = number(value)?;
                 web.basis_weight = None;
                 Ok(())
             },
@@ -70,11 +54,10 @@ pub(super) const KEYS: &[WebKey] = &[
         ),
     positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
-            get: |web| layer(web).and(web.basis_weight).map(Value::Number),
+            get: |web| web.basis_weight.map(Value::Number),
             set: |web, value| {
                 let basis_weight = number(value)?;
-                let belt_speed = web.belt_speed_for(basis_weight);
-                web.layers.iter_mut().for_each(|layer| layer.belt_speed = belt_speed);
+                web.belt_speed = web.belt_speed_for(basis_weight);
                 web.basis_weight = Some(basis_weight);
                 Ok(())
             },

@@ -18,7 +18,10 @@ fn names(value: &Value) -> Result<Vec<String>, Fault> {
     let names = text(value)?;
     let names: Vec<_> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
     if names.is_empty() {
-        return Err(Fault::wrong_type("a text without a name", "names with commas between them, or \"none\""));
+        return Err(Fault::wrong_type(
+            "a text without a name",
+            "names with commas between them, or \"none\"",
+        ));
     }
     Ok(names.into_iter().filter(|name| *name != NONE).map(ToOwned::to_owned).collect())
 }
