@@ -129,14 +129,9 @@ pub mod air {
 /// One fibre: its case, drag, spinline, flight.
 pub mod fibre {
     pub use spunlaid_fibre::{
-        Case, Checks, EndNodeMotion, Energy, Fibre, FibreParameters, Flight, FrictionLaw, Job, LaidPoint,
-        Polymer, Root, Snapshot, Solution,
+        Case, Checks, EndNodeMotion, Energy, FedFilament, Feed, Fibre, FibreParameters, Flight, FrictionLaw,
+        Job, LaidPoint, Polymer, Root, Size, Snapshot, Solution,
     };
-
-    /// See [`spunlaid_fibre::body`].
-    pub mod body {
-        pub use spunlaid_fibre::body::{diameter_of, linear_density};
-    }
 
     /// See [`spunlaid_fibre::case`].
     pub mod case {

@@ -127,8 +127,8 @@ impl OpenWeb<'_> {
 }
 
 impl WebParser<'_> {
-    /// Adds a layer to a web, with the belt if it says one. Its values are NaN where there is a problem with them, which
-    /// is noted. Returns its filament, if it has to be simulated.
+    /// Adds a layer to a web, with the belt if it says one. Its values are NaN where there is a problem with them,
+    /// which is noted. Returns its filament, if it has to be simulated.
     fn add_layer(&mut self, web: &mut WebSpec, prefix: &str) -> Option<Filament> {
         let way = self.way(prefix);
         let by_case = way == Way::Fly;

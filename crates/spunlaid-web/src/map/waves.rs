@@ -27,8 +27,8 @@ pub struct Streaks {
     /// Mean power of the wave with so many periods across the sheet and none along it, from one period on.
     /// All waves have twice that, since each counts in both senses.
     pub powers: Vec<f64>,
-    /// Whether holes in rows, too, make streaks, which are the same in all webs: their strength is what the map has more
-    /// than random ones.
+    /// Whether holes in rows, too, make streaks, which are the same in all webs: their strength is what the map has
+    /// more than random ones.
     pub has_rows: bool,
 }
 

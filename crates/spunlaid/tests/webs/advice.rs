@@ -347,7 +347,8 @@ fn analytic_titre_of_straight_filaments() {
         assert!((cv.value - (titre.sqrt() - 1.0)).abs() < tolerance, "{cv:?}");
         assert!(tolerance < 0.04, "{cv:?}");
         // With more throughput the belt is as much faster, and the same paths lie on it.
-        assert!(change(setting::THROUGHPUT, more).value.abs() < 1e-9);
+        let held = change(setting::THROUGHPUT, more);
+        assert!(held.value.abs() < 1e-9, "{held:?}");
     }
     let [(tried, effect), ..] = advice.improvements(2e-3)[..] else { panic!("nothing lowers it") };
     assert_eq!((tried.change.setting, effect.difference.value < -0.05), (setting::TITRE, true));

@@ -10,7 +10,8 @@ const DEPTH: f64 = 20e-3;
 
 /// What comes from a beam; the first one says the weight of all.
 pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
-    let NewLine { given, holes_per_metre, throughput, flow, belt_speed, .. } = *line;
+    let NewLine { given, holes_per_metre, filament, flow, belt_speed, .. } = *line;
+    let throughput = filament.throughput();
     let (header, prefix, times) = match given.beams {
         1 => (String::new(), "", String::new()),
         beams => (format!("\n[[layer]]\nname = \"beam {number}\"\n"), "layer.", format!("{beams} beams × ")),
@@ -44,8 +45,8 @@ pub(super) fn beam(line: &NewLine<'_>, number: u64) -> String {
         prefix = prefix,
         throughput = Dimension::MassFlow.pretty_to(throughput, GIVEN as usize),
         of_hole = of_hole,
-        titre = significant(line.titre * 1e7, 4),
-        feed_speed = speed(line.feed_speed()),
+        titre = significant(filament.linear_density() * 1e7, 4),
+        feed_speed = speed(filament.feed_speed()),
         weight = weight,
         per_metre = holes_per_metre,
         holes = holes.unwrap_or_default(),

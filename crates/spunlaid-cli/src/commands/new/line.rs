@@ -2,8 +2,7 @@
 
 use crate::args::{LineNumbers, value};
 use spunlaid::air::Cabin;
-use spunlaid::fibre::Polymer;
-use spunlaid::fibre::body::linear_density;
+use spunlaid::fibre::{FedFilament, Feed, Polymer, Size};
 use spunlaid::ground::{Dimension, Fault};
 
 /// How far the weight that a belt takes may be from the one that is given beside it, as a share.
@@ -18,9 +17,7 @@ pub(super) struct NewLine<'a> {
     pub(super) given: &'a LineNumbers,
     pub(super) polymer: Polymer,
     pub(super) holes_per_metre: u64,
-    pub(super) throughput: f64,
-    /// Mass per length of a filament.
-    pub(super) titre: f64,
+    pub(super) filament: FedFilament,
     /// Mass flow from each metre of width, of all beams.
     pub(super) flow: f64,
     pub(super) belt_speed: f64,
@@ -44,8 +41,9 @@ impl<'a> NewLine<'a> {
         let in_all = given.holes.map(|holes| (holes as f64 / given.width.value).round().max(1.0) as u64);
         let holes_per_metre = given.holes_per_metre.or(in_all).unwrap_or(1);
         let polymer = value(&given.polymer).unwrap_or(Polymer::Pp);
-        let of_diameter = |diameter| linear_density(diameter, polymer.material(false).solid_density);
-        let titre = value(&given.diameter).map_or(known(&given.dtex), of_diameter);
+        let size = value(&given.diameter).map_or(Size::LinearDensity(known(&given.dtex)), Size::Diameter);
+        let density = polymer.material(false).solid_density;
+        let filament = FedFilament { density, size, feed: Feed::Throughput(throughput) };
         let flow = (given.beams * holes_per_metre) as f64 * throughput;
         let belt_speed = value(&given.belt_speed).unwrap_or(flow / known(&given.basis_weight));
         let weight = flow / belt_speed;
@@ -60,17 +58,13 @@ impl<'a> NewLine<'a> {
                 "leave out --belt-speed or --basis-weight, or change throughput and holes",
             ));
         }
-        Ok(Self { given, polymer, holes_per_metre, throughput, titre, flow, belt_speed, air_speed, cabin })
-    }
-
-    pub(super) fn feed_speed(&self) -> f64 {
-        self.throughput / self.titre
+        Ok(Self { given, polymer, holes_per_metre, filament, flow, belt_speed, air_speed, cabin })
     }
 
     /// A warning of air that is too slow.
     pub(super) fn warning(&self) -> Option<String> {
-        let [air, feed] = [self.air_speed, self.feed_speed()].map(speed);
-        (self.air_speed <= self.feed_speed()).then(|| {
+        let [air, feed] = [self.air_speed, self.filament.feed_speed()].map(speed);
+        (self.air_speed <= self.filament.feed_speed()).then(|| {
             format!(
                 "the air of {air} is not faster than the filament, {feed}, and cannot draw it: check air speed, \
                 throughput and titre"

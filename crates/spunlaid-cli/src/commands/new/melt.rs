@@ -72,7 +72,7 @@ impl<'a> NewMelt<'a> {
         let air = format!("{}_spinline.csv", super::super::stem(path, "line"));
         let text = file(&self.text(line, &air, 1.0));
         let spinline = read_spinline((text.as_str(), name.as_str()), &[])?;
-        let factor = spinline.drag_factor_of_titre(line.titre)?;
+        let factor = spinline.drag_factor_of_titre(line.filament.linear_density())?;
         let [least, most] = usual_drag();
         if !(least..=most).contains(&factor) {
             say::warning(&format!(
@@ -119,7 +119,7 @@ impl<'a> NewMelt<'a> {
             assumed_length = if spinline_length.is_none() { ", assumed" } else { "" },
             air = air,
             drag_factor = significant(drag_factor, 6),
-            titre = significant(line.titre * 1e7, 4),
+            titre = significant(line.filament.linear_density() * 1e7, 4),
             least = usual_drag()[0],
             most = usual_drag()[1],
         )

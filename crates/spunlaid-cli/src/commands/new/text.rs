@@ -4,7 +4,6 @@ use super::beam::beam;
 use super::line::{GIVEN, NewLine, length, speed};
 use crate::args::value;
 use spunlaid::air::Cabin;
-use spunlaid::fibre::body::diameter_of;
 use spunlaid::ground::Dimension;
 use spunlaid_results::numbers::significant;
 
@@ -48,13 +47,13 @@ pub(super) fn file(line: &NewLine<'_>, name: &str, air: &str, spinline: Option<&
 /// Titre, density and modulus of a filament that begins at the slot.
 fn filament(line: &NewLine<'_>) -> String {
     let material = line.polymer.material(false);
-    let dtex = |digits| significant(line.titre * 1e7, digits);
+    let dtex = |digits| significant(line.filament.linear_density() * 1e7, digits);
     let size = match value(&line.given.diameter) {
         Some(diameter) => {
             format!("diameter = \"{}\"   # {} dtex: π/4 × diameter² × density", length(diameter), dtex(4))
         }
         None => {
-            let diameter = Dimension::Length.pretty(diameter_of(line.titre, material.solid_density));
+            let diameter = Dimension::Length.pretty(line.filament.diameter());
             let titre = dtex(GIVEN);
             format!("linear_density = \"{titre} dtex\"   # of {diameter}: √(4 × titre / (π × density))")
         }
