@@ -1,12 +1,13 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 //!
 //! ```text
-//! file, and the cases that it names → `WrittenWeb` ┬ web/open.rs: layers, sheet, belt
+//! file, and the cases that it names → `WrittenWeb` ┬ web/open.rs: layers, sheet.rs, belt.rs
 //!                                                  └ filament.rs: the case of a filament,
 //!                                                    of a web, or for `spunlaid run`, `spin`, `air`
 //! ```
 
 mod assumed;
+mod belt;
 mod check;
 mod filament;
 mod open;
