@@ -35,8 +35,6 @@ const MOST_AREA: f64 = 30.0;
 const FARTHER: f64 = 0.15;
 /// Most coarse sheets that fly before their error is looked at.
 const MOST_AT_FIRST: u64 = 8;
-/// Part of what area and pairs may have that may come from the pairs before another pair is simulated.
-const BY_PAIRS: f64 = 0.5;
 /// Marks the seeds of other airs.
 const OTHER_AIR: u64 = 0x6c65_7665_6c73;
 /// What is expected before anything is simulated: relative variance of a CV that an area of 1 m² leaves open, and the
@@ -235,32 +233,19 @@ impl<'a> LayerSheets<'a> {
             levels.coarse.extend((airs..airs + more).filter_map(|air| self.kept_coarse(on, air)));
             airs += more;
             let Some(variances) = levels.variances() else { return Ok(alone) };
-            let (limit, area) = (wanted * wanted, AREA * airs as f64);
-            let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             if !variances.whole().is_finite() {
                 return Ok(alone);
             }
-            // What the area and the pairs may have. The distance of the filaments does the same on all sheets; a
-            // smaller part than half of that would cost more than it is worth.
-            let rest = (limit - variances.by_distance).max(0.5 * variances.by_distance);
-            let open = variances.by_area + variances.by_places;
-            let is_enough = open + variances.by_pairs <= rest;
-            if is_enough || area >= MOST_AREA || is_late {
+            let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
+            let may_go_on = !is_late && AREA * (airs as f64) < MOST_AREA;
+            let next = variances.next_sheets(wanted, airs, pairs).filter(|_| may_go_on);
+            let Some(next) = next else {
                 let combined = levels.combine().unwrap_or(alone);
                 return Ok(SubsampleEstimate { wanted: Some(wanted), ..combined });
-            }
-            let mut by_pairs = variances.by_pairs;
-            pair = None;
-            if by_pairs > BY_PAIRS * rest {
-                pair = Some(NextPair { on: &of_pairs, air: PAIRS | pairs, fine: None });
-                pairs += 1;
-                // The sheets that it spares are not simulated.
-                by_pairs *= (pairs - 1) as f64 / pairs as f64;
-            }
-            let left = (rest - by_pairs).max((1.0 - BY_PAIRS) * rest);
-            // No more than as many again, because the variance is not known well yet.
-            let needed = airs as f64 * (open / left - 1.0);
-            more = (needed.ceil() as u64).clamp(1, airs);
+            };
+            more = next.coarse;
+            pair = next.has_pair.then_some(NextPair { on: &of_pairs, air: PAIRS | pairs, fine: None });
+            pairs += u64::from(next.has_pair);
             if let Some(time) = spec.time {
                 // Nothing is known of the time where all sheets were kept.
                 let so_far = begun.elapsed().as_secs_f64();

@@ -32,6 +32,9 @@ pub struct Pair {
     pub coarse: SubsampleEstimate,
 }
 
+/// Part of what area and pairs may have that may come from the pairs before another pair is simulated.
+const BY_PAIRS: f64 = 0.5;
+
 /// Parts of the variance of a CV, as parts of its square.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variances {
@@ -50,6 +53,41 @@ impl Variances {
     pub fn whole(&self) -> f64 {
         self.by_pairs + self.by_area + self.by_places + self.by_distance
     }
+
+    /// What all but the distance of the filaments may have, so that the error is the wanted one. The distance does the
+    /// same on all sheets, and a smaller part than half of it would cost more than it is worth.
+    fn rest(&self, wanted: f64) -> f64 {
+        (wanted * wanted - self.by_distance).max(0.5 * self.by_distance)
+    }
+
+    /// The next sheets until the error is the wanted one; None if it is already, or as small as it becomes.
+    ///
+    /// * `wanted` – standard error of the CV, as a part of it
+    /// * `sheets`, `pairs` – that there are
+    pub fn next_sheets(&self, wanted: f64, sheets: u64, pairs: u64) -> Option<NextSheets> {
+        let rest = self.rest(wanted);
+        let open = self.by_area + self.by_places;
+        if open + self.by_pairs <= rest {
+            return None;
+        }
+        let has_pair = self.by_pairs > BY_PAIRS * rest;
+        // The sheets that a pair spares are not simulated.
+        let by_pairs =
+            if has_pair { self.by_pairs * pairs as f64 / (pairs + 1) as f64 } else { self.by_pairs };
+        let left = (rest - by_pairs).max((1.0 - BY_PAIRS) * rest);
+        // No more than as many again, because the variance is not known well yet.
+        let needed = sheets as f64 * (open / left - 1.0);
+        Some(NextSheets { coarse: (needed.ceil() as u64).clamp(1, sheets), has_pair })
+    }
+}
+
+/// The sheets that are simulated next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NextSheets {
+    /// Number of coarse ones.
+    pub coarse: u64,
+    /// Whether another pair is among them.
+    pub has_pair: bool,
 }
 
 /// The result of all sheets over patches of one side.

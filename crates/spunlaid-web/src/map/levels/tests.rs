@@ -286,6 +286,55 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
 }
 
 /// What a journal keeps of a sheet makes it again, and half of it does not.
+/// Variances that fall with the area and with the pairs, beside that of the distance, which does not.
+fn variances(sheets: u64, pairs: u64, by_distance: f64) -> Variances {
+    let [by_area, by_pairs] = [12e-4 / sheets as f64, 5e-4 / pairs as f64];
+    Variances { by_pairs, by_area, by_places: 0.0, by_distance }
+}
+
+/// Adds sheets until no more are wanted: all coarse ones, pairs, and the error without the distance.
+fn sheets_for(wanted: f64, by_distance: f64) -> (u64, u64, f64) {
+    let [mut sheets, mut pairs] = [2, 1];
+    for _ in 0..50 {
+        let variances = variances(sheets, pairs, by_distance);
+        let Some(next) = variances.next_sheets(wanted, sheets, pairs) else {
+            return (sheets, pairs, variances.by_area + variances.by_pairs);
+        };
+        assert!((1..=sheets).contains(&next.coarse), "{next:?}");
+        sheets += next.coarse;
+        pairs += u64::from(next.has_pair);
+    }
+    panic!("no end");
+}
+
+#[test]
+fn sheets_are_added_until_the_error_is_the_wanted_one() {
+    for wanted in [0.05, 0.03, 0.02, 0.01] {
+        let (sheets, pairs, left) = sheets_for(wanted, 0.0);
+        assert!(left <= wanted * wanted, "{wanted}: {left}");
+        // One sheet and one pair less would not be enough, or is nearly a pair that was worth more than its sheets.
+        let fewer = variances(sheets - 1, pairs, 0.0);
+        let more_than = fewer.by_area + fewer.by_pairs;
+        assert!(sheets == 2 || more_than > 0.8 * wanted * wanted, "{wanted}: {sheets} sheets, {pairs} pairs");
+    }
+    let (_, of_one, _) = sheets_for(0.05, 0.0);
+    let (_, of_more, _) = sheets_for(0.02, 0.0);
+    assert!(of_one == 1 && of_more > 1, "{of_one} {of_more}");
+}
+
+/// The distance of the filaments does the same on all sheets: where it alone is larger than what is wanted, area and
+/// pairs fall to half of it and no farther.
+#[test]
+fn no_sheets_are_added_for_what_the_distance_decides() {
+    for by_distance in [1e-4, 4e-4, 16e-4] {
+        let (sheets, _, left) = sheets_for(0.001, by_distance);
+        assert!((0.25 * by_distance..=0.5 * by_distance).contains(&left), "{sheets}: {left} {by_distance}");
+    }
+    // As a part of what is wanted, it leaves the rest to the others.
+    let (_, _, left) = sheets_for(0.03, 4e-4);
+    assert!((3e-4..=5e-4).contains(&left), "{left}");
+}
+
 #[test]
 fn a_sheet_is_made_again_from_its_numbers() {
     let mut few = SubsampleEstimate { filaments: 7, lost: 2, ..sheet(vec![0.5; 3 * ACROSS]) };
