@@ -219,10 +219,11 @@ fn vary_every_key(name: &str, text: &str) -> Found {
 }
 
 #[test]
-#[ignore = "slow: every key of thirteen cases"]
+#[ignore = "slow: every key of eleven cases"]
 fn identical_alone_and_in_company_for_every_key() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let found = par_map(threads, CASES.len(), |i| vary_every_key(CASES[i].0, CASES[i].1));
+    let cases: Vec<_> = CASES.into_iter().filter(|(name, _)| !PLAIN.contains(name)).collect();
+    let found = par_map(threads, cases.len(), |i| vary_every_key(cases[i].0, cases[i].1));
     let mut wrong: Vec<String> = found.iter().flat_map(|found| found.wrong.clone()).collect();
     for key in keys::all().iter().filter(|key| key.varies) {
         if !found.iter().any(|found| found.varied.contains(key.name)) {
@@ -237,10 +238,12 @@ fn identical_alone_and_in_company_for_every_key() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Of the plainest fibre that hangs and of the plainest that is fed; other kinds of fibre and air are slow.
+/// The plainest fibre that hangs and the plainest that is fed; other kinds of fibre and air are slow.
+const PLAIN: [&str; 2] = ["fixed", "fed"];
+
 #[test]
 fn identical_alone_and_in_company_for_every_key_of_plain_fibres() {
-    for (name, text) in CASES.into_iter().filter(|(name, _)| ["fixed", "fed"].contains(name)) {
+    for (name, text) in CASES.into_iter().filter(|(name, _)| PLAIN.contains(name)) {
         let found = vary_every_key(name, text);
         assert!(found.wrong.is_empty() && found.shared.len() > 5, "{}", found.wrong.join("\n"));
     }

@@ -6,6 +6,7 @@ use spunlaid_input::read_web;
 use spunlaid_simulation::{Flights, Flyer, WebSpec};
 use spunlaid_web::map::{Findings, PatchFindings};
 use spunlaid_web::{SubsampleEstimate, SubsampleWarning};
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -151,6 +152,22 @@ fn few_of(
     Ok(web.find(by)?.laid.simulated[0].few.clone().unwrap())
 }
 
+/// What the filaments of a web say, in words, and how many of them are simulated.
+fn estimate_and_fibres(spec: &WebSpec, threads: usize, kept: Option<&Log>) -> (String, u64) {
+    let fibres = AtomicU64::new(0);
+    let count = |count| {
+        fibres.fetch_add(count, Ordering::Relaxed);
+    };
+    let few = few_of(spec, threads, kept, &count).unwrap();
+    (format!("{few:?}"), fibres.into_inner())
+}
+
+const SMALL_ERROR: &str = "0.06";
+
+/// A web of several coarse sheets, simulated at once on one thread.
+static OF_SMALL_ERROR: LazyLock<(String, u64)> =
+    LazyLock::new(|| estimate_and_fibres(&of_two_levels(SMALL_ERROR), 1, None));
+
 /// A web of which little is wanted to be known takes one coarse sheet; the bits are the same on any number of threads.
 #[test]
 #[ignore = "slow: three webs of two levels"]
@@ -172,42 +189,32 @@ fn identical_two_levels_on_any_number_of_threads() {
 /// What was simulated for a large error is not simulated again for a smaller one, whose bits are those without it; and
 /// what is kept of another web is not taken.
 #[test]
-#[ignore = "slow: seven webs of two levels"]
+#[ignore = "slow: five webs of two levels"]
 fn identical_a_smaller_error_goes_on_from_the_kept_sheets_of_a_larger_one() {
-    let (large, small) = (of_two_levels("0.2"), of_two_levels("0.06"));
-    let fibres = AtomicU64::new(0);
-    let of = |spec: &WebSpec, threads: usize, kept: Option<&Log>| {
-        fibres.store(0, Ordering::Relaxed);
-        let count = |count| {
-            fibres.fetch_add(count, Ordering::Relaxed);
-        };
-        let few = few_of(spec, threads, kept, &count);
-        (format!("{:?}", few.unwrap()), fibres.load(Ordering::Relaxed))
-    };
-    let (whole, of_whole) = of(&small, 1, None);
-    for threads in [1, 2] {
-        let kept = Log::in_memory();
-        let (_, of_first) = of(&large, 1, Some(&kept));
-        let (continued, of_rest) = of(&small, threads, Some(&kept));
-        assert_eq!(continued, whole);
-        // Only the fine sheet, from which the map is made, is simulated twice.
-        let (_, of_fine) = of(&small, threads, Some(&kept));
-        println!("{of_whole} {of_first} {of_rest} {of_fine}");
-        assert_eq!(of_first + of_rest, of_whole + of_fine);
-        assert!(of_fine < of_rest && of_rest < of_whole, "{of_fine} {of_rest} {of_whole}");
-    }
+    let large = of_two_levels("0.2");
+    let (whole, of_whole) = &*OF_SMALL_ERROR;
     let kept = Log::in_memory();
-    let other = WebSpec { seed: large.seed + 1, ..large.clone() };
-    assert_ne!(of(&large, 2, Some(&kept)).0, of(&other, 2, Some(&kept)).0);
-    assert_eq!(kept.keys().len(), 4);
+    let (first, of_first) = estimate_and_fibres(&large, 1, Some(&kept));
+    let of_large = kept.keys().len();
+    let small = of_two_levels(SMALL_ERROR);
+    let (continued, of_rest) = estimate_and_fibres(&small, 2, Some(&kept));
+    assert_eq!(continued, *whole);
+    // Only the fine sheet, from which the map is made, is simulated twice.
+    let (_, of_fine) = estimate_and_fibres(&small, 2, Some(&kept));
+    println!("{of_whole} {of_first} {of_rest} {of_fine}");
+    assert_eq!(of_first + of_rest, of_whole + of_fine);
+    assert!(of_fine < of_rest && of_rest < *of_whole, "{of_fine} {of_rest} {of_whole}");
+    let all = kept.keys().len();
+    let other = WebSpec { seed: large.seed + 1, ..large };
+    assert_ne!(estimate_and_fibres(&other, 2, Some(&kept)).0, first);
+    assert_eq!(kept.keys().len(), all + of_large);
 }
 
 /// A command that is stopped after a sheet has kept it.
 #[test]
 #[ignore = "slow: three webs of two levels"]
 fn identical_an_interrupted_web_goes_on_from_its_sheets() {
-    let spec = of_two_levels("0.06");
-    let whole = few_of(&spec, 1, None, &|_| ()).unwrap();
+    let spec = of_two_levels(SMALL_ERROR);
     let (kept, stop) = (Log::in_memory(), AtomicBool::new(false));
     let follow = |_: Flights<'_>, work: &mut (dyn FnMut() + Send)| {
         let look = || {
@@ -220,6 +227,6 @@ fn identical_an_interrupted_web_goes_on_from_its_sheets() {
     let before = kept.keys().len();
     assert!(before >= 2);
     let continued = few_of(&spec, 2, Some(&kept), &|_| ()).unwrap();
-    assert_eq!(format!("{continued:?}"), format!("{whole:?}"));
+    assert_eq!(format!("{continued:?}"), OF_SMALL_ERROR.0);
     assert!(kept.keys().iter().all(|key| kept.pieces(*key).count() == 1) && kept.keys().len() > before);
 }
