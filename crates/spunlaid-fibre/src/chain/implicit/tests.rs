@@ -7,7 +7,7 @@ use crate::chain::tests::{BELT_SPEED, SPACING, chain, crumple, line, scatter, st
 use crate::chain::{FibreParameters, Scheme, explicit};
 use crate::line::{Contact, Line};
 use spunlaid_air::{Air, Atmosphere, Eddies, Instant, StreamKey, Wind};
-use spunlaid_ground::{Isa, Task};
+use spunlaid_ground::Isa;
 use std::f64::consts::PI;
 
 type V = Vec3<f64>;
@@ -19,40 +19,27 @@ const H: f64 = 5e-4;
 const MASS: f64 = 1000.0 * PI * 1e-6 / 4.0 * SPACING;
 const STIFFNESS: f64 = 1e6 * PI * 1e-6 / 4.0 / SPACING;
 
+/// The registers of any machine: all others give the same bits, and each takes several seconds to compile.
+type Registers = spunlaid_ground::Plain;
+
 /// A step without what follows it on a belt, in air of 20 m/s.
-struct OneStep<'a> {
-    chain: &'a mut Chain,
-    work: &'a mut WorkDone,
-    stride: Stride,
-    is_implicit: bool,
-}
-
-impl Task for OneStep<'_> {
-    type Output = ();
-
-    fn call<S: Register>(self) {
-        let Self { chain, work, stride, is_implicit } = self;
-        let elements = chain.elements();
-        let eddies = Eddies::along(SPACING * elements as f64, elements, 1.0);
-        let air = Air { harmonics: 8, ..Air::uniform(20.0, 0.0, 0.05, 100.0) };
-        let key = StreamKey { seed: 0, replicate: 0 };
-        let wind = Wind::uniform(Isa::detect(), &[(air, key)], eddies.count(), 1.0).unwrap();
-        let mut air = Atmosphere::from((&eddies, &wind));
-        let air = air.look::<S>(Instant { step: 0, time: 0.0 }, &chain.position);
-        let mut block = ElementBlock::<S>::new();
-        match (is_implicit, chain.laying.is_some()) {
-            (true, true) => step::<S, true>(chain, &air, stride, work, &mut block),
-            (true, false) => step::<S, false>(chain, &air, stride, work, &mut block),
-            (false, true) => explicit::step::<S, true, true>(chain, &air, stride, work, &mut block),
-            (false, false) => explicit::step::<S, false, false>(chain, &air, stride, work, &mut block),
-        }
-    }
-}
-
 fn take_step(chain: &mut Chain, work: &mut WorkDone, damped: bool, is_implicit: bool) {
     let drift = if is_implicit || chain.laying.is_some() { H } else { 0.0 };
     let stride = Stride { kick: H, drift, damped, split: true };
-    Isa::detect().run(OneStep { chain, work, stride, is_implicit });
+    let elements = chain.elements();
+    let eddies = Eddies::along(SPACING * elements as f64, elements, 1.0);
+    let air = Air { harmonics: 8, ..Air::uniform(20.0, 0.0, 0.05, 100.0) };
+    let key = StreamKey { seed: 0, replicate: 0 };
+    let wind = Wind::uniform(Isa::detect(), &[(air, key)], eddies.count(), 1.0).unwrap();
+    let mut air = Atmosphere::from((&eddies, &wind));
+    let air = air.look::<Registers>(Instant { step: 0, time: 0.0 }, &chain.position);
+    let mut block = ElementBlock::<Registers>::new();
+    match (is_implicit, chain.laying.is_some()) {
+        (true, true) => step::<_, true>(chain, &air, stride, work, &mut block),
+        (true, false) => step::<_, false>(chain, &air, stride, work, &mut block),
+        (false, true) => explicit::step::<_, true, true>(chain, &air, stride, work, &mut block),
+        (false, false) => explicit::step::<_, false, false>(chain, &air, stride, work, &mut block),
+    }
 }
 
 /// Solves linear equations.
