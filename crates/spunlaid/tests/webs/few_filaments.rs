@@ -189,25 +189,31 @@ fn identical_two_levels_on_any_number_of_threads() {
 /// What was simulated for a large error is not simulated again for a smaller one, whose bits are those without it; and
 /// what is kept of another web is not taken.
 #[test]
-#[ignore = "slow: five webs of two levels"]
+#[ignore = "slow: six webs of two levels"]
 fn identical_a_smaller_error_goes_on_from_the_kept_sheets_of_a_larger_one() {
     let large = of_two_levels("0.2");
     let (whole, of_whole) = &*OF_SMALL_ERROR;
-    let kept = Log::in_memory();
-    let (first, of_first) = estimate_and_fibres(&large, 1, Some(&kept));
-    let of_large = kept.keys().len();
+    let kept = [Log::in_memory(), Log::in_memory()];
+    let (first, of_first) = estimate_and_fibres(&large, 1, Some(&kept[0]));
+    let of_large = kept[0].keys();
+    for (key, piece) in of_large.iter().flat_map(|key| kept[0].pieces(*key).map(move |piece| (*key, piece))) {
+        kept[1].append(key, piece.unwrap()).unwrap();
+    }
     let small = of_two_levels(SMALL_ERROR);
-    let (continued, of_rest) = estimate_and_fibres(&small, 2, Some(&kept));
-    assert_eq!(continued, *whole);
-    // Only the fine sheet, from which the map is made, is simulated twice.
-    let (_, of_fine) = estimate_and_fibres(&small, 2, Some(&kept));
-    println!("{of_whole} {of_first} {of_rest} {of_fine}");
-    assert_eq!(of_first + of_rest, of_whole + of_fine);
-    assert!(of_fine < of_rest && of_rest < *of_whole, "{of_fine} {of_rest} {of_whole}");
+    for (threads, kept) in (1..).zip(&kept) {
+        let (continued, of_rest) = estimate_and_fibres(&small, threads, Some(kept));
+        assert_eq!(continued, *whole);
+        // Only the fine sheet, from which the map is made, is simulated twice.
+        let (_, of_fine) = estimate_and_fibres(&small, threads, Some(kept));
+        println!("{of_whole} {of_first} {of_rest} {of_fine}");
+        assert_eq!(of_first + of_rest, of_whole + of_fine);
+        assert!(of_fine < of_rest && of_rest < *of_whole, "{of_fine} {of_rest} {of_whole}");
+    }
+    let [kept, _] = kept;
     let all = kept.keys().len();
     let other = WebSpec { seed: large.seed + 1, ..large };
     assert_ne!(estimate_and_fibres(&other, 2, Some(&kept)).0, first);
-    assert_eq!(kept.keys().len(), all + of_large);
+    assert_eq!(kept.keys().len(), all + of_large.len());
 }
 
 /// A command that is stopped after a sheet has kept it.

@@ -74,7 +74,7 @@ fn expected_over_found(seed: u64) -> [f64; 2] {
                 let (a, b) = (curve[k], other[k + lag]);
                 sums = [sums[0] + a[0] * b[0], sums[1] + a[1] * b[1]];
                 pairs += 1.0;
-                k += 5;
+                k += 10;
             }
         }
         sums.map(|sum| sum / pairs)
