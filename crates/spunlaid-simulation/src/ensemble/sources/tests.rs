@@ -96,7 +96,7 @@ fn line(placed: PlacedField, replicates: u64) -> Case {
     });
     case.air = Air { flow: Flow::Field(Box::new(placed)), ..Air::uniform(40.0, 0.1, 0.016, 500.0) };
     case.run.time_step = 4e-5;
-    (case.run.steps, case.run.output_steps, case.run.replicates) = (5000, 5, replicates);
+    (case.run.steps, case.run.output_steps, case.run.replicates) = (3000, 5, replicates);
     case.run.spin_up_steps = 1500;
     (case.run.scheme, case.run.gravity, case.run.damping) = (Scheme::ImplicitTension, 9.81, 0.0);
     case
