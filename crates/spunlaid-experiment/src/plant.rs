@@ -40,16 +40,18 @@ const METRES_PER_MINUTE: (&str, f64) = ("m/min", 1.0 / 60.0);
 /// From the hole to the belt.
 const ROWS: [Row; 9] = [
     row("throughput", "throughput per hole", ("g/min", 1e-3 / 60.0), |_, layer| {
-        Some(layer.filament.throughput())
+        Some(layer.fed_filament().throughput())
     }),
-    row("titre", "titre", ("dtex", 1e-7), |_, layer| Some(layer.filament.linear_density())),
-    row("spinning_speed", "spinning speed", METRES_PER_MINUTE, |_, layer| Some(layer.filament.feed_speed())),
+    row("titre", "titre", ("dtex", 1e-7), |_, layer| Some(layer.fed_filament().linear_density())),
+    row("spinning_speed", "spinning speed", METRES_PER_MINUTE, |_, layer| {
+        Some(layer.fed_filament().feed_speed())
+    }),
     row("cabin_pressure", "cabin pressure", ("Pa", 1.0), |_, layer| layer.source.case()?.air.cabin_pressure),
     row("air_at_slot", "air at the slot", ("m/s", 1.0), |_, layer| {
         layer.source.case()?.air.velocity_at_slot()
     }),
     row("filament_to_air", "filament to its fastest air", ("", 1.0), |_, layer| {
-        Some(layer.filament.feed_speed() / layer.source.case()?.fastest_air()?)
+        Some(layer.fed_filament().feed_speed() / layer.source.case()?.fastest_air()?)
     }),
     row("mass_flow", "per metre of width", ("kg/h", 1.0 / 3600.0), |web, _| Some(web.mass_flow())),
     row("belt_speed", "belt speed", METRES_PER_MINUTE, |web, _| Some(web.belt_speed)),

@@ -34,7 +34,7 @@ pub const LIMITS: &[Limit] = &[
         range: [0.05, 5.0],
         is_law: false,
         advice: "is it that of several holes?",
-        of: |_, layer| Some(layer.filament.throughput()),
+        of: |_, layer| Some(layer.fed_filament().throughput()),
     },
     Limit {
         key: "fibre.linear_density",
@@ -43,7 +43,7 @@ pub const LIMITS: &[Limit] = &[
         range: [0.3, 20.0],
         is_law: false,
         advice: "check titre or diameter, and the density",
-        of: |_, layer| Some(layer.filament.linear_density()),
+        of: |_, layer| Some(layer.fed_filament().linear_density()),
     },
     Limit {
         key: "line.feed_speed",
@@ -52,7 +52,7 @@ pub const LIMITS: &[Limit] = &[
         range: [500.0, 8000.0],
         is_law: false,
         advice: "it follows from throughput and titre, so check both",
-        of: |_, layer| Some(layer.filament.feed_speed()),
+        of: |_, layer| Some(layer.fed_filament().feed_speed()),
     },
     Limit {
         key: "line.feed_speed",
@@ -64,7 +64,7 @@ pub const LIMITS: &[Limit] = &[
             titre; for a filament that begins at the die ([spinline]) the titre follows",
         of: |_, layer| {
             let case = layer.source.case().filter(|case| case.spinline.is_none())?;
-            Some(layer.filament.feed_speed() / case.fastest_air()?)
+            Some(layer.fed_filament().feed_speed() / case.fastest_air()?)
         },
     },
     Limit {

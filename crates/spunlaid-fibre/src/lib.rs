@@ -32,7 +32,7 @@ pub mod flight;
 pub mod load;
 
 // The face of the wing: the types that others know by it. Functions are called by their room.
-pub use body::{FedFilament, Feed, Fibre, Root, Size};
+pub use body::{FedFilament, Fibre, FilamentFeed, FilamentSize, Root};
 pub use case::{
     Case, Checks, ERROR_TOLERANCE, FLIGHT_MEMORY_LIMIT, MOST_REPLICATES, MOST_STEPS, Run, StepChoice,
 };

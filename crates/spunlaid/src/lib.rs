@@ -129,8 +129,8 @@ pub mod air {
 /// One fibre: its case, drag, spinline, flight.
 pub mod fibre {
     pub use spunlaid_fibre::{
-        Case, Checks, EndNodeMotion, Energy, FedFilament, Feed, Fibre, FibreParameters, Flight, FrictionLaw,
-        Job, LaidPoint, Polymer, Root, Size, Snapshot, Solution,
+        Case, Checks, EndNodeMotion, Energy, FedFilament, Fibre, FibreParameters, FilamentFeed, FilamentSize,
+        Flight, FrictionLaw, Job, LaidPoint, Polymer, Root, Snapshot, Solution,
     };
 
     /// See [`spunlaid_fibre::case`].

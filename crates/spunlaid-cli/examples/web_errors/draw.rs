@@ -87,9 +87,8 @@ pub fn line(family: Family, seed: u64, number: u64) -> WebFile {
 fn read(text: &str, set: &[(String, String)]) -> Option<WebFile> {
     let web = read_web((text, "web.toml"), set).ok()?;
     let sheet = &web.spec.sheet;
-    let fibre = web.spec.layers.iter().map(|layer| {
-        layer.filaments.count(sheet) as f64 * sheet.length * layer.filament.feed_speed() / web.spec.belt_speed
-    });
+    let fibre =
+        web.spec.layers.iter().map(|layer| layer.filaments.count(sheet) as f64 * web.spec.fed_length(layer));
     (implausible(&web.spec).is_empty() && fibre.sum::<f64>() < MOST_FIBRE).then_some(web)
 }
 

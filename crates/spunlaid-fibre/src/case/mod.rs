@@ -8,7 +8,7 @@ mod remarks;
 mod step;
 mod usual;
 
-use crate::body::{FedFilament, Feed, Fibre, Size};
+use crate::body::{FedFilament, Fibre, FilamentFeed, FilamentSize};
 use crate::chain::{FibreParameters, Scheme};
 use crate::drag::Drag;
 use crate::line::Line;
@@ -35,7 +35,7 @@ pub struct Case {
     pub air: Air,
     /// The drag laws.
     pub drag: Drag,
-    /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
+    /// FilamentFeed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
     /// distance to the belt.
     pub line: Option<Line>,
     /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.
@@ -127,8 +127,8 @@ impl Case {
     /// The fibre as the filament of a hole, which has no speed if it has a fixed length.
     pub fn filament(&self) -> FedFilament {
         let speed = self.line.map_or(f64::NAN, |line| line.feed_speed);
-        let size = Size::Diameter(self.fibre.diameter);
-        FedFilament { density: self.fibre.density, size, feed: Feed::Speed(speed) }
+        let size = FilamentSize::Diameter(self.fibre.diameter);
+        FedFilament { density: self.fibre.density, size, feed: FilamentFeed::Speed(speed) }
     }
 
     /// Mass per length of the fibre [kg/m].

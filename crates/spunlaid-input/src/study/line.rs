@@ -10,7 +10,7 @@ use super::web::WebBase;
 use spunlaid_air::{Air, Flow};
 use spunlaid_experiment::plausible::outside;
 use spunlaid_experiment::{Change, ChangedWeb, setting};
-use spunlaid_fibre::Feed;
+use spunlaid_fibre::FilamentFeed;
 use spunlaid_fibre::case::keys::VariedKey;
 use spunlaid_ground::{ChangedKey, Dimension, Error, Setting};
 use spunlaid_simulation::layers::full_names::{replaced_by, web_key};
@@ -290,8 +290,12 @@ impl WebToChange<'_> {
         let values = self.values(knob, step, CHANGED);
         let mut made = self.with(&values).ok()?;
         let belt = made.spec.belt_speed_for(self.weight());
-        let slowest =
-            made.spec.layers.iter().map(|layer| layer.filament.feed_speed()).fold(f64::INFINITY, f64::min);
+        let slowest = made
+            .spec
+            .layers
+            .iter()
+            .map(|layer| layer.fed_filament().feed_speed())
+            .fold(f64::INFINITY, f64::min);
         if belt.is_nan() || belt > slowest {
             return None;
         }
@@ -309,10 +313,7 @@ impl WebToChange<'_> {
         let layer = key.name.strip_prefix("layer.").and_then(|rest| rest.split_once('.'));
         let layer = layer.filter(|(_, name)| *name == THROUGHPUT);
         let layer = layer.and_then(|(number, _)| self.spec().layers.get(number.parse::<usize>().ok()? - 1));
-        layer.is_some_and(|layer| match layer.filament.feed {
-            Feed::Throughput(throughput) => Some(throughput) == self.base.value(key),
-            Feed::Speed(_) => false,
-        })
+        layer.is_some_and(|layer| matches!(layer.filament.feed, FilamentFeed::Throughput(_)))
     }
 
     /// Values as they are set in the file, without those that stand there.

@@ -11,7 +11,7 @@ use spunlaid_simulation::{LayerSpec, SAME, WebSpec};
 const BASIS_WEIGHT: &str = "line.basis_weight";
 
 impl WebParser<'_> {
-    /// Gives the layers the belt on which they have the basis weight that is written, if one is. The cases
+    /// Gives the web the belt on which all layers have the basis weight that is written, if one is. The cases
     /// are simulated above it.
     pub(super) fn lay_weight(&mut self, web: &mut WebSpec, filaments: &mut [Option<Filament>]) {
         let Some(key) = self.of_all_layers(BASIS_WEIGHT) else { return };
@@ -26,9 +26,10 @@ impl WebParser<'_> {
         let belt = web.belt_speed_for(weight);
         // What is missing, or that nothing is laid, is reported elsewhere.
         web.belt_speed = if belt == 0.0 { f64::NAN } else { belt };
-        let Some(written_value) = self.key_values.get(&key).filter(|_| !web.belt_speed.is_nan()) else {
+        let Some(written_value) = self.key_values.get(&key) else { return };
+        if web.belt_speed.is_nan() {
             return;
-        };
+        }
         for filament in filaments.iter_mut().flatten() {
             filament.derive("belt.speed", Dimension::Velocity, web.belt_speed, &key, written_value);
         }
@@ -69,12 +70,12 @@ impl WebParser<'_> {
         if !by_weight {
             self.lay_on_common_belt(web);
         }
-        let is_torn = |(_, layer): &(usize, &LayerSpec)| web.belt_speed > layer.filament.feed_speed();
+        let is_torn = |(_, layer): &(usize, &LayerSpec)| web.belt_speed > layer.fed_filament().feed_speed();
         let torn = (0..).zip(&web.layers).filter(is_torn);
         // The belt of a basis weight is one number for all.
         for (number, layer) in torn.take(if by_weight { 1 } else { usize::MAX }) {
-            let [belt, feed] =
-                [web.belt_speed, layer.filament.feed_speed()].map(|speed| Dimension::Velocity.pretty(speed));
+            let [belt, feed] = [web.belt_speed, layer.fed_filament().feed_speed()]
+                .map(|speed| Dimension::Velocity.pretty(speed));
             if by_weight {
                 let message = format!(
                     "takes a belt of {belt}, which is more than line.feed_speed = {feed} and would tear the fibre"

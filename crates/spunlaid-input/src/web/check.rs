@@ -135,8 +135,8 @@ impl WebParser<'_> {
             let (place, key) = (self.key_values.whole(), key.to_owned());
             self.note(what.map(|what| Diagnostic { place, key, ..what }).into_iter().collect());
         }
-        let fed = sheet.length * layer.filament.feed_speed() / web.belt_speed;
-        let density = layer.filament.linear_density();
+        let fed = web.fed_length(layer);
+        let density = layer.fed_filament().linear_density();
         if !density.is_normal() {
             let fault = Fault::degenerate("the mass per length", density);
             self.key_values.reject(&format!("{prefix}fibre.diameter"), fault);

@@ -6,11 +6,11 @@ use super::super::open_values;
 use super::super::written_values::{WrittenValue, WrittenValues};
 use super::read::{CASE, THROUGHPUT, WebParser};
 use spunlaid_fibre::case::keys::{self, Value};
-use spunlaid_fibre::{Case, FedFilament, Feed};
+use spunlaid_fibre::{Case, FedFilament, FilamentFeed};
 use spunlaid_ground::{Diagnostic, Dimension, Error, Fault};
+use spunlaid_simulation::WebKey;
 use spunlaid_simulation::layers::full_names::layer_and_name;
 use spunlaid_simulation::layers::keys::{EITHER, WEB, WEB_FILE};
-use spunlaid_simulation::{LaydownSource, WebKey};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub(super) struct Filament {
     /// The values of its case.
     pub(super) values: WrittenValues,
     /// The file that describes it, for messages.
-    path: PathBuf,
+    pub(super) path: PathBuf,
     /// The numbers of that file, by their keys.
     own: Vec<(String, f64)>,
 }
@@ -54,9 +54,10 @@ impl Filament {
             }
         }
         let number = |name| self.values.number(name).unwrap_or(f64::NAN);
-        let feed = match self.is_spun() {
-            true => Feed::Throughput(number("spinline.throughput")),
-            false => Feed::Speed(number("feed.speed")),
+        let feed = if self.is_spun() {
+            FilamentFeed::Throughput(number("spinline.throughput"))
+        } else {
+            FilamentFeed::Speed(number("feed.speed"))
         };
         FedFilament { feed, ..case.filament() }
     }
@@ -130,7 +131,7 @@ impl WebParser<'_> {
                 if filament.is_spun() {
                     filament.values.set("spinline.throughput", written_value);
                 } else {
-                    let feed = Feed::Throughput(throughput);
+                    let feed = FilamentFeed::Throughput(throughput);
                     let speed = FedFilament { feed, ..filament.size_and_feed() }.feed_speed();
                     filament.derive("feed.speed", Dimension::Velocity, speed, &full, &written_value);
                 }
@@ -140,11 +141,11 @@ impl WebParser<'_> {
         }
     }
 
-    /// The case of a filament, checked, as the source of its layer; none if there is a problem with it, which is noted.
+    /// The case of a filament, checked; none if there is a problem with it, which is noted.
     ///
     /// # Errors
     /// A case that cannot be read for another reason than what is in it.
-    pub(super) fn fly(&mut self, prefix: &str, filament: Filament) -> Result<Option<LaydownSource>, Error> {
+    pub(super) fn fly(&mut self, prefix: &str, filament: Filament) -> Result<Option<Arc<Case>>, Error> {
         let Filament { values, path, own } = filament;
         if values.all().any(|(_, written_value)| written_value.value.is_none()) {
             return Ok(None);
@@ -167,7 +168,7 @@ impl WebParser<'_> {
         if let Some(case) = &case {
             own.iter().for_each(|(name, number)| self.note_replaced(prefix, name, *number, case, &path));
         }
-        Ok(case.map(|case| LaydownSource::Case { path, case }))
+        Ok(case)
     }
 
     /// Problems with a case, where it stands among several layers by the full names of its keys.

@@ -1,7 +1,7 @@
 //! Files of webs: reads a file to what is to be laid, and writes it back.
 //!
 //! ```text
-//! file, and the cases that it names → `WrittenWeb` ┬ web/open.rs: layers, sheet.rs, belt.rs
+//! file, and the cases that it names → `WrittenWeb` ┬ open.rs: layers, with sheet.rs and belt.rs
 //!                                                  └ filament.rs: the case of a filament,
 //!                                                    of a web, or for `spunlaid run`, `spin`, `air`
 //! ```

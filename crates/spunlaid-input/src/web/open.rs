@@ -7,6 +7,7 @@ use super::filament::Filament;
 use super::read::{CASE, THROUGHPUT, WebParser, web_of};
 use super::{WrittenWeb, flies_none};
 use spunlaid_fibre::case::keys;
+use spunlaid_fibre::{FedFilament, FilamentFeed};
 use spunlaid_ground::{Diagnostic, Error, Fault};
 use spunlaid_simulation::layers::keys::{NUMBERS, OF_FILAMENT, ONE_SOURCE, WEB};
 use spunlaid_simulation::{LaydownSource, LayerSpec, WebSpec};
@@ -65,9 +66,12 @@ impl OpenWeb<'_> {
         for (number, filament) in filaments.into_iter().enumerate() {
             let Some(filament) = filament else { continue };
             let prefix = &prefixes[number];
-            let layer = &mut web.layers[number];
+            let path = filament.path.clone();
             match reading.fly(prefix, filament)? {
-                Some(source) => layer.simulate(source, reading.is_written(&format!("{prefix}{THROUGHPUT}"))),
+                Some(case) => {
+                    let says_throughput = reading.is_written(&format!("{prefix}{THROUGHPUT}"));
+                    web.layers[number].take_case(path, case, says_throughput);
+                }
                 None => reading.excuse_numbers_of_case(prefix),
             }
         }
@@ -155,7 +159,13 @@ impl WebParser<'_> {
         }
         spec.defects = self.defects(&format!("{prefix}line."));
         if let Some(filament) = &filament {
-            spec.filament = filament.size_and_feed();
+            let of_case = filament.size_and_feed();
+            // The throughput that a layer says is written again as it is.
+            let feed = match spec.filament.feed {
+                FilamentFeed::Throughput(_) => spec.filament.feed,
+                FilamentFeed::Speed(_) => of_case.feed,
+            };
+            spec.filament = FedFilament { feed, ..of_case };
         }
         web.layers.push(spec);
         filament

@@ -16,7 +16,7 @@ impl LayerSpec {
     pub fn charge_estimate(&self, sheet: &Sheet) -> Option<ChargeEstimate> {
         let (charge, case) = (self.charged()?, self.source.case()?);
         let per_metre = self.filaments.count(sheet) as f64 / sheet.width;
-        let mass_per_height = per_metre * self.filament.linear_density() * length_per_height(case)?;
+        let mass_per_height = per_metre * self.fed_filament().linear_density() * length_per_height(case)?;
         Some(charge.estimate(mass_per_height, case.run.gravity))
     }
 

@@ -30,8 +30,8 @@ impl WebSpec {
     pub fn fabric(&self, web: &Web, found: &Findings, threads: usize) -> Fabric {
         let sheet = &web.sheet;
         let kinds = self.layers.iter().zip(&web.layers).map(|(layer, drawn)| Filaments {
-            diameter: layer.filament.diameter(),
-            density: layer.filament.density,
+            diameter: layer.fed_filament().diameter(),
+            density: layer.fed_filament().density,
             basis_weight: drawn.basis_weight(sheet),
         });
         let laid_patch = |of: &PatchFindings| LaidPatch {

@@ -88,7 +88,7 @@ pub const USUAL_ERROR: f64 = 0.04;
 pub struct LayerSpec {
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// A filament: its size and how it is fed.
+    /// A filament as it is given. A simulated one is that of its case: see [`Self::fed_filament`].
     pub filament: FedFilament,
     /// How the filaments lie, or what determines it.
     pub source: LaydownSource,
@@ -152,15 +152,18 @@ impl LayerSpec {
         }
     }
 
-    /// Takes what is to be simulated, with the size and the speed of its filament.
+    /// The filament with the numbers with which it is simulated, if it is.
+    pub fn fed_filament(&self) -> FedFilament {
+        self.source.case().map_or(self.filament, Case::filament)
+    }
+
+    /// Takes a case that is to be simulated, with the size and the speed of its filament.
     ///
-    /// * `feed_is_given` – whether the layer keeps the feed that it has, which is that of the case in other words
-    pub fn simulate(&mut self, source: LaydownSource, feed_is_given: bool) {
-        if let Some(case) = source.case() {
-            let feed = if feed_is_given { self.filament.feed } else { case.filament().feed };
-            self.filament = FedFilament { feed, ..case.filament() };
-        }
-        self.source = source;
+    /// * `keeps_feed` – whether the layer says the throughput itself, which gives the speed of the case
+    pub fn take_case(&mut self, path: PathBuf, case: Arc<Case>, keeps_feed: bool) {
+        let feed = if keeps_feed { self.filament.feed } else { case.filament().feed };
+        self.filament = FedFilament { feed, ..case.filament() };
+        self.source = LaydownSource::Case { path, case };
     }
 
     /// Whether other webs have other streaks, by the places of its filaments or by their defects.
@@ -173,8 +176,8 @@ impl LayerSpec {
     /// * `belt_speed` – of the belt on which it lies [m/s]
     fn layer(&self, fibres: Fibres, belt_speed: f64) -> Layer {
         Layer {
-            linear_density: self.filament.linear_density(),
-            feed_speed: self.filament.feed_speed(),
+            linear_density: self.fed_filament().linear_density(),
+            feed_speed: self.fed_filament().feed_speed(),
             belt_speed,
             filaments: self.filaments.clone(),
             defects: self.defects.clone(),
@@ -228,8 +231,13 @@ impl WebSpec {
     /// Mass of all filaments that is fed per time over the width of the sheet [kg/(m s)].
     pub fn mass_flow(&self) -> f64 {
         let flow =
-            |layer: &LayerSpec| layer.filament.throughput() * layer.filaments.count(&self.sheet) as f64;
+            |layer: &LayerSpec| layer.fed_filament().throughput() * layer.filaments.count(&self.sheet) as f64;
         self.layers.iter().map(flow).sum::<f64>() / self.sheet.width
+    }
+
+    /// Length of a filament of a layer on the sheet [m].
+    pub fn fed_length(&self, layer: &LayerSpec) -> f64 {
+        self.sheet.length * layer.fed_filament().feed_speed() / self.belt_speed
     }
 
     /// Mass of all layers per area [kg/m²].

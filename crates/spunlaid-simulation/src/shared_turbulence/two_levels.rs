@@ -238,8 +238,7 @@ impl<'a> LayerSheets<'a> {
             }
             let is_late = spec.time.is_some_and(|time| begun.elapsed().as_secs_f64() > time);
             let may_go_on = !is_late && AREA * (airs as f64) < MOST_AREA;
-            let next = variances.next_sheets(wanted, airs, pairs).filter(|_| may_go_on);
-            let Some(next) = next else {
+            let Some(next) = variances.next_sheets(wanted, airs, pairs).filter(|_| may_go_on) else {
                 let combined = levels.combine().unwrap_or(alone);
                 return Ok(SubsampleEstimate { wanted: Some(wanted), ..combined });
             };

@@ -54,30 +54,27 @@ impl Variances {
         self.by_pairs + self.by_area + self.by_places + self.by_distance
     }
 
-    /// What all but the distance of the filaments may have, so that the error is the wanted one. The distance does the
-    /// same on all sheets, and a smaller part than half of it would cost more than it is worth.
-    fn rest(&self, wanted: f64) -> f64 {
-        (wanted * wanted - self.by_distance).max(0.5 * self.by_distance)
-    }
-
-    /// The next sheets until the error is the wanted one; None if it is already, or as small as it becomes.
+    /// Returns the sheets that are needed next; None if the error is small enough, if only the distance of the
+    /// filaments limits it, or if it is not known.
     ///
     /// * `wanted` – standard error of the CV, as a part of it
-    /// * `sheets`, `pairs` – that there are
+    /// * `sheets`, `pairs` – numbers of those that have been simulated
     pub fn next_sheets(&self, wanted: f64, sheets: u64, pairs: u64) -> Option<NextSheets> {
-        let rest = self.rest(wanted);
+        // The distance does the same on all sheets, so the others get the rest of what is wanted. Less than half of its
+        // variance would cost more than it is worth.
+        let rest = (wanted * wanted - self.by_distance).max(0.5 * self.by_distance);
         let open = self.by_area + self.by_places;
-        if open + self.by_pairs <= rest {
+        let is_too_large = open + self.by_pairs > rest;
+        if !is_too_large {
             return None;
         }
         let has_pair = self.by_pairs > BY_PAIRS * rest;
         // The sheets that a pair spares are not simulated.
-        let by_pairs =
-            if has_pair { self.by_pairs * pairs as f64 / (pairs + 1) as f64 } else { self.by_pairs };
-        let left = (rest - by_pairs).max((1.0 - BY_PAIRS) * rest);
+        let left_of_pairs = if has_pair { pairs as f64 / (pairs + 1) as f64 } else { 1.0 };
+        let left = (rest - left_of_pairs * self.by_pairs).max((1.0 - BY_PAIRS) * rest);
         // No more than as many again, because the variance is not known well yet.
         let needed = sheets as f64 * (open / left - 1.0);
-        Some(NextSheets { coarse: (needed.ceil() as u64).clamp(1, sheets), has_pair })
+        Some(NextSheets { coarse: (needed.ceil() as u64).min(sheets).max(1), has_pair })
     }
 }
 

@@ -411,14 +411,18 @@ fn rejects_assumed_values_that_have_no_half() {
     assert!(read_web(FLOWN, &set("web.assumed", "none")[..]).unwrap().spec.assumed.is_empty());
 }
 
-/// A list of names may be empty, and is then written as it is read.
+/// A list of names may be empty: it is written as the word `none`, which is no name in a longer list.
 #[test]
-fn no_name_at_all_is_the_word_none() {
+fn an_empty_list_of_names_is_written_as_none() {
     let file = read_web(KNOWN, &set("web.turnable", "none")[..]).unwrap();
     assert_eq!(file.spec.turnable, Some(Vec::new()));
     assert!(file.text.contains("turnable = \"none\""), "{}", file.text);
     assert_reads_back(&file);
     for key in ["web.turnable", "web.assumed"] {
+        let refused = read_web(KNOWN, &set(key, "none, fibre.diameter")[..]).unwrap_err().to_string();
+        assert!(refused.contains("names none"), "{refused}");
+        let refused = read_web(KNOWN, &set(key, "none, fibre.diameter")[..]).unwrap_err().to_string();
+        assert!(refused.contains("names none"), "{refused}");
         let refused = read_web(KNOWN, &set(key, ", ,")[..]).unwrap_err().to_string();
         assert!(refused.contains("is a text without a name") && refused.contains("\"none\""), "{refused}");
     }

@@ -165,7 +165,11 @@ fn a_case_is_flown_with_the_throughput_and_the_belt_of_its_web() {
     let Some(speeds) = simulated.line.map(|line| [line.feed_speed, line.belt_speed]) else {
         panic!("no line")
     };
-    assert_eq!([layer.filament.feed_speed(), file.spec.belt_speed], speeds);
+    assert_eq!([layer.fed_filament().feed_speed(), file.spec.belt_speed], speeds);
+    // The throughput is written as it is given, and holds for a filament of another size.
+    assert!(file.text.contains("throughput = ") && !file.text.contains("\nspeed = "), "{}", file.text);
+    let thicker = read_web((&file.text, "web.toml"), &set("fibre.diameter", "20 µm")).unwrap().spec;
+    near(thicker.layers[0].fed_filament().throughput(), 0.5e-3 / 60.0);
     let said: Vec<String> = file.notes.iter().map(ToString::to_string).collect();
     for note in [
         "line.throughput = \"0.5 g/min\" is laid with feed.speed = 35.99 m/s instead of the 50 m/s of ",

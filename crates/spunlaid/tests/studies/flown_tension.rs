@@ -201,7 +201,7 @@ fn identical_cases_of_layers_of_which_one_has_another_throughput() {
         // The tension is that of the filament alone; in a web it hangs in eddies of all directions.
         alone.air.lateral = Lateral::VonKarman { cutoff: 10.0 };
         assert_eq!(layer.source.case().unwrap(), &alone);
-        assert_eq!(layer.filament.feed_speed(), number(&alone, "feed.speed"));
+        assert_eq!(layer.fed_filament().feed_speed(), number(&alone, "feed.speed"));
     }
 }
 

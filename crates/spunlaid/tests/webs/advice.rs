@@ -70,7 +70,7 @@ fn advice(text: &str, threads: usize, stop: &AtomicBool) -> Result<Advice, Error
 }
 
 fn weight(spec: &WebSpec) -> f64 {
-    spec.weight()
+    spec.mass_flow() / spec.belt_speed
 }
 
 /// The settings that are changed, each with its layer.
@@ -87,7 +87,7 @@ fn no_change_makes_a_filament_faster_than_its_air() {
     let fastest = |set: &[(&str, &str)]| {
         let (_, changes) = read(&file, set);
         let tried = changes.iter().filter(|change| change.refusal.is_none());
-        let feeds = tried.map(|change| change.experiment.spec.layers[0].filament.feed_speed());
+        let feeds = tried.map(|change| change.experiment.spec.layers[0].fed_filament().feed_speed());
         let why = changes.iter().find_map(|change| change.refusal.clone());
         (feeds.fold(0.0, f64::max), why.unwrap_or_default())
     };
@@ -161,10 +161,14 @@ fn invariant_every_changed_web_has_the_same_basis_weight() {
                 if let LaydownSource::Case { case, .. } = &after.source {
                     assert_eq!(case.line.unwrap().belt_speed, change.experiment.spec.belt_speed, "{name}");
                 }
-                let throughput = |of: &spunlaid_input::LayerSpec| of.filament.throughput();
+                let throughput = |of: &spunlaid_input::LayerSpec| {
+                    let filament = of.fed_filament();
+                    filament.linear_density() * filament.feed_speed()
+                };
                 if change.setting != setting::THROUGHPUT {
                     // Five digits, where the file does not give it.
-                    let is_given = matches!(before.filament.feed, spunlaid_fibre::Feed::Throughput(_));
+                    let is_given =
+                        matches!(before.filament.feed, spunlaid_fibre::FilamentFeed::Throughput(_));
                     let tolerance = if is_given { 1e-9 } else { 5e-5 };
                     assert!((throughput(after) / throughput(before) - 1.0).abs() < tolerance, "{name}");
                 }
@@ -238,7 +242,7 @@ fn invariant_what_advice_says_to_set_makes_the_changed_web() {
                 let numbers = |of: &spunlaid_input::LayerSpec| {
                     let distance = of.source.case().map_or(1.0, |case| case.line.unwrap().distance);
                     let filaments = of.filaments.count(&pasted.sheet) as f64;
-                    [of.filament.linear_density(), of.filament.feed_speed(), distance, filaments]
+                    [of.fed_filament().linear_density(), of.fed_filament().feed_speed(), distance, filaments]
                 };
                 for (found, wanted) in numbers(found).iter().zip(numbers(wanted)) {
                     assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} {wanted}");

@@ -62,7 +62,8 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_of_independent_ones() 
     };
     let (whole, kept) = lay_with(&[], 2);
     let layer = &spec.layers[0];
-    let filament = layer.filament.throughput() / spec.belt_speed * spec.sheet.length;
+    let filament =
+        layer.filament.linear_density() * layer.filament.feed_speed() / spec.belt_speed * spec.sheet.length;
     let (blocked, others) = lay_with(&[BLOCKED], 2);
     let (mass, place) = missing(&whole.map, &blocked.map);
     assert!((mass / filament - 1.0).abs() < 1e-6, "{mass} {filament}");
@@ -101,7 +102,8 @@ fn invariant_a_blocked_hole_takes_one_filament_from_a_web_in_one_air() {
     let blocked = Defect { from: Some(0.05), ..Defect::USUAL };
     let check = |spec: &WebSpec, lay: &dyn Fn(&WebSpec, usize) -> LaidWeb| {
         let layer = &spec.layers[0];
-        let filament = layer.filament.throughput() / spec.belt_speed * spec.sheet.length;
+        let filament = layer.filament.linear_density() * layer.filament.feed_speed() / spec.belt_speed
+            * spec.sheet.length;
         let whole = lay(spec, 2);
         let defect = with(spec, &[blocked]);
         let one = lay(&defect, 2);

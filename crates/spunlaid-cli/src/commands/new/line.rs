@@ -2,7 +2,7 @@
 
 use crate::args::{LineNumbers, value};
 use spunlaid::air::Cabin;
-use spunlaid::fibre::{FedFilament, Feed, Polymer, Size};
+use spunlaid::fibre::{FedFilament, FilamentFeed, FilamentSize, Polymer};
 use spunlaid::ground::{Dimension, Fault};
 
 /// How far the weight that a belt takes may be from the one that is given beside it, as a share.
@@ -41,9 +41,10 @@ impl<'a> NewLine<'a> {
         let in_all = given.holes.map(|holes| (holes as f64 / given.width.value).round().max(1.0) as u64);
         let holes_per_metre = given.holes_per_metre.or(in_all).unwrap_or(1);
         let polymer = value(&given.polymer).unwrap_or(Polymer::Pp);
-        let size = value(&given.diameter).map_or(Size::LinearDensity(known(&given.dtex)), Size::Diameter);
+        let size = value(&given.diameter)
+            .map_or(FilamentSize::LinearDensity(known(&given.dtex)), FilamentSize::Diameter);
         let density = polymer.material(false).solid_density;
-        let filament = FedFilament { density, size, feed: Feed::Throughput(throughput) };
+        let filament = FedFilament { density, size, feed: FilamentFeed::Throughput(throughput) };
         let flow = (given.beams * holes_per_metre) as f64 * throughput;
         let belt_speed = value(&given.belt_speed).unwrap_or(flow / known(&given.basis_weight));
         let weight = flow / belt_speed;

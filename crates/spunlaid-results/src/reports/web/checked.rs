@@ -40,16 +40,17 @@ fn line(spec: &WebSpec) -> Vec<String> {
         let name = layer.name.as_ref().map_or_else(|| (number + 1).to_string(), |name| format!("\"{name}\""));
         let filaments = layer.filaments.count(&spec.sheet);
         let alone = spec.alone(number).weight();
+        let filament = layer.fed_filament();
         format!(
             "  {}{} holes per metre of width, each with {} g/min: filaments of {} dtex, {}, fed at {}; {} of \
             filament on each metre of belt{}",
             if several { format!("layer {name}: ") } else { String::new() },
             significant(filaments as f64 / spec.sheet.width, 4),
-            significant(layer.filament.throughput() * 6e4, 4),
-            significant(layer.filament.linear_density() * 1e7, 4),
-            Dimension::Length.pretty(layer.filament.diameter()),
-            Dimension::Velocity.pretty(layer.filament.feed_speed()),
-            Dimension::Length.pretty_to(layer.filament.feed_speed() / spec.belt_speed, 3),
+            significant(filament.throughput() * 6e4, 4),
+            significant(filament.linear_density() * 1e7, 4),
+            Dimension::Length.pretty(filament.diameter()),
+            Dimension::Velocity.pretty(filament.feed_speed()),
+            Dimension::Length.pretty_to(filament.feed_speed() / spec.belt_speed, 3),
             if several { format!("; {} g/m²", significant(alone * 1e3, 4)) } else { String::new() },
         )
     };
@@ -283,10 +284,7 @@ pub fn expected_of_web(
         .zip(&each)
         .map(|(flight, each)| (flight.steps + flight.coarse_steps) as f64 * each)
         .sum::<f64>();
-    let laid = |layer: &LayerSpec| {
-        layer.filaments.count(&spec.sheet) as f64 * spec.sheet.length * layer.filament.feed_speed()
-            / spec.belt_speed
-    };
+    let laid = |layer: &LayerSpec| layer.filaments.count(&spec.sheet) as f64 * spec.fed_length(layer);
     let cells = spec.layers.iter().map(laid).sum::<f64>() / spec.sheet.cell;
     let web = format!("  the web: {}", duration(FIGURES + FINDING * flying + LAYING * cells / concurrent));
     let each = each.iter().sum::<f64>() / each.len().max(1) as f64;

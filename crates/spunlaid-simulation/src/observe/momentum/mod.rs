@@ -70,7 +70,7 @@ impl MomentumBalance {
             mass,
             weight: mass * case.run.gravity,
             stiffness: fibre.youngs_modulus * fibre.cross_section(),
-            mass_flow: case.linear_density() * feed_speed,
+            mass_flow: case.filament().throughput(),
             feed_speed,
             along: fibre.direction.x,
             instants: 0.0,

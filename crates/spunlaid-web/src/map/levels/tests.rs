@@ -285,56 +285,72 @@ fn analytic_two_levels_of_unequal_sheets_by_hand() {
     assert!((found / (0.0025 + 0.0004 + 0.0009) - 1.0).abs() < 1e-12, "{found}");
 }
 
-/// What a journal keeps of a sheet makes it again, and half of it does not.
-/// Variances that fall with the area and with the pairs, beside that of the distance, which does not.
-fn variances(sheets: u64, pairs: u64, by_distance: f64) -> Variances {
-    let [by_area, by_pairs] = [12e-4 / sheets as f64, 5e-4 / pairs as f64];
-    Variances { by_pairs, by_area, by_places: 0.0, by_distance }
+/// What is simulated until an error is reached.
+struct Simulated {
+    sheets: u64,
+    pairs: u64,
 }
 
-/// Adds sheets until no more are wanted: all coarse ones, pairs, and the error without the distance.
-fn sheets_for(wanted: f64, by_distance: f64) -> (u64, u64, f64) {
-    let [mut sheets, mut pairs] = [2, 1];
-    for _ in 0..50 {
-        let variances = variances(sheets, pairs, by_distance);
-        let Some(next) = variances.next_sheets(wanted, sheets, pairs) else {
-            return (sheets, pairs, variances.by_area + variances.by_pairs);
-        };
-        assert!((1..=sheets).contains(&next.coarse), "{next:?}");
-        sheets += next.coarse;
-        pairs += u64::from(next.has_pair);
+impl Simulated {
+    /// Variances that fall with the sheets and with the pairs, next to that of the distance, which does not.
+    fn variances(&self, by_distance: f64) -> Variances {
+        let by_area = 12e-4 / self.sheets as f64;
+        let by_pairs = 5e-4 / self.pairs as f64;
+        Variances { by_pairs, by_area, by_places: 0.0, by_distance }
     }
-    panic!("no end");
+
+    /// The variance that more sheets reduce.
+    fn left(&self) -> f64 {
+        self.variances(0.0).whole()
+    }
+
+    /// Simulates sheets until no more are needed.
+    fn until(wanted: f64, by_distance: f64) -> Self {
+        let mut simulated = Self { sheets: 2, pairs: 1 };
+        for _ in 0..50 {
+            let Self { sheets, pairs } = simulated;
+            let Some(next) = simulated.variances(by_distance).next_sheets(wanted, sheets, pairs) else {
+                return simulated;
+            };
+            assert!((1..=sheets).contains(&next.coarse), "{next:?}");
+            simulated.sheets += next.coarse;
+            simulated.pairs += u64::from(next.has_pair);
+        }
+        panic!("no end");
+    }
 }
 
 #[test]
 fn sheets_are_added_until_the_error_is_the_wanted_one() {
-    for wanted in [0.05, 0.03, 0.02, 0.01] {
-        let (sheets, pairs, left) = sheets_for(wanted, 0.0);
-        assert!(left <= wanted * wanted, "{wanted}: {left}");
-        // One sheet and one pair less would not be enough, or is nearly a pair that was worth more than its sheets.
-        let fewer = variances(sheets - 1, pairs, 0.0);
-        let more_than = fewer.by_area + fewer.by_pairs;
-        assert!(sheets == 2 || more_than > 0.8 * wanted * wanted, "{wanted}: {sheets} sheets, {pairs} pairs");
+    for wanted in [0.03, 0.02, 0.01] {
+        let enough = Simulated::until(wanted, 0.0);
+        assert!(enough.left() <= wanted * wanted, "{wanted}: {}", enough.left());
+        // Two thirds of the sheets and pairs would not be enough.
+        let less = Simulated { sheets: 2 * enough.sheets / 3, pairs: (2 * enough.pairs / 3).max(1) };
+        assert!(less.left() > wanted * wanted, "{wanted}: {} sheets, {} pairs", enough.sheets, enough.pairs);
     }
-    let (_, of_one, _) = sheets_for(0.05, 0.0);
-    let (_, of_more, _) = sheets_for(0.02, 0.0);
-    assert!(of_one == 1 && of_more > 1, "{of_one} {of_more}");
+    // A pair is added only where those that there are decide.
+    assert_eq!(Simulated::until(0.05, 0.0).pairs, 1);
+    assert!(Simulated::until(0.02, 0.0).pairs > 1);
 }
 
 /// The distance of the filaments does the same on all sheets: where it alone is larger than what is wanted, area and
-/// pairs fall to half of it and no farther.
+/// pairs are reduced to half of it and no further.
 #[test]
 fn no_sheets_are_added_for_what_the_distance_decides() {
     for by_distance in [1e-4, 4e-4, 16e-4] {
-        let (sheets, _, left) = sheets_for(0.001, by_distance);
-        assert!((0.25 * by_distance..=0.5 * by_distance).contains(&left), "{sheets}: {left} {by_distance}");
+        let left = Simulated::until(0.001, by_distance).left();
+        assert!((0.25 * by_distance..=0.5 * by_distance).contains(&left), "{left} {by_distance}");
     }
-    // As a part of what is wanted, it leaves the rest to the others.
-    let (_, _, left) = sheets_for(0.03, 4e-4);
+    // A smaller one leaves the rest of what is wanted to them.
+    let left = Simulated::until(0.03, 4e-4).left();
     assert!((3e-4..=5e-4).contains(&left), "{left}");
+    // What is not known needs no sheet.
+    let unknown = Variances { by_area: f64::NAN, ..Simulated { sheets: 1, pairs: 1 }.variances(0.0) };
+    assert_eq!(unknown.next_sheets(0.03, 1, 1), None);
 }
 
+/// What a journal keeps of a sheet makes it again, and half of it does not.
 #[test]
 fn a_sheet_is_made_again_from_its_numbers() {
     let mut few = SubsampleEstimate { filaments: 7, lost: 2, ..sheet(vec![0.5; 3 * ACROSS]) };

@@ -121,7 +121,7 @@ fn changed_webs(advice: &Advice, findings: &Findings, beside: &str, are_assumed:
             "belt_speed_change": belt_speed[1] / belt_speed[0] - 1.0,
             "throughput_kg_h_m": HOUR * mass_flow[1],
             // Of a filament of each layer.
-            "linear_density_kg_m": spec.layers.iter().map(|layer| layer.filament.linear_density()).collect::<Json>(),
+            "linear_density_kg_m": spec.layers.iter().map(|layer| layer.fed_filament().linear_density()).collect::<Json>(),
             "throughput_change": mass_flow[1] / mass_flow[0] - 1.0,
         });
         if layer.is_none() && !change.layers.is_empty() {

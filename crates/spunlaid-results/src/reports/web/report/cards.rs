@@ -11,7 +11,7 @@ use crate::reports::web::files::effects::HOUR;
 use crate::reports::web::files::fabric::fabric_rows;
 use crate::reports::web::files::summary::LayerSummary;
 use spunlaid_experiment::plausible::implausible;
-use spunlaid_fibre::body::diameter_of;
+use spunlaid_fibre::FedFilament;
 use spunlaid_ground::Dimension;
 use spunlaid_simulation::{LayerSpec, WebSpec};
 use spunlaid_web::map::Findings;
@@ -61,7 +61,7 @@ pub(crate) fn line(spec: &WebSpec, findings: &Findings, layers: &[LayerSummary])
         row("Basis weight", grams(made)).detail(piece),
     ];
     let numbers =
-        |(layer, of): (&LayerSummary, &LayerSpec)| numbers(layer, of.filament.density, spec.sheet.width);
+        |(layer, of): (&LayerSummary, &LayerSpec)| numbers(layer, &of.fed_filament(), spec.sheet.width);
     let all: Vec<_> = layers.iter().zip(&spec.layers).map(numbers).collect();
     // Equal layers are shown once.
     let kinds = (0..all.len()).filter(|i| !all[..*i].contains(&all[*i]));
@@ -94,11 +94,9 @@ fn speed(speed: f64) -> String {
 
 /// The numbers of a layer, with their names.
 ///
-/// * `density` – of its filaments [kg/m³]
+/// * `of` – its filament
 /// * `width` – of the sheet [m]
-fn numbers(layer: &LayerSummary, density: f64, width: f64) -> Vec<(&'static str, String)> {
-    let (titre, feed) = (layer.linear_density_kg_m, layer.feed_speed_m_s);
-    let size = diameter_of(titre, density);
+fn numbers(layer: &LayerSummary, of: &FedFilament, width: f64) -> Vec<(&'static str, String)> {
     let holes = significant(layer.filaments as f64 / width, 4);
     let slot =
         layer.air_at_slot_m_s.map_or_else(String::new, |air| format!(", {} at the slot", shown(air, "m/s")));
@@ -106,9 +104,11 @@ fn numbers(layer: &LayerSummary, density: f64, width: f64) -> Vec<(&'static str,
         let cabin = Dimension::Pressure.pretty_to(cabin, 4).replace(' ', &THIN.to_string());
         ("Cabin pressure", cabin + &slot)
     });
-    let filament = format!("{}, {}", shown(titre * 1e7, "dtex"), shown(size * 1e6, "µm"));
-    let each = format!("{holes}, each {}", shown(titre * feed * 6e4, "g/min"));
-    let rows = [("Filament", filament), ("Spinning speed", speed(feed)), ("Holes per metre", each)];
+    let filament =
+        format!("{}, {}", shown(of.linear_density() * 1e7, "dtex"), shown(of.diameter() * 1e6, "µm"));
+    let each = format!("{holes}, each {}", shown(of.throughput() * 6e4, "g/min"));
+    let rows =
+        [("Filament", filament), ("Spinning speed", speed(of.feed_speed())), ("Holes per metre", each)];
     rows.into_iter().chain(cabin).collect()
 }
 

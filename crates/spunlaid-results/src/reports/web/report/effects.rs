@@ -158,7 +158,7 @@ fn of_line(spec: &WebSpec, ChangedWeb { spec: changed, belt_speed, mass_flow, ..
     let layers = spec.layers.iter().zip(&changed.layers);
     let mut titres: Vec<String> = layers
         .map(|(before, after)| {
-            from_to([before, after].map(|layer| 1e7 * layer.filament.linear_density()), "dtex")
+            from_to([before, after].map(|layer| 1e7 * layer.fed_filament().linear_density()), "dtex")
         })
         .collect();
     titres.dedup();

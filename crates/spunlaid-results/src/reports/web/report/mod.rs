@@ -56,7 +56,7 @@ pub fn web_report<'a>(
     let WebFolder { file: WebFile { spec, .. }, simulated, findings, fabric, .. } = folder;
     let web = &simulated.web;
     let tried = folder.advised();
-    let diameter = spec.layers.first().map_or(0.0, |layer| layer.filament.diameter());
+    let diameter = spec.layers.first().map_or(0.0, |layer| layer.fed_filament().diameter());
     let strands = Strands { window: spec.window(), strands, diameter };
     let marks = Some(MarkedPlaces::new(fabric));
     let sheet = sheet(&findings.laid.map, pictures, Some(Fibres::new(strands)), marks)?;

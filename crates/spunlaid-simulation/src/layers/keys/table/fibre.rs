@@ -5,20 +5,23 @@ use super::super::access::{
 };
 use super::positive;
 use crate::layers::{LaydownSource, WebSpec};
-use spunlaid_fibre::Size;
+use spunlaid_fibre::FilamentSize;
 use spunlaid_fibre::case::keys::row::{at, key, number};
 use spunlaid_fibre::case::keys::{Condition, Kind, row_of};
 use spunlaid_ground::{Dimension, Fault};
 
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
-    row_of("fibre.diameter").of_input(given!(size, Size::Diameter)).derived(is_flown).required("18 µm"),
+    row_of("fibre.diameter")
+        .of_input(given!(size, FilamentSize::Diameter))
+        .derived(is_flown)
+        .required("18 µm"),
     row_of("fibre.density")
         .of_input(at!(filament, filament_mut, density))
         .derived(is_flown)
         .required("910 kg/m³"),
     row_of("fibre.linear_density")
-        .of_input(given!(size, Size::LinearDensity))
+        .of_input(given!(size, FilamentSize::LinearDensity))
         .in_other_words(|web| Some(filament(web)?.linear_density().into())),
 ];
 

@@ -5,7 +5,7 @@ use super::super::access::{
     row, row_mut,
 };
 use super::{EITHER, MOST_FILAMENTS, positive};
-use spunlaid_fibre::Feed;
+use spunlaid_fibre::FilamentFeed;
 use spunlaid_fibre::case::keys::row::{at, key, number, quantity, whole};
 use spunlaid_fibre::case::keys::{EVEN, Kind, Sign, Value, row_of};
 use spunlaid_ground::{Dimension, Fault};
@@ -14,7 +14,7 @@ use spunlaid_web::map::Filaments;
 /// In the order of the file.
 pub(super) const KEYS: &[WebKey] = &[
     row_of("feed.speed")
-        .of_input(given!(feed, Feed::Speed))
+        .of_input(given!(feed, FilamentFeed::Speed))
         .called("line.feed_speed")
         .derived(is_flown)
         .gives_case(&["feed.speed"])
@@ -24,7 +24,7 @@ pub(super) const KEYS: &[WebKey] = &[
              simulated filament.",
         ),
     row_of("spinline.throughput")
-        .of_input(given!(feed, Feed::Throughput))
+        .of_input(given!(feed, FilamentFeed::Throughput))
         .named("line.throughput")
         .alternative_to(&["line.feed_speed"], EITHER)
         .in_other_words(|web| Some(filament(web)?.throughput().into()))
@@ -36,8 +36,9 @@ pub(super) const KEYS: &[WebKey] = &[
         ),
     row_of("belt.speed")
         .of_input(Access {
-            get: |web| web.basis_weight.is_none().then_some(web.belt_speed.into()),
+            get: |web| layer(web).filter(|_| web.basis_weight.is_none()).map(|_| web.belt_speed.into()),
             set: |web, value| {
+                layer_mut(web)?;
                 web.belt_speed = number(value)?;
                 web.basis_weight = None;
                 Ok(())
@@ -54,8 +55,9 @@ pub(super) const KEYS: &[WebKey] = &[
         ),
     positive("line.basis_weight", Dimension::BasisWeight, (1e-3, 2.0))
         .access(Access {
-            get: |web| web.basis_weight.map(Value::Number),
+            get: |web| layer(web).and(web.basis_weight).map(Value::Number),
             set: |web, value| {
+                layer_mut(web)?;
                 let basis_weight = number(value)?;
                 web.belt_speed = web.belt_speed_for(basis_weight);
                 web.basis_weight = Some(basis_weight);

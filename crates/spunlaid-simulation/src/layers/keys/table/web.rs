@@ -11,19 +11,24 @@ use spunlaid_web::Edges;
 /// How many filaments are simulated: as many as it takes, or all.
 const AUTO: &str = "auto";
 const ALL: &str = "all";
-/// No number is an assumed value.
+/// There is no name, no limit of the time, or no wanted error.
 const NONE: &str = "none";
+
 /// The names in a text, with commas between them.
 fn names(value: &Value) -> Result<Vec<String>, Fault> {
-    let names = text(value)?;
-    let names: Vec<_> = names.split(',').map(str::trim).filter(|name| !name.is_empty()).collect();
+    let text = text(value)?;
+    if text.trim() == NONE {
+        return Ok(Vec::new());
+    }
+    let names = text.split(',').map(str::trim).filter(|name| !name.is_empty());
+    let names: Vec<String> = names.map(ToOwned::to_owned).collect();
     if names.is_empty() {
         return Err(Fault::wrong_type(
             "a text without a name",
             "names with commas between them, or \"none\"",
         ));
     }
-    Ok(names.into_iter().filter(|name| *name != NONE).map(ToOwned::to_owned).collect())
+    Ok(names)
 }
 
 /// What becomes of fibre beyond the edges.
