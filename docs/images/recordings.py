@@ -1,7 +1,7 @@
 """Makes live_line.webp, live.webp and report.png: what the pages of the program show, in a browser without a window.
 
     pip install playwright pillow
-    python docs/images/recordings.py target/release/spunlaid line.toml results/table1/report.html docs/images
+    python docs/images/recordings.py target/release/spunlaid line.toml cases/table1.toml results/table1/report.html docs/images
 
 with the line and the report of the commands in the README. Chromium is looked for under the names in BROWSERS.
 """
@@ -23,7 +23,7 @@ LONG = 600_000
 
 
 class Live:
-    """A page of `spunlaid live`, and the pictures of it."""
+    """A page of `spunlaid live`, and the pictures of it. The program ends with it."""
 
     def __init__(self, browser, program, case, size):
         program, case = Path(program).resolve(), Path(case).resolve()
@@ -31,10 +31,17 @@ class Live:
         self.process = subprocess.Popen(command, cwd=case.parent, stdout=subprocess.PIPE, text=True)
         width, height = size
         self.page = browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
-        self.page.goto(self.process.stdout.readline().strip())
-        self.page.wait_for_function("window.spunlaidLive?.seen.drawn > 0")
         self.pictures = []
         self.times = []
+
+    def __enter__(self):
+        self.page.goto(self.process.stdout.readline().strip())
+        self.until("window.spunlaidLive?.seen.drawn > 0")
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.page.close()
 
     def until(self, what):
         self.page.wait_for_function(what, timeout=LONG)
@@ -45,15 +52,12 @@ class Live:
         self.times.append(time)
 
     def slide(self, slider, notch):
-        self.page.locator(slider).evaluate(
-            "(slider, notch) => { slider.value = notch; slider.dispatchEvent(new Event('input', { bubbles: true })); }", notch
-        )
+        move = "(slider, notch) => { slider.value = notch; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
+        self.page.locator(slider).evaluate(move, notch)
 
     def save(self, path, quality):
         first, *others = self.pictures
         first.save(path, save_all=True, append_images=others, duration=self.times, loop=0, quality=quality, method=6)
-        self.page.close()
-        self.process.terminate()
 
 
 def picture_of(png):
@@ -62,39 +66,39 @@ def picture_of(png):
 
 def record_line(browser, program, line, path):
     """The gap of the slot becomes larger: before, first numbers, complete."""
-    live = Live(browser, program, line, (1200, 750))
-    live.until("spunlaidLive.judged?.before?.is_complete")
-    live.take(3000)
-    slider = '[data-knob="slot_gap"] input[type=range]'
-    from_notch = int(live.page.locator(slider).input_value())
-    for step in range(1, 7):
-        live.slide(slider, from_notch + 15 * step)
-        live.take(120)
-    live.until("spunlaidLive.judged?.change && spunlaidLive.state.now !== spunlaidLive.state.pinned")
-    live.take(3000)
-    live.until("spunlaidLive.judged?.now?.is_complete && spunlaidLive.judged.of === spunlaidLive.state.generation")
-    live.take(5000)
-    print(live.page.locator("#headline").inner_text(), "|", live.page.locator("#change").inner_text())
-    live.save(path, quality=60)
+    with Live(browser, program, line, (1200, 750)) as live:
+        live.until("spunlaidLive.judged?.before?.is_complete")
+        live.take(3000)
+        slider = '[data-knob="slot_gap"] input[type=range]'
+        from_notch = int(live.page.locator(slider).input_value())
+        for step in range(1, 7):
+            live.slide(slider, from_notch + 15 * step)
+            live.take(120)
+        live.until("spunlaidLive.judged?.change && spunlaidLive.state.now !== spunlaidLive.state.pinned")
+        live.take(3000)
+        live.until("spunlaidLive.judged?.now?.is_complete && spunlaidLive.judged.of === spunlaidLive.state.generation")
+        live.take(5000)
+        print(live.page.locator("#headline").inner_text(), "|", live.page.locator("#change").inner_text())
+        live.save(path, quality=60)
 
 
-def record_fibre(browser, program, path):
+def record_fibre(browser, program, case, path):
     """The air of the fibre of Table 1 becomes twice as fast."""
-    live = Live(browser, program, "cases/table1.toml", (1000, 860))
-    live.until("spunlaidLive.measured?.duration >= 20")
-    pace = live.page.locator("#pace")
-    pace.select_option("tenth")
-    for frame in range(60):
-        if frame == 20:
-            velocity = live.page.locator('input[data-key="air.velocity"]:not([type=range])')
-            velocity.fill("20 m/s")
-            velocity.press("Enter")
-        live.take(100)
-        if frame == 40:
-            pace.select_option("real")
-            live.until("spunlaidLive.measured?.duration >= 10")
-            pace.select_option("tenth")
-    live.save(path, quality=40)
+    with Live(browser, program, case, (1000, 860)) as live:
+        live.until("spunlaidLive.measured?.duration >= 20")
+        pace = live.page.locator("#pace")
+        pace.select_option("tenth")
+        for frame in range(60):
+            if frame == 20:
+                velocity = live.page.locator('input[data-key="air.velocity"]:not([type=range])')
+                velocity.fill("20 m/s")
+                velocity.press("Enter")
+            live.take(100)
+            if frame == 40:
+                pace.select_option("real")
+                live.until("spunlaidLive.measured?.duration >= 10")
+                pace.select_option("tenth")
+        live.save(path, quality=40)
 
 
 def draw_report(browser, report, path):
@@ -110,13 +114,15 @@ def draw_report(browser, report, path):
     page.screenshot(path=path, full_page=True, clip=corner | size)
 
 
-def main(program, line, report, folder):
+def main(program, line, case, report, folder):
     folder = Path(folder)
-    found = next(filter(None, map(shutil.which, BROWSERS)))
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        sys.exit(f"there is no Chromium: none of {', '.join(BROWSERS)}")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=found)
         record_line(browser, program, line, folder / "live_line.webp")
-        record_fibre(browser, program, folder / "live.webp")
+        record_fibre(browser, program, case, folder / "live.webp")
         draw_report(browser, report, folder / "report.png")
 
 

@@ -35,7 +35,7 @@ pub struct Case {
     pub air: Air,
     /// The drag laws.
     pub drag: Drag,
-    /// FilamentFeed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
+    /// Feed and belt of a fed fibre; `None` for a fibre of fixed length. The length of a fed fibre stands for the
     /// distance to the belt.
     pub line: Option<Line>,
     /// The spinline that gives diameter, density and feed speed; `None` where the case gives them itself.

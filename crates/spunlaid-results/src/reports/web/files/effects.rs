@@ -6,6 +6,7 @@ use crate::files::measured::{joined, known};
 use serde_json::{Value as Json, json};
 use spunlaid_experiment::{Advice, Change, ChangedWeb, SensitivityRun};
 use spunlaid_ground::{ChangedKey, Effect};
+use spunlaid_simulation::LayerSpec;
 use spunlaid_web::map::Findings;
 
 /// Seconds of an hour.
@@ -108,6 +109,7 @@ fn changed_webs(advice: &Advice, findings: &Findings, beside: &str, are_assumed:
         let ChangedWeb { set, spec, belt_speed, mass_flow, .. } = &change.experiment;
         let assumed = keys(change).into_iter().next().filter(|_| are_assumed).unwrap_or_default();
         let layer = alone(change);
+        let titre = |layer: &LayerSpec| layer.fed_filament().linear_density();
         let mut object = json!({
             "setting": change.setting.name,
             "turned": change.setting.turned.name(),
@@ -121,7 +123,7 @@ fn changed_webs(advice: &Advice, findings: &Findings, beside: &str, are_assumed:
             "belt_speed_change": belt_speed[1] / belt_speed[0] - 1.0,
             "throughput_kg_h_m": HOUR * mass_flow[1],
             // Of a filament of each layer.
-            "linear_density_kg_m": spec.layers.iter().map(|layer| layer.fed_filament().linear_density()).collect::<Json>(),
+            "linear_density_kg_m": spec.layers.iter().map(titre).collect::<Json>(),
             "throughput_change": mass_flow[1] / mass_flow[0] - 1.0,
         });
         if layer.is_none() && !change.layers.is_empty() {
