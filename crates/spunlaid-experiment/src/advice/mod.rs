@@ -51,8 +51,14 @@ const ANOTHER_AIR: u64 = 0x9e37_79b9_7f4a_7c15;
 pub fn steps(spec: &WebSpec, changes: &[Change]) -> u64 {
     if spec.flies() {
         let all = compared(changes);
-        let alone = changes.iter().filter(|change| has_own_clouds(spec, change));
-        let alone: u64 = alone.map(|change| steps_in_same_air(&[&change.experiment.spec], all)).sum();
+        let of_one = |change: &Change| match has_own_clouds(spec, change) {
+            true => steps_in_same_air(
+                &[&change.experiment.spec],
+                with_as_many_clouds(all, longer_eddies(spec, change)),
+            ),
+            false => 0,
+        };
+        let alone: u64 = changes.iter().map(of_one).sum();
         let racing = changes.iter().filter(|change| !is_assumed(change)).count().min(RACING) as u64;
         let again = if racing == 0 { 0 } else { (1 + racing) * steps_in_same_air(&[spec], RACE) };
         return steps_in_same_air(&all_webs(spec, changes), all) + alone + again;
@@ -168,22 +174,24 @@ fn few_of_changes(
 ) -> Result<Option<Outcomes>, Error> {
     let flyer = Flyer::new(by.threads, by.stop, &unwatched);
     // Flies webs, unless it is known what they say of the changed ones among them, by the numbers of a base.
-    let simulate =
-        |webs: &[&WebSpec], base: &[f64], effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
-            let deciding = [&[of_each.area, of_each.pitches, spec.memory_limit], base].concat();
-            let key = [kept_under(webs.iter().copied(), &deciding), 0];
-            if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
-                by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
-                return Ok(Some(found));
-            }
-            let Some(estimates) = flyer.few_in_same_air(webs, of_each, by.done)? else { return Ok(None) };
-            let found = effects(estimates)?;
-            // What cannot be kept is simulated again.
-            kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
-            Ok::<_, Error>(Some(found))
-        };
+    let simulate = |webs: &[&WebSpec],
+                    of_each: Compared,
+                    base: &[f64],
+                    effects: &dyn Fn(Vec<FewOfWeb>) -> Result<Outcomes, Error>| {
+        let deciding = [&[of_each.area, of_each.pitches, spec.memory_limit], base].concat();
+        let key = [kept_under(webs.iter().copied(), &deciding), 0];
+        if let Some(found) = kept.and_then(|kept| outcomes_of(&kept.pieces(key).last()?.ok()?)) {
+            by.done.fetch_add(steps_in_same_air(webs, of_each), Ordering::Relaxed);
+            return Ok(Some(found));
+        }
+        let Some(estimates) = flyer.few_in_same_air(webs, of_each, by.done)? else { return Ok(None) };
+        let found = effects(estimates)?;
+        // What cannot be kept is simulated again.
+        kept.iter().for_each(|kept| drop(kept.append(key, numbers_of(&found))));
+        Ok::<_, Error>(Some(found))
+    };
     let webs = all_webs(spec, changes);
-    let beside = simulate(&webs, &[], &|estimates| {
+    let beside = simulate(&webs, of_each, &[], &|estimates| {
         let mut estimates = webs.iter().zip(estimates).map(|(spec, few)| Ok(WebOfFew::new(spec, few?)));
         let base = estimates.next().unwrap_or_else(|| Err(Error::no_fibre()))?;
         let changes = estimates.map(|few: Result<_, Error>| few.map(|few| base.changes_to(&few)));
@@ -206,7 +214,8 @@ fn few_of_changes(
             .iter()
             .flat_map(|base| [base.patch, base.cv, base.standard_error.unwrap_or(f64::NAN)])
             .collect();
-        let alone = simulate(&[changed], &numbers, &|estimates| {
+        let of_it = with_as_many_clouds(of_each, longer_eddies(spec, change));
+        let alone = simulate(&[changed], of_it, &numbers, &|estimates| {
             let effects =
                 |few: FewOfWeb| Ok(effects_between(&base, &WebOfFew::new(changed, few?).cvs(OF_OTHER_MESH)));
             Ok(estimates.into_iter().map(|few| effects(few).map_err(|why: Error| why.to_string())).collect())
@@ -220,12 +229,25 @@ fn few_of_changes(
 /// Whether a changed web hangs in eddies of other lengths, so that it has no clouds in common with the web as it
 /// is. Beside each other they would take the room of the longest eddies and the time of the shortest.
 fn has_own_clouds(spec: &WebSpec, change: &Change) -> bool {
+    !(1.0 / OTHER_EDDIES..=OTHER_EDDIES).contains(&longer_eddies(spec, change))
+}
+
+/// How many times as long the eddies of a changed web are.
+fn longer_eddies(spec: &WebSpec, change: &Change) -> f64 {
     let length = |spec: &WebSpec| {
         let cases = spec.layers.iter().filter_map(|layer| layer.source.case());
         cases.map(Case::smallest_length_scale).fold(f64::INFINITY, f64::min)
     };
-    let ratio = length(&change.experiment.spec) / length(spec);
-    !(1.0 / OTHER_EDDIES..=OTHER_EDDIES).contains(&ratio)
+    length(&change.experiment.spec) / length(spec)
+}
+
+/// What is simulated of a web with longer eddies: an area with as many clouds, because a few of them can give a CV and
+/// an error of it that are both too small.
+///
+/// * `longer` – how many times as long the eddies are
+fn with_as_many_clouds(of_each: Compared, longer: f64) -> Compared {
+    let longer = longer.max(1.0);
+    Compared { area: longer * longer * of_each.area, ..of_each }
 }
 
 /// What becomes of the CV over patches of each size, from webs that have nothing in common.
@@ -280,4 +302,17 @@ fn of_maps(patches: &[PatchFindings]) -> Vec<ExpectedCv> {
 fn cvs(spec: &WebSpec, by: RunContext<'_>) -> Result<Vec<ExpectedCv>, Error> {
     let mut simulated = Flyer::new(by.threads, by.stop, &unwatched).web(spec)?;
     if spec.flies() { Ok(of_maps(&simulated.find(by)?.patches)) } else { expected_cv(&simulated.web, by) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longer_eddies_are_simulated_on_an_area_with_as_many_clouds() {
+        for (longer, area) in [(2.0, 0.18), (1.0, 0.045), (0.5, 0.045)] {
+            let found = with_as_many_clouds(ASSUMED, longer);
+            assert!((found.area - area).abs() < 1e-12 && found.pitches == ASSUMED.pitches, "{found:?}");
+        }
+    }
 }
