@@ -272,7 +272,8 @@ pub fn find_laid(web: &Web, laid: Option<LaidWeb>, by: RunContext<'_>) -> Result
 }
 
 /// Makes the CVs of a sample fall with the side of the patches. Patches that consist of whole smaller ones are no more
-/// non-uniform than these, but a sample may say so where it says little of one of the two: that one gives way.
+/// non-uniform than these, but a sample may have a larger CV there: the one with the larger error gives way, and the
+/// smaller patches where the errors are equal or not known.
 fn put_in_order(patches: &mut [PatchFindings]) {
     let mut order: Vec<usize> = (0..patches.len()).collect();
     order.sort_by(|a, b| patches[*a].map.patch.total_cmp(&patches[*b].map.patch));
@@ -286,8 +287,10 @@ fn put_in_order(patches: &mut [PatchFindings]) {
     };
     for i in order.iter().rev() {
         let small = patches[*i];
-        let larger = patches.iter().filter(|large| is_whole(&small, large) && is_known_better(large, &small));
-        patches[*i].set_sample_cv(larger.map(|large| large.map.cv).fold(small.map.cv, f64::max));
+        let larger =
+            patches.iter().filter(|large| is_whole(&small, large) && !is_known_better(&small, large));
+        let larger = larger.filter_map(PatchFindings::reported);
+        patches[*i].set_sample_cv(larger.map(|large| large.cv).fold(small.map.cv, f64::max));
     }
     for i in order {
         let large = patches[i];
