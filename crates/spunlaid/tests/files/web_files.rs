@@ -421,8 +421,6 @@ fn an_empty_list_of_names_is_written_as_none() {
     for key in ["web.turnable", "web.assumed"] {
         let refused = read_web(KNOWN, &set(key, "none, fibre.diameter")[..]).unwrap_err().to_string();
         assert!(refused.contains("names none"), "{refused}");
-        let refused = read_web(KNOWN, &set(key, "none, fibre.diameter")[..]).unwrap_err().to_string();
-        assert!(refused.contains("names none"), "{refused}");
         let refused = read_web(KNOWN, &set(key, ", ,")[..]).unwrap_err().to_string();
         assert!(refused.contains("is a text without a name") && refused.contains("\"none\""), "{refused}");
     }
