@@ -93,8 +93,12 @@ pub fn are_tried(spec: &WebSpec, findings: &Findings, changes: &[Change]) -> boo
 /// Whether changes are tried without being asked if a few filaments give the web.
 pub fn are_short(spec: &WebSpec, changes: &[Change]) -> bool {
     let are_assumed = changes.iter().any(is_assumed);
-    let fits = || !are_assumed || !spec.flies() || fits_memory(&all_webs(spec, changes), ASSUMED);
-    steps(spec, changes) <= MOST_STEPS && fits()
+    let alone_fits = |change: &Change| {
+        let of_it = with_as_many_clouds(ASSUMED, longer_eddies(spec, change));
+        !has_own_clouds(spec, change) || fits_memory(&[&change.experiment.spec], of_it)
+    };
+    let fits = || fits_memory(&all_webs(spec, changes), ASSUMED) && changes.iter().all(alone_fits);
+    steps(spec, changes) <= MOST_STEPS && (!are_assumed || !spec.flies() || fits())
 }
 
 fn is_same(patch: f64, side: f64) -> bool {
