@@ -2,10 +2,11 @@
 
 use crate::advice::cases;
 use spunlaid_experiment::Change;
-use spunlaid_experiment::advice::{advise, are_tried};
+use spunlaid_experiment::advice::{advise, are_tried, steps};
 use spunlaid_ground::{Isa, RunContext};
 use spunlaid_input::{Changes, Overrides, read_changes, read_web};
-use spunlaid_simulation::Flyer;
+use spunlaid_simulation::shared_turbulence::steps_in_same_air;
+use spunlaid_simulation::{Compared, Flyer, WebSpec};
 use std::sync::atomic::{AtomicBool, AtomicU64};
 
 fn read(text: &str, set: &[(&str, &str)]) -> Vec<Change> {
@@ -37,6 +38,19 @@ slot_gap = \"20 mm\"
 width = \"250 mm\"
 length = \"250 mm\"
 ";
+
+/// Eddies that are twice as long have as many clouds on four times the area, and shorter ones need no less of it.
+#[test]
+fn longer_eddies_are_simulated_on_a_larger_area() {
+    let spec = read_web((BEAMS, &cases()), &[]).unwrap().spec;
+    let changes = read(BEAMS, &[("web.assumed", "air.length_factor")]);
+    assert_eq!(factors(&changes), [("air.length_factor", 0.5), ("air.length_factor", 2.0)]);
+    let on = |spec: &WebSpec, area: f64| steps_in_same_air(&[spec], Compared { area, pitches: 2.0 });
+    for (change, area) in changes.iter().zip([0.045, 0.18]) {
+        let expected = on(&spec, 0.045) + on(&change.experiment.spec, area);
+        assert_eq!(steps(&spec, std::slice::from_ref(change)), expected, "{:?}", change.keys);
+    }
+}
 
 /// What each says to set makes the very web that is tried, also beside what was set before.
 #[test]
