@@ -1,9 +1,11 @@
 """Makes live_line.webp, live.webp and report.png: what the pages of the program show, in a browser without a window.
 
     pip install playwright pillow
-    python docs/images/recordings.py target/release/spunlaid line.toml cases/table1.toml results/table1/report.html docs/images
+    python docs/images/recordings.py target/release/spunlaid line.toml cases/table1.toml results/table1/report.html \\
+      docs/images
 
-with the line and the report of the commands in the README. Chromium is looked for under the names in BROWSERS.
+with the line and the report of the commands in the README. Chromium is looked for under the names in BROWSERS. The numbers of
+the recordings, as in docs/live.md, are printed.
 """
 
 import io
@@ -25,22 +27,26 @@ LONG = 600_000
 class Live:
     """A page of `spunlaid live`, and the pictures of it. The program ends with it."""
 
-    def __init__(self, browser, program, case, size):
-        program, case = Path(program).resolve(), Path(case).resolve()
-        command = [program, "live", case.name, "--no-open"]
-        self.process = subprocess.Popen(command, cwd=case.parent, stdout=subprocess.PIPE, text=True)
-        width, height = size
+    def __init__(self, browser, program, case, width, height):
+        case = Path(case).resolve()
+        command = [Path(program).resolve(), "live", case.name, "--no-open"]
         self.page = browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
         self.pictures = []
         self.times = []
+        self.process = subprocess.Popen(command, cwd=case.parent, stdout=subprocess.PIPE, text=True)
 
     def __enter__(self):
-        self.page.goto(self.process.stdout.readline().strip())
-        self.until("window.spunlaidLive?.seen.drawn > 0")
+        try:
+            self.page.goto(self.process.stdout.readline().strip())
+            self.until("window.spunlaidLive?.seen.drawn > 0")
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
         self.process.terminate()
+        self.process.wait()
         self.page.close()
 
     def until(self, what):
@@ -51,8 +57,15 @@ class Live:
         self.pictures.append(picture_of(self.page.screenshot()))
         self.times.append(time)
 
+    def amplitude(self):
+        """The amplitude of the fibres in y [mm], with its standard error."""
+        return self.page.evaluate("spunlaidLive.measured.numbers[0]")
+
     def slide(self, slider, notch):
-        move = "(slider, notch) => { slider.value = notch; slider.dispatchEvent(new Event('input', { bubbles: true })); }"
+        move = """(slider, notch) => {
+            slider.value = notch;
+            slider.dispatchEvent(new Event('input', { bubbles: true }));
+        }"""
         self.page.locator(slider).evaluate(move, notch)
 
     def save(self, path, quality):
@@ -66,7 +79,7 @@ def picture_of(png):
 
 def record_line(browser, program, line, path):
     """The gap of the slot becomes larger: before, first numbers, complete."""
-    with Live(browser, program, line, (1200, 750)) as live:
+    with Live(browser, program, line, width=1200, height=750) as live:
         live.until("spunlaidLive.judged?.before?.is_complete")
         live.take(3000)
         slider = '[data-knob="slot_gap"] input[type=range]'
@@ -84,8 +97,9 @@ def record_line(browser, program, line, path):
 
 def record_fibre(browser, program, case, path):
     """The air of the fibre of Table 1 becomes twice as fast."""
-    with Live(browser, program, case, (1000, 860)) as live:
+    with Live(browser, program, case, width=1000, height=860) as live:
         live.until("spunlaidLive.measured?.duration >= 20")
+        print(live.amplitude())
         pace = live.page.locator("#pace")
         pace.select_option("tenth")
         for frame in range(60):
@@ -97,6 +111,7 @@ def record_fibre(browser, program, case, path):
             if frame == 40:
                 pace.select_option("real")
                 live.until("spunlaidLive.measured?.duration >= 10")
+                print(live.amplitude())
                 pace.select_option("tenth")
         live.save(path, quality=40)
 
